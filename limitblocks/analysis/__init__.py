@@ -1,0 +1,1 @@
+"""Bounds, non-associated solution, load path and checks; import from the modules."""

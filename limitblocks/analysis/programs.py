@@ -1,0 +1,127 @@
+"""The convex programs of limit analysis, built by cvxpy: one matrix expression per constraint kind."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import cvxpy as cp
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.mechanics import Cones, LimitProblem
+
+log = logging.getLogger(__name__)
+
+TIGHT = {"tol_gap_abs": 1e-9, "tol_gap_rel": 1e-9, "tol_feas": 1e-9, "max_iter": 200}
+# Without equilibration Clarabel takes other iterates: a second opinion from the same package.
+PLAIN = TIGHT | {"equilibrate_enable": False}
+
+
+@dataclass(frozen=True)
+class Solver:
+    """A solver that cvxpy calls, with its settings; `conic` tells whether it takes second-order cones."""
+
+    name: str
+    settings: dict[str, object]
+    conic: bool
+
+
+SOLVERS = (
+    Solver("CLARABEL", dict(TIGHT), conic=True),
+    Solver("CLARABEL", dict(PLAIN), conic=True),
+    Solver("SCIPY", {"scipy_options": {"method": "highs"}}, conic=False),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """What a solver claims: its word and the values of the variables; evidence is recomputed elsewhere."""
+
+    solver: str
+    status: str
+    values: tuple[Array, ...]
+
+
+@dataclass(frozen=True)
+class Program:
+    """A cvxpy problem with the variables that answer it."""
+
+    problem: cp.Problem
+    variables: tuple[cp.Variable, ...]
+
+
+def static_program(problem: LimitProblem) -> Program:
+    """Largest load factor in equilibrium within the yield set, Eqs (56)-(57). Variables: load factor, x."""
+    load_factor, x = cp.Variable(), cp.Variable(problem.C.shape[0])
+    balance = problem.C.T @ x - problem.live * load_factor == problem.dead
+    inside = in_cone(problem.F @ x + problem.g, problem.cones)
+    return Program(cp.Problem(cp.Maximize(load_factor), [balance, *inside]), (load_factor, x))
+
+
+def kinematic_program(problem: LimitProblem) -> Program:
+    """Least load factor over all mechanisms of the associated flow. Variables: u, y.
+
+    The load factor is g.y - dead.u, with C u = -F^T y, y in K*, live.u = 1.
+    """
+    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
+    flow = problem.C @ u + problem.F.T @ y == 0
+    power = problem.g @ y - problem.dead @ u
+    constraints = [flow, problem.live @ u == 1, *in_cone(y, problem.cones)]
+    return Program(cp.Problem(cp.Minimize(power), constraints), (u, y))
+
+
+def falling_program(problem: LimitProblem) -> Program:
+    """Mechanism of unit size on which the dead loads do most work beyond the dissipation. Variables: u, y.
+
+    Its value is zero exactly where the dead loads stand; otherwise the blocks that move in it fall
+    (phase one of the static program, by its dual).
+    """
+    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
+    flow = problem.C @ u + problem.F.T @ y == 0
+    surplus = problem.dead @ u - problem.g @ y
+    constraints = [flow, u <= 1, u >= -1, *in_cone(y, problem.cones)]
+    return Program(cp.Problem(cp.Maximize(surplus), constraints), (u, y))
+
+
+def jamming_program(problem: LimitProblem) -> Program:
+    """Stress state that balances the live load alone and can grow without yielding. Variable: x."""
+    x = cp.Variable(problem.C.shape[0])
+    unbalanced = cp.norm(problem.C.T @ x - problem.live, "inf")
+    return Program(cp.Problem(cp.Minimize(unbalanced), in_cone(problem.F @ x, problem.cones)), (x,))
+
+
+def in_cone(rows: cp.Expression, cones: Cones) -> list[cp.Constraint]:
+    """`rows` in K: one constraint for the orthant, one for each size of second-order cone."""
+    constraints: list[cp.Constraint] = []
+    if cones.linear:
+        constraints.append(rows[: cones.linear] >= 0)
+    for first, count, size in cones.blocks:
+        stack = cp.reshape(rows[first : first + count * size], (size, count), order="F")
+        constraints.append(cp.SOC(stack[0], stack[1:], axis=0))
+    return constraints
+
+
+def attempts(program: Program, conic: bool) -> Iterator[Solution]:
+    """Solve with one solver after the other, yielding what each claims, until the caller is content."""
+    for solver in SOLVERS:
+        if solver.conic or not conic:
+            yield _solve(program, solver)
+
+
+def _solve(program: Program, solver: Solver) -> Solution:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # accuracy is judged by recomputed residuals, not by a warning
+        try:
+            program.problem.solve(solver=solver.name, **solver.settings)
+            status = str(program.problem.status)
+        except (cp.SolverError, ValueError, ArithmeticError) as error:
+            status = f"{type(error).__name__}: {error}"
+    log.info("%s: %s", solver.name, status)
+    values = tuple(
+        np.full(v.shape, np.nan) if v.value is None else np.asarray(v.value, dtype=float)
+        for v in program.variables
+    )
+    return Solution(solver.name, status, values)

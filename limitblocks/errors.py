@@ -1,0 +1,77 @@
+"""The error tree of limitblocks.
+
+::
+
+    LimitBlocksError
+    ├── ModelError              the description of the structure is wrong
+    │   └── GeometryError       ... because of the shape or place of a block or interface
+    ├── SolveError              the analysis gave no answer
+    │   ├── NoEquilibrium       the dead loads alone cannot stand
+    │   ├── UnlimitedLoad       the live load can grow without limit
+    │   ├── NotConverged        the iteration stopped early; carries its best result
+    │   └── SolverFailure       no solver gave an answer that passes the recomputed residuals
+    ├── CheckFailed             a result does not satisfy the conditions it claims to satisfy
+    └── MissingDependency       an optional package is needed
+
+Every message is one line: what is wrong, the name and value, what would be right.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+class LimitBlocksError(Exception):
+    """Root of all errors that limitblocks raises on purpose."""
+
+
+class ModelError(LimitBlocksError):
+    """The model is wrong; `problems` lists every fault found, one line each."""
+
+    def __init__(self, *problems: str) -> None:
+        self.problems = problems
+        super().__init__("; ".join(problems))
+
+
+class GeometryError(ModelError):
+    """A block or an interface has an impossible shape or place."""
+
+
+class SolveError(LimitBlocksError):
+    """The analysis gave no answer."""
+
+
+class NoEquilibrium(SolveError):
+    """The dead loads alone cannot stand; `blocks` names the blocks that fall."""
+
+    def __init__(self, blocks: tuple[str, ...]) -> None:
+        self.blocks = blocks
+        shown = ", ".join(blocks[:8]) + (f" and {len(blocks) - 8} more" if len(blocks) > 8 else "")
+        super().__init__(
+            f"the dead loads alone cannot stand: {shown} would fall; "
+            "check supports, missing interfaces and friction"
+        )
+
+
+class UnlimitedLoad(SolveError):
+    """The live load can grow without limit: it jams the blocks instead of moving them."""
+
+
+class NotConverged(SolveError):
+    """The iteration did not reach its tolerance; `result` is the best state found."""
+
+    def __init__(self, message: str, result: Any) -> None:
+        self.result = result
+        super().__init__(message)
+
+
+class SolverFailure(SolveError):
+    """No solver gave an answer whose recomputed residuals are within tolerance."""
+
+
+class CheckFailed(LimitBlocksError):
+    """A result does not satisfy the conditions it claims to satisfy."""
+
+
+class MissingDependency(LimitBlocksError):
+    """An optional package is needed; the message names it and how to install it."""

@@ -1,0 +1,194 @@
+"""A block: a rigid convex polyhedron with planar faces."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NoReturn
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry import polyhedron
+from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
+
+_CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
+_BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """Rigid convex polyhedron with planar faces.
+
+    Parameters
+    ----------
+    name : str
+        Name, unique in a model.
+    vertices : array_like, shape (n, 3)
+        Vertices in global axes, m; kept as a read-only copy.
+    faces : sequence of sequences of int
+        Vertex indices of each face, counter-clockwise seen from outside.
+    unit_weight : float or None
+        Weight per volume, N/m3; None when it is not given, as for supports.
+
+    Raises
+    ------
+    ModelError
+        The name is empty or the unit weight is not a finite number >= 0.
+    GeometryError
+        The faces are not the closed surface of a convex body with planar faces. A vertex may lie out of a
+        plane by 1e-4 of the block's size.
+    """
+
+    name: str
+    vertices: Array
+    faces: Faces
+    unit_weight: float | None = None
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name.strip():
+            raise ModelError(f"a block's name is {self.name!r}; it must be a text that is not empty")
+        object.__setattr__(self, "unit_weight", _unit_weight(self.name, self.unit_weight))
+        object.__setattr__(self, "vertices", _numbers(self.name, "vertices", self.vertices, (None, 3)))
+        object.__setattr__(self, "faces", _faces(self.name, self.faces))
+        fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
+        fault = fault or polyhedron.shape_fault(self._points, self._mesh, self.size, self._shape)
+        if fault:
+            _wrong(self.name, fault)
+
+    @classmethod
+    def box(
+        cls, name: str, size: npt.ArrayLike, at: npt.ArrayLike, unit_weight: float | None = None
+    ) -> Block:
+        """Return the box of dimensions `size` (3,) in m along the global axes, with its centre `at` (3,) in m.
+
+        Raises
+        ------
+        GeometryError
+            A dimension is not positive, or a number is not finite.
+        """
+        sides = _numbers(name, "size", size, (3,))
+        if sides.min() <= 0.0:
+            _wrong(name, f"size is {tuple(sides.tolist())}; all three dimensions must be positive")
+        return cls(name, _numbers(name, "at", at, (3,)) + _CORNERS * sides, _BOX_FACES, unit_weight)
+
+    @cached_property
+    def size(self) -> float:
+        """Longest dimension of the bounding box, m."""
+        return float((self.vertices.max(axis=0) - self.vertices.min(axis=0)).max())
+
+    @property
+    def volume(self) -> float:
+        """Volume, m3."""
+        return self._shape.volume
+
+    @cached_property
+    def centroid(self) -> Array:
+        """Centroid, global axes, shape (3,), m."""
+        return read_only(self._origin + self._shape.centroid)
+
+    @property
+    def weight(self) -> float:
+        """Weight, N.
+
+        Raises
+        ------
+        ModelError
+            The unit weight was not given.
+        """
+        if self.unit_weight is None:
+            raise ModelError(f"block {self.name!r} has no unit weight; give unit_weight in N/m3")
+        return self.unit_weight * self.volume
+
+    @cached_property
+    def normals(self) -> Array:
+        """Unit normals of the faces, outward, shape (m, 3)."""
+        return read_only(polyhedron.face_planes(self._points, self._mesh, self._shape.area_vectors)[0])
+
+    @cached_property
+    def offsets(self) -> Array:
+        """Offsets of the face planes `normals @ x = offsets`, global axes, shape (m,), m."""
+        offsets = polyhedron.face_planes(self._points, self._mesh, self._shape.area_vectors)[1]
+        return read_only(offsets + self.normals @ self._origin)
+
+    def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
+        """Return a copy with vertices `rotation @ x + translation`.
+
+        Parameters
+        ----------
+        rotation : array_like, shape (3, 3)
+            Proper orthonormal matrix; rotates about the global origin.
+        translation : array_like, shape (3,)
+            m.
+
+        Raises
+        ------
+        GeometryError
+            `rotation` is not a proper rotation, or a number is not finite.
+        """
+        turn = _numbers(self.name, "rotation", rotation, (3, 3))
+        if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
+            _wrong(
+                self.name,
+                f"rotation {turn.tolist()} is not a proper rotation; R R^T = I and det R = 1 are needed",
+            )
+        shift = _numbers(self.name, "translation", translation, (3,))
+        return replace(self, vertices=self.vertices @ turn.T + shift)
+
+    @cached_property
+    def _origin(self) -> Array:
+        return np.asarray(self.vertices.mean(axis=0))
+
+    @cached_property
+    def _points(self) -> Array:
+        return self.vertices - self._origin
+
+    @property
+    def _mesh(self) -> Mesh:
+        return polyhedron.mesh(self.faces)
+
+    @cached_property
+    def _shape(self) -> Shape:
+        return polyhedron.shape(self._points, self._mesh)
+
+
+def _wrong(name: str, fault: str) -> NoReturn:
+    raise GeometryError(f"block {name!r}: {fault}")
+
+
+def _numbers(name: str, what: str, values: Any, shape: tuple[int | None, ...]) -> Array:
+    """Return `values` as a read-only array of finite numbers of the given shape (None: any length)."""
+    wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
+    try:
+        array = read_only(values)
+    except (TypeError, ValueError):
+        _wrong(name, f"{what} {values!r} are not numbers; an array of shape {wanted} is needed")
+    if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
+        _wrong(name, f"{what} have shape {array.shape}; shape {wanted} is needed")
+    if not np.isfinite(array).all():
+        place = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
+        _wrong(name, f"{what}[{', '.join(map(str, place))}] is {array[place]}; all numbers must be finite")
+    return array
+
+
+def _faces(name: str, faces: Sequence[Sequence[int]]) -> Faces:
+    try:
+        return tuple(tuple(operator.index(vertex) for vertex in face) for face in faces)
+    except TypeError:
+        _wrong(name, f"faces {faces!r} are not sequences of vertex indices; whole numbers are needed")
+
+
+def _unit_weight(name: str, value: Any) -> float | None:
+    if value is None:
+        return None
+    try:
+        weight = float(value)
+    except (TypeError, ValueError):
+        weight = np.nan
+    if not 0.0 <= weight < np.inf:
+        raise ModelError(f"block {name!r}: unit weight is {value!r}; a finite number >= 0 in N/m3 is needed")
+    return weight

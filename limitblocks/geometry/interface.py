@@ -1,0 +1,39 @@
+"""An interface: the plane polygon through which two blocks touch, with its local axes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from limitblocks.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Interface:
+    """Plane contact polygon between block i and block j (the paper's Fig. 10).
+
+    Attributes
+    ----------
+    block_i, block_j : str
+        Names of the two blocks; the normal points out of block i.
+    centroid : Array, shape (3,)
+        Centroid of the polygon, global axes, m.
+    axes : Array, shape (3, 3)
+        Rows s1, s2, n: right-handed unit vectors; `axes @ v` turns a global vector into local
+        components (the matrix T_k^g of Eq. 44).
+    polygon : Array, shape (n, 2)
+        Vertices in local coordinates (x1, x2) about the centroid, counter-clockwise about n, m.
+    joint : object
+        What the interface can carry; a joint of :mod:`limitblocks.joints`.
+    """
+
+    block_i: str
+    block_j: str
+    centroid: Array
+    axes: Array
+    polygon: Array
+    joint: object
+
+    @property
+    def name(self) -> str:
+        """Text that names the interface in messages and reports."""
+        return f"{self.block_i}|{self.block_j}"

@@ -1,0 +1,35 @@
+"""Broad phase: which axis-aligned boxes in space overlap."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from limitblocks.arrays import Array, Indices
+
+
+def overlapping_boxes(low: Array, high: Array) -> Indices:
+    """Return the pairs i < j of boxes that overlap or touch, shape (p, 2), in lexicographic order.
+
+    Boxes are classed by their half-dimension in powers of two; each class is sought among the boxes of its own
+    and smaller classes, so that one large support does not widen the search for all.
+
+    Parameters
+    ----------
+    low, high : Array, shape (n, 3)
+        Least and greatest corner of each box.
+    """
+    middle, reach = (low + high) / 2.0, (high - low).max(axis=1) / 2.0
+    level = np.ceil(np.log2(reach))
+    found = []
+    for k in np.unique(level):
+        large, others = np.flatnonzero(level == k), np.flatnonzero(level <= k)
+        radius = reach[large].max() + reach[others].max()
+        near = cKDTree(middle[large]).sparse_distance_matrix(
+            cKDTree(middle[others]), radius * (1.0 + 1e-9), p=np.inf, output_type="ndarray"
+        )
+        found.append(np.column_stack([large[near["i"]], others[near["j"]]]))
+    pairs = np.sort(np.concatenate(found), axis=1)
+    i, j = pairs.T
+    pairs = pairs[(i != j) & (low[i] <= high[j]).all(axis=1) & (low[j] <= high[i]).all(axis=1)]
+    return np.asarray(np.unique(pairs, axis=0))

@@ -1,0 +1,101 @@
+"""Plane polygons, many at a time: stacks of shape (..., n, 2), vertices in order around the polygon."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from limitblocks.arrays import Array, Indices
+
+#: Lengths of sides, and components of their directions, closer than this count as equal.
+TIE = 1e-6
+
+
+def _following(polygons: Array) -> Array:
+    return np.roll(polygons, -1, axis=-2)
+
+
+def _swept(polygons: Array) -> Array:
+    """Return twice the signed areas of the triangles (origin, vertex, next vertex), shape (..., n)."""
+    after = _following(polygons)
+    return np.asarray(polygons[..., 0] * after[..., 1] - polygons[..., 1] * after[..., 0])
+
+
+def areas(polygons: Array) -> Array:
+    """Return signed areas (...,), m2; positive when counter-clockwise."""
+    return np.asarray(_swept(polygons - polygons[..., :1, :]).sum(axis=-1) / 2.0)
+
+
+def centroids(polygons: Array) -> Array:
+    """Return centroids (..., 2), m, of polygons (..., n, 2) with area."""
+    corner = polygons[..., :1, :]
+    local = polygons - corner
+    swept = _swept(local)
+    moments = np.einsum("...n,...ni->...i", swept, local + _following(local)) / 3.0
+    return np.asarray(corner[..., 0, :] + moments / swept.sum(axis=-1)[..., None])
+
+
+def second_moments(polygons: Array) -> Array:
+    """Return the integrals of x1^2, x2^2 and x1 x2 about the centroid, shape (..., 3), m4, of counter-clockwise polygons."""
+    p = polygons - centroids(polygons)[..., None, :]
+    q = _following(p)
+    x, y = np.moveaxis(np.stack([p, q, p + q]), -1, 0)
+    terms = np.stack([x * x, y * y, x * y]).sum(axis=1)
+    return np.moveaxis((_swept(p) * terms).sum(axis=-1) / 24.0, 0, -1)
+
+
+def clean(points: Array, owner: Indices, tolerance: Array) -> tuple[Array, Indices]:
+    """Remove duplicate vertices, then collinear ones.
+
+    Parameters
+    ----------
+    points : Array, shape (k, 2)
+        Vertices of m polygons one after the other, without repetition of the first.
+    owner : Indices, shape (k,)
+        Polygon of each vertex, ascending, each of 0..m-1 present.
+    tolerance : Array, shape (m,)
+        Distance to the next vertex, or to the line through the neighbours, that counts as nothing.
+
+    Returns
+    -------
+    points, owner
+        As given, less the removed vertices.
+    """
+    _, after = _neighbours(owner)
+    keep = np.hypot(*(points[after] - points).T) > tolerance[owner]
+    points, owner = points[keep], owner[keep]
+    before, after = _neighbours(owner)
+    chord, arm = points[after] - points[before], points - points[before]
+    cross = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0])
+    keep = cross > tolerance[owner] * np.hypot(*chord.T)
+    return points[keep], owner[keep]
+
+
+def _neighbours(owner: Indices) -> tuple[Indices, Indices]:
+    """Return the index of the previous and of the next vertex around each vertex's own polygon."""
+    place = np.arange(len(owner))
+    heads = np.flatnonzero(np.diff(owner, prepend=-1))
+    tails = np.append(heads[1:], len(owner))[: len(heads)] - 1
+    before, after = place - 1, place + 1
+    before[heads], after[tails] = tails, heads
+    return before, after
+
+
+def longest_side(polygons: Array, planes: Array) -> Indices:
+    """Return the index k (m,) of the longest side, from vertex k to vertex k + 1, of each polygon.
+
+    Sides within 1e-6 of the longest tie; among them the one whose unit direction has the largest component
+    along global X counts, then Y, then Z, each with the same tolerance.
+
+    Parameters
+    ----------
+    polygons : Array, shape (m, n, 2)
+    planes : Array, shape (m, 2, 3)
+        Global unit vectors along the two coordinates of each polygon.
+    """
+    sides = _following(polygons) - polygons
+    lengths = np.hypot(sides[..., 0], sides[..., 1])
+    best = lengths >= lengths.max(axis=1, keepdims=True) * (1.0 - TIE)
+    directions = np.einsum("mni,mij->mnj", sides / lengths[..., None], planes)
+    for component in np.moveaxis(directions, 2, 0):
+        best &= component >= np.where(best, component, -np.inf).max(axis=1, keepdims=True) - TIE
+    return np.asarray(best.argmax(axis=1))

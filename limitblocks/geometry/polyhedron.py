@@ -1,0 +1,150 @@
+"""Polyhedra with planar faces: closedness, face planes, volume, centroid, convexity.
+
+Points are taken about a place near the body (the mean vertex), so that the results stay exact far from the origin.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array, Indices
+
+Faces = tuple[tuple[int, ...], ...]
+
+#: Distance from a plane, relative to the block's size, that still counts as in the plane.
+PLANE_TOLERANCE = 1e-4
+#: Length, area and volume, relative to powers of the block's size, that count as nothing.
+ZERO_TOLERANCE = 1e-9
+
+
+class Mesh(NamedTuple):
+    """Half-edges of a polyhedron, face after face: e half-edges, m faces.
+
+    `start`, `end` and `after` (e,) are a half-edge's vertices and the next one around its face, `face` (e,) is
+    its face and `first` (m,) the first half-edge of each face.
+    """
+
+    start: Indices
+    end: Indices
+    after: Indices
+    face: Indices
+    first: Indices
+
+
+class Shape(NamedTuple):
+    """Signed volume, centroid (3,), area vectors (m, 3) pointing out of the body."""
+
+    volume: float
+    centroid: Array
+    area_vectors: Array
+
+
+@lru_cache(maxsize=1024)
+def mesh(faces: Faces) -> Mesh:
+    """Return the half-edges of `faces` (vertex indices, counter-clockwise seen from outside)."""
+    counts = np.array([len(face) for face in faces])
+    start = np.concatenate([np.asarray(face, dtype=np.int64) for face in faces])
+    end, after = (np.concatenate([np.roll(face, -k) for face in faces]) for k in (1, 2))
+    first = np.cumsum(counts) - counts
+    return Mesh(start, end, after, np.repeat(np.arange(len(faces)), counts), first)
+
+
+@lru_cache(maxsize=1024)
+def mesh_fault(faces: Faces, vertices: int) -> str:
+    """Say what keeps `faces` over so many vertices from being a closed surface; empty when sound."""
+    if len(faces) < 4:
+        return f"{len(faces)} faces given; a polyhedron has at least 4"
+    for k, face in enumerate(faces):
+        if len(face) < 3:
+            return f"face {k} has {len(face)} vertices; a face has at least 3"
+        if len(set(face)) < len(face):
+            return f"face {k} = {face} repeats a vertex; list each vertex of a face once"
+        if min(face) < 0 or max(face) >= vertices:
+            return f"face {k} = {face} has a vertex index out of range; indices run from 0 to {vertices - 1}"
+    unused = set(range(vertices)).difference(*faces)
+    if unused:
+        return f"vertex {min(unused)} belongs to no face; remove it or add the missing face"
+    edges = Counter((face[k - 1], face[k]) for face in faces for k in range(len(face)))
+    for (a, b), times in edges.items():
+        if times != 1 or edges[b, a] != 1:
+            return (
+                f"the faces are not a closed, consistently oriented surface: edge {a}-{b} is used {times} times "
+                f"from {a} to {b} and {edges[b, a]} times back; each edge must be used once in each direction"
+            )
+    return ""
+
+
+def shape(points: Array, edges: Mesh) -> Shape:
+    """Return volume (m3), centroid (m) and area vectors (m2) of a closed polyhedron.
+
+    Parameters
+    ----------
+    points : Array, shape (n, 3)
+        Vertices about a place near the body, m.
+    edges : Mesh
+        Half-edges over the vertices.
+    """
+    swept = np.cross(points[edges.start], points[edges.end])
+    apex = points[edges.start[edges.first]][edges.face]
+    # signed tetrahedra (origin, first vertex of the face, half-edge)
+    volumes = np.einsum("ij,ij->i", apex, swept) / 6.0
+    moments = volumes @ (apex + points[edges.start] + points[edges.end]) / 4.0
+    volume = float(volumes.sum())
+    return Shape(volume, moments / (volume or np.nan), np.add.reduceat(swept, edges.first) / 2.0)
+
+
+def face_planes(points: Array, edges: Mesh, area_vectors: Array) -> tuple[Array, Array]:
+    """Return unit normals (m, 3) and offsets (m,) of the planes `normals @ x = offsets` through the mean of each face."""
+    normals = area_vectors / np.sqrt(np.einsum("ij,ij->i", area_vectors, area_vectors))[:, None]
+    counts = np.diff(edges.first, append=len(edges.start))
+    middles = np.add.reduceat(points[edges.start], edges.first) / counts[:, None]
+    return normals, np.einsum("ij,ij->i", normals, middles)
+
+
+def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
+    """Say what keeps a closed surface from being a convex polyhedron with planar faces; empty when sound."""
+    sides = points[edges.end] - points[edges.start]
+    lengths2 = np.einsum("ij,ij->i", sides, sides)
+    if lengths2.min() <= (ZERO_TOLERANCE * size) ** 2:
+        k = lengths2.argmin()
+        return f"vertices {edges.start[k]} and {edges.end[k]} coincide; keep one of them"
+    if abs(body.volume) <= ZERO_TOLERANCE * size**3:
+        return f"the volume is zero ({body.volume:.3g} m3 for a size of {size:.3g} m); a block has a volume"
+    if body.volume < 0.0:
+        return (
+            f"the volume is negative ({body.volume:.3g} m3): the faces point inward; "
+            "list the vertices of each face counter-clockwise seen from outside"
+        )
+    areas = np.sqrt(np.einsum("ij,ij->i", body.area_vectors, body.area_vectors))
+    if areas.min() <= ZERO_TOLERANCE * size**2:
+        return f"face {areas.argmin()} has no area; its vertices must span a plane"
+    return _plane_fault(points, edges, size, body)
+
+
+def _plane_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
+    normals, offsets = face_planes(points, edges, body.area_vectors)
+    limit = PLANE_TOLERANCE * size
+    heights = normals @ points.T - offsets[:, None]
+    warp = np.abs(heights[edges.face, edges.start])
+    if warp.max() > limit:
+        k = warp.argmax()
+        return (
+            f"face {edges.face[k]} is not planar: vertex {edges.start[k]} is {warp[k]:.3g} m out of its plane; "
+            f"at most {limit:.3g} m is allowed (split the face or move the vertex)"
+        )
+    if heights.max() > limit:
+        face, vertex = np.unravel_index(heights.argmax(), heights.shape)
+        return (
+            f"not convex: vertex {vertex} lies {heights.max():.3g} m outside face {face}; "
+            "non-convex blocks are not supported yet, split the block into convex parts"
+        )
+    turns = np.cross(points[edges.end] - points[edges.start], points[edges.after] - points[edges.end])
+    bends = np.einsum("ij,ij->i", turns, normals[edges.face])
+    if bends.min() < -limit * size:
+        k = bends.argmin()
+        return f"face {edges.face[k]} is not convex at vertex {edges.end[k]}; split it into convex faces"
+    return ""

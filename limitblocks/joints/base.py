@@ -1,0 +1,90 @@
+"""What a joint says of an interface: its yield set and flow as conic rows (F, g, G, K)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Interface
+
+RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
+
+
+@dataclass(frozen=True, eq=False)
+class YieldRows:
+    """Yield sets of m interfaces of one shape of polygon, F x + g in K, and their flow.
+
+    x are the s generalised stresses of an interface and Q = `resultants` x its stress resultants; for
+    the paper's model x = Q. Rows come as `linear` rows of the nonnegative orthant and then second-order
+    cones (t, z), t >= ||z||, of the sizes `cones`. All rows are forces. The flow is
+    dx = -G(Q)^T y, y in K*, where the twisting part of G turns about the eccentricity (Table 5).
+
+    Attributes
+    ----------
+    F, G : Array, shape (m, r, s)
+        Yield rows (minus the gradient of the paper's yield functions) and rows of the plastic potential
+        for zero dilatancy.
+    g : Array, shape (m, r)
+        Constant terms: cohesion and strength; zero for a dry joint of infinite strength.
+    pivot : Array, shape (m, r)
+        Normal rotation rate per unit multiplier that a row turns about (e1, e2); zero for other rows.
+    reach : Array, shape (m, 2)
+        Largest |e1|, |e2| for the pivot: the half sides of the interface.
+    resultants : Array, shape (m, 6, s)
+        Q = resultants x.
+    linear : int
+        Number of rows in the nonnegative orthant.
+    cones : tuple of int
+        Sizes of the second-order cones that follow; they add up to r - linear.
+    modes : tuple of str
+        Failure mode of each row, in the paper's words.
+    friction : float
+        Friction coefficient: the dilatancy (tangent of its angle) at which the flow becomes associated.
+    """
+
+    F: Array
+    g: Array
+    G: Array
+    pivot: Array
+    reach: Array
+    resultants: Array
+    linear: int
+    cones: tuple[int, ...]
+    modes: tuple[str, ...]
+    friction: float
+
+
+@runtime_checkable
+class Joint(Protocol):
+    """What an interface can carry. Joints are frozen, hashable settings."""
+
+    @property
+    def friction(self) -> float:
+        """Friction coefficient."""
+
+    def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
+        """Return the rows for polygons of shape (m, n, 2), given in any unit of length.
+
+        `stress_unit` (Pa) is unit of force / unit of length squared; strengths are divided by it.
+        """
+
+
+def joint_of(interface: Interface) -> Joint:
+    """Return the joint of `interface`, or raise ModelError if it is none."""
+    if not isinstance(interface.joint, Joint):
+        raise ModelError(
+            f"interface {interface.name}: joint is {interface.joint!r}, "
+            "expected a joint such as OrdunaLourenco(friction=0.6)"
+        )
+    return interface.joint
+
+
+def checked_friction(friction: float) -> float:
+    """Return `friction` as a float if it is a finite number >= 0, else raise ModelError."""
+    if not (np.isfinite(friction) and friction >= 0.0):
+        raise ModelError(f"friction is {friction!r}, expected a finite coefficient >= 0")
+    return float(friction)

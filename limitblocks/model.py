@@ -1,0 +1,192 @@
+"""A model: blocks, supports, interfaces, dead and live loads."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, is_dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.geometry import Block, Interface
+from limitblocks.joints.base import joint_of
+from limitblocks.mechanics import LimitProblem, Load, limit_problem
+
+SCHEMA_VERSION = 1
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A structure of rigid blocks with its loads: dead + load factor x live.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+        All blocks, those of the supports included. Names are unique.
+    supports : sequence of str
+        Names of the blocks that do not move.
+    interfaces : sequence of Interface
+        Contacts between blocks; those between two supports are left out.
+    dead, live : Load
+        Constant loads Fc and variable loads Fv (Eq. 43); those on supports do nothing.
+    name : str
+        Title in reports.
+
+    Raises
+    ------
+    ModelError
+        With all faults at once: no or unknown support, no free block, two blocks of one name, an interface
+        of an unknown block, a block without interfaces to a support, a load on an unknown block, no live load.
+    """
+
+    blocks: Sequence[Block]
+    supports: Sequence[str]
+    interfaces: Sequence[Interface]
+    dead: Load
+    live: Load
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "blocks", tuple(self.blocks))
+        object.__setattr__(self, "supports", tuple(self.supports))
+        problems = _name_problems(self)
+        if not problems:
+            supports = set(self.supports)
+            loose = (i for i in self.interfaces if not {i.block_i, i.block_j} <= supports)
+            object.__setattr__(self, "interfaces", tuple(loose))
+            problems = _floating_problems(self) + _load_problems(self)
+        if problems:
+            raise ModelError(*problems)
+
+    @cached_property
+    def free_blocks(self) -> tuple[Block, ...]:
+        """The blocks that can move, in model order."""
+        supports = set(self.supports)
+        return tuple(block for block in self.blocks if block.name not in supports)
+
+    @cached_property
+    def problem(self) -> LimitProblem:
+        """The dimensionless limit problem of the model."""
+        free = self.free_blocks
+        return limit_problem(free, self.interfaces, self.dead.on(free), self.live.on(free))
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of the model document; two models are the same where this is."""
+        text = json.dumps(self.to_dict(), sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
+        joints = {joint_of(interface): "" for interface in self.interfaces}
+        joints = {joint: f"joint {k + 1}" for k, joint in enumerate(joints)}
+        return {
+            "schema_version": SCHEMA_VERSION,
+            "name": self.name,
+            "blocks": [
+                {
+                    "name": block.name,
+                    "vertices": block.vertices.tolist(),
+                    "faces": [list(face) for face in block.faces],
+                    "unit_weight": block.unit_weight,
+                }
+                for block in self.blocks
+            ],
+            "supports": list(self.supports),
+            "joints": {name: _tagged(joint) for joint, name in joints.items()},
+            "interfaces": [
+                {
+                    "block_i": interface.block_i,
+                    "block_j": interface.block_j,
+                    "centroid": interface.centroid.tolist(),
+                    "axes": interface.axes.tolist(),
+                    "polygon": interface.polygon.tolist(),
+                    "joint": joints[joint_of(interface)],
+                }
+                for interface in self.interfaces
+            ],
+            "dead": [{"factor": factor} | _tagged(term) for factor, term in self.dead.terms],
+            "live": [{"factor": factor} | _tagged(term) for factor, term in self.live.terms],
+        }
+
+    def save(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the model to a JSON file and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            If the file exists and `overwrite` is false, or it cannot be written.
+        """
+        path = Path(file)
+        text = json.dumps(self.to_dict(), indent=1)
+        try:
+            with path.open("w" if overwrite else "x", encoding="utf-8") as stream:
+                stream.write(text)
+        except FileExistsError:
+            raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
+        except OSError as error:
+            raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
+        return path
+
+    def __str__(self) -> str:
+        kinds = f"{len(self.free_blocks)} blocks, {len(self.supports)} supports"
+        return f"model {self.name!r}: {kinds}, {len(self.interfaces)} interfaces"
+
+
+def _tagged(settings: Any) -> dict[str, Any]:
+    """A frozen dataclass as a dictionary with its class name under `type`."""
+    if not is_dataclass(settings) or isinstance(settings, type):
+        raise ModelError(f"{settings!r} cannot be written to a file: it is not a dataclass")
+    return {"type": type(settings).__name__} | asdict(settings)
+
+
+def _name_problems(model: Model) -> list[str]:
+    names = [block.name for block in model.blocks]
+    known, supports = set(names), set(model.supports)
+    problems = [f"block name {name!r} is used {k} times" for name, k in Counter(names).items() if k > 1]
+    problems += [f"support {name!r} is not a block of the model" for name in sorted(supports - known)]
+    if not supports:
+        problems.append("the model has no support; name at least one block that does not move")
+    if known <= supports:
+        problems.append("the model has no free block; every block is a support")
+    for interface in model.interfaces:
+        missing = sorted({interface.block_i, interface.block_j} - known)
+        problems += [f"interface {interface.name} names block {name!r}, which is missing" for name in missing]
+        if interface.block_i == interface.block_j:
+            problems.append(f"interface {interface.name} joins a block to itself")
+    return problems
+
+
+def _floating_problems(model: Model) -> list[str]:
+    """Free blocks that no chain of interfaces ties to a support."""
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    pairs = np.array([(place[i.block_i], place[i.block_j]) for i in model.interfaces]).reshape(-1, 2)
+    n = len(place)
+    graph = sparse.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
+    _, part = sparse.csgraph.connected_components(graph, directed=False)
+    held = {part[place[name]] for name in model.supports}
+    floating = [block.name for block in model.blocks if part[place[block.name]] not in held]
+    if not floating:
+        return []
+    shown = ", ".join(map(repr, floating[:8])) + (f" and {len(floating) - 8} more" if len(floating) > 8 else "")
+    return [f"floating: no chain of interfaces ties {shown} to a support"]
+
+
+def _load_problems(model: Model) -> list[str]:
+    problems = []
+    for word, load in (("dead", model.dead), ("live", model.live)):
+        try:
+            values = load.on(model.free_blocks)
+        except ModelError as error:
+            problems += [f"{word} load: {problem}" for problem in error.problems]
+        else:
+            if word == "live" and not values.any():
+                problems.append("no live load: it is zero on every free block, expected a force to multiply")
+    return problems
