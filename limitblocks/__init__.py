@@ -1,5 +1,6 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
+from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.errors import (
     CheckFailed,
@@ -14,9 +15,11 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.io import model_schema, read
 from limitblocks.joints import Joint, OrdunaLourenco, PointContact, YieldRows
 from limitblocks.mechanics import Load, force, mass_proportional, moment, self_weight
 from limitblocks.model import Model
+from limitblocks.report import Report, report
 
 __version__ = "0.1.0"
 
@@ -36,6 +39,7 @@ __all__ = [
     "NotConverged",
     "OrdunaLourenco",
     "PointContact",
+    "Report",
     "SolveError",
     "SolverFailure",
     "UnlimitedLoad",
@@ -44,6 +48,10 @@ __all__ = [
     "find_interfaces",
     "force",
     "mass_proportional",
+    "model_schema",
     "moment",
+    "read",
+    "report",
     "self_weight",
+    "structures",
 ]

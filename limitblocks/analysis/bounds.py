@@ -126,6 +126,7 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     problem = model.problem
     static, kinematic = _solved(problem, tolerance)
     load_factor, x = float(static.values[0]), static.values[1]
+    refuse_falling(problem)  # a live load that holds up what would fall gives a load factor too
     u, y = kinematic.values
     upper = float(problem.g @ y - problem.dead @ u)
     scales = problem.scales
@@ -198,17 +199,8 @@ def _power(problem: LimitProblem, kinematic: Solution) -> float:
 
 def explain(problem: LimitProblem) -> None:
     """Raise NoEquilibrium or UnlimitedLoad where a recomputed certificate proves it; else return."""
-    conic = bool(problem.cones.second_order)
-    for found in attempts(falling_program(problem), conic):
-        u, y = found.values
-        flow = problem.C @ u + problem.F.T @ y
-        surplus = problem.dead @ u - problem.g @ y
-        if np.abs(flow).max() < CERTIFIED and problem.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
-            speed = np.abs(u).reshape(-1, 6).max(axis=1)
-            raise NoEquilibrium(tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist()))
-        if abs(surplus) <= FALLING:
-            break
-    for found in attempts(jamming_program(problem), conic):
+    refuse_falling(problem)
+    for found in attempts(jamming_program(problem), bool(problem.cones.second_order)):
         (x,) = found.values
         unbalanced = np.abs(problem.C.T @ x - problem.live).max()
         if unbalanced < CERTIFIED and problem.cones.margin(problem.F @ x).min() > -CERTIFIED:
@@ -216,3 +208,16 @@ def explain(problem: LimitProblem) -> None:
                 "the live load can grow without limit: a stress state within the yield surface balances it alone; "
                 "check its direction, or use the non-associated analysis"
             )
+
+
+def refuse_falling(problem: LimitProblem) -> None:
+    """Raise NoEquilibrium where a mechanism certifies that the dead loads alone cannot stand; else return."""
+    for found in attempts(falling_program(problem), bool(problem.cones.second_order)):
+        u, y = found.values
+        flow = problem.C @ u + problem.F.T @ y
+        surplus = problem.dead @ u - problem.g @ y
+        if abs(surplus) <= FALLING:
+            return
+        if np.abs(flow).max() < CERTIFIED and problem.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
+            speed = np.abs(u).reshape(-1, 6).max(axis=1)
+            raise NoEquilibrium(tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist()))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -18,6 +19,7 @@ from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
 
 _CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
 _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
+_LARGEST = 1e30  # its cube is still a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,13 +52,12 @@ class Block:
     unit_weight: float | None = None
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not self.name.strip():
-            raise ModelError(f"a block's name is {self.name!r}; it must be a text that is not empty")
+        _require_name(self.name)
         object.__setattr__(self, "unit_weight", _unit_weight(self.name, self.unit_weight))
         object.__setattr__(self, "vertices", _numbers(self.name, "vertices", self.vertices, (None, 3)))
         object.__setattr__(self, "faces", _faces(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
-        fault = fault or polyhedron.shape_fault(self._points, self._mesh, self.size, self._shape)
+        fault = fault or polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
         if fault:
             _wrong(self.name, fault)
 
@@ -64,7 +65,7 @@ class Block:
     def box(
         cls, name: str, size: npt.ArrayLike, at: npt.ArrayLike, unit_weight: float | None = None
     ) -> Block:
-        """Return the box of dimensions `size` (3,) in m along the global axes, with its centre `at` (3,) in m.
+        """Return the box of dimensions `size` (3,), m, along the global axes, with its centre `at` (3,), m.
 
         Raises
         ------
@@ -105,14 +106,24 @@ class Block:
         return self.unit_weight * self.volume
 
     @cached_property
+    def mesh(self) -> Mesh:
+        """Half-edges of the faces."""
+        return polyhedron.mesh(self.faces)
+
+    @cached_property
+    def areas(self) -> Array:
+        """Areas of the faces, shape (m,), m2."""
+        return read_only(np.linalg.norm(self._shape.area_vectors, axis=1))
+
+    @cached_property
     def normals(self) -> Array:
         """Unit normals of the faces, outward, shape (m, 3)."""
-        return read_only(polyhedron.face_planes(self._points, self._mesh, self._shape.area_vectors)[0])
+        return read_only(polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[0])
 
     @cached_property
     def offsets(self) -> Array:
         """Offsets of the face planes `normals @ x = offsets`, global axes, shape (m,), m."""
-        offsets = polyhedron.face_planes(self._points, self._mesh, self._shape.area_vectors)[1]
+        offsets = polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[1]
         return read_only(offsets + self.normals @ self._origin)
 
     def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
@@ -134,7 +145,7 @@ class Block:
         if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
             _wrong(
                 self.name,
-                f"rotation {turn.tolist()} is not a proper rotation; R R^T = I and det R = 1 are needed",
+                f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed",
             )
         shift = _numbers(self.name, "translation", translation, (3,))
         return replace(self, vertices=self.vertices @ turn.T + shift)
@@ -147,13 +158,14 @@ class Block:
     def _points(self) -> Array:
         return self.vertices - self._origin
 
-    @property
-    def _mesh(self) -> Mesh:
-        return polyhedron.mesh(self.faces)
-
     @cached_property
     def _shape(self) -> Shape:
-        return polyhedron.shape(self._points, self._mesh)
+        return polyhedron.shape(self._points, self.mesh)
+
+
+def _require_name(name: object) -> None:
+    if not isinstance(name, str) or not name.strip():
+        raise ModelError(f"a block's name is {name!r}; it must be a text that is not empty")
 
 
 def _wrong(name: str, fault: str) -> NoReturn:
@@ -162,16 +174,18 @@ def _wrong(name: str, fault: str) -> NoReturn:
 
 def _numbers(name: str, what: str, values: Any, shape: tuple[int | None, ...]) -> Array:
     """Return `values` as a read-only array of finite numbers of the given shape (None: any length)."""
-    wanted = "(" + ", ".join("n" if n is None else str(n) for n in shape) + ")"
+    wanted = str(shape).replace("None", "n")
     try:
         array = read_only(values)
     except (TypeError, ValueError):
-        _wrong(name, f"{what} {values!r} are not numbers; an array of shape {wanted} is needed")
+        _wrong(name, f"{what}: {reprlib.repr(values)} given; numbers of shape {wanted} are needed")
     if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
-        _wrong(name, f"{what} have shape {array.shape}; shape {wanted} is needed")
-    if not np.isfinite(array).all():
-        place = tuple(np.argwhere(~np.isfinite(array))[0].tolist())
-        _wrong(name, f"{what}[{', '.join(map(str, place))}] is {array[place]}; all numbers must be finite")
+        _wrong(name, f"{what}: shape {array.shape} given; shape {wanted} is needed")
+    sound = np.abs(array) <= _LARGEST
+    if not sound.all():
+        place = tuple(np.argwhere(~sound)[0].tolist())
+        indices = ", ".join(map(str, place))
+        _wrong(name, f"{what}[{indices}] is {array[place]}; a finite number up to {_LARGEST:g} is needed")
     return array
 
 
@@ -179,7 +193,7 @@ def _faces(name: str, faces: Sequence[Sequence[int]]) -> Faces:
     try:
         return tuple(tuple(operator.index(vertex) for vertex in face) for face in faces)
     except TypeError:
-        _wrong(name, f"faces {faces!r} are not sequences of vertex indices; whole numbers are needed")
+        _wrong(name, f"faces: {reprlib.repr(faces)} given; sequences of vertex indices are needed")
 
 
 def _unit_weight(name: str, value: Any) -> float | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,34 +12,17 @@ import shapely
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
-from limitblocks.geometry import polygon, polyhedron
+from limitblocks.geometry import polygon
 from limitblocks.geometry.block import Block
+from limitblocks.geometry.faces import FaceTable, all_faces, opposed, ranges
 from limitblocks.geometry.interface import Interface
 from limitblocks.geometry.neighbours import overlapping_boxes
 from limitblocks.geometry.overlap import refuse_overlaps
 
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
-#: Distance, relative to the root of an interface's area, below which vertices coincide or are collinear.
+#: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
-
-
-class _Faces(NamedTuple):
-    """All faces of all blocks, one after the other: m faces, e face corners.
-
-    `corners` (e, 3) and `first`, `count` (m,) say where each face's corners are; `middle` and `normal` are
-    (m, 3); `low`, `high` (m, 3) bound the face; `start` and `number` (blocks,) say where each block's faces are.
-    """
-
-    corners: Array
-    first: Indices
-    count: Indices
-    middle: Array
-    normal: Array
-    low: Array
-    high: Array
-    start: Indices
-    number: Indices
 
 
 class _Patches(NamedTuple):
@@ -58,18 +42,19 @@ class _Patches(NamedTuple):
 def find_interfaces(
     blocks: Sequence[Block], joint: object, *, gap: float = 1e-3, angle: float = 1e-2
 ) -> tuple[Interface, ...]:
-    """Return the interfaces between plane faces of `blocks` that touch, in the order of blocks, then of faces.
+    """Return the interfaces between plane faces of `blocks` that touch, ordered by blocks, then faces.
 
-    Two faces touch when their normals are opposed within `angle` and, at the centroid of the polygon common to
-    both, their planes lie within `gap` block lengths; block length is the median over the blocks of the cube
-    root of their volume. The interface lies midway between the two planes. Polygons with an area below 1e-3 of
-    both the block length squared and the smaller face are dropped. Contacts at an edge or a vertex give none.
+    Two faces touch when their normals are opposed within `angle` and, at the centroid of the polygon common
+    to both, their planes lie within `gap` block lengths. Block length is the median over the blocks of the
+    cube root of their volume. The interface lies midway between the two planes. Polygons with an area below
+    1e-3 of the block length squared and of the smaller face, whichever is less, are dropped. Contacts along
+    an edge or at a vertex give no interface.
 
-    Block i is the earlier of the two in `blocks`. Local axes: n points out of block i; s1 runs along the longest
-    side of the polygon, traversed counter-clockwise about n; s2 = n x s1. Of sides equal within 1e-6 the one
-    with the largest component along global X counts, then Y, then Z. The polygon has no collinear vertices and
-    its last side, from the last vertex to the first, is the longest: a rectangle has the vertex order (+,-),
-    (+,+), (-,+), (-,-) that Eqs (31)-(32) presuppose.
+    Block i is the earlier of the two in `blocks`. Local axes: n points out of block i; s1 runs along the
+    longest side of the polygon, traversed counter-clockwise about n; s2 = n x s1. Of sides equal within 1e-6
+    the one with the largest component along global X counts, then Y, then Z. The polygon has no collinear
+    vertices, and the side from its last vertex to its first is the longest: a rectangle has the vertex order
+    (+,-), (+,+), (-,+), (-,-) that Eqs (31)-(32) presuppose.
 
     Parameters
     ----------
@@ -84,7 +69,7 @@ def find_interfaces(
     Raises
     ------
     ModelError
-        Two blocks have the same name, or a tolerance is out of range.
+        Blocks have the same name, or a tolerance is out of range.
     GeometryError
         Blocks interpenetrate deeper than the gap tolerance; lists all such pairs.
     """
@@ -92,19 +77,23 @@ def find_interfaces(
     if len(blocks) < 2:
         return ()
     length = float(np.median(np.cbrt([block.volume for block in blocks])))
-    tolerance = gap * length
     centre = np.mean([block.vertices[0] for block in blocks], axis=0)
     points = [block.vertices - centre for block in blocks]
-    low, high = (
-        np.array([bound(axis=0) for bound in bounds]) for bounds in zip(*[(p.min, p.max) for p in points])
-    )
+    pairs = _neighbours(blocks, points, gap * length)
+    faces = all_faces(blocks, points)
+    patches = _clip(faces, *opposed(faces, pairs, gap * length, angle), length)
+    return _interfaces(blocks, centre, faces, _within(faces, patches, gap * length), joint)
+
+
+def _neighbours(blocks: Sequence[Block], points: Sequence[Array], tolerance: float) -> Indices:
+    """Return the pairs (p, 2) of blocks whose bounds touch within `tolerance`, none of which may overlap."""
+    low = np.array([body.min(axis=0) for body in points])
+    high = np.array([body.max(axis=0) for body in points])
     pairs = overlapping_boxes(low - tolerance, high + tolerance)
     i, j = pairs.T
-    deep = (np.minimum(high[i], high[j]) - np.maximum(low[i], low[j]) > tolerance).all(axis=1)
+    deep = (np.minimum(high[i] - low[j], high[j] - low[i]) > tolerance).all(axis=1)
     refuse_overlaps(blocks, points, pairs[deep], tolerance)
-    faces = _all_faces(blocks, points)
-    patches = _clip(faces, *_opposed(faces, pairs, tolerance, angle), length)
-    return _interfaces(blocks, centre, faces, _within(faces, patches, tolerance), joint)
+    return pairs
 
 
 def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None:
@@ -118,50 +107,7 @@ def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None
         raise ModelError(*faults)
 
 
-def _all_faces(blocks: Sequence[Block], points: Sequence[Array]) -> _Faces:
-    meshes = [polyhedron.mesh(block.faces) for block in blocks]
-    corners = np.concatenate([body[mesh.start] for body, mesh in zip(points, meshes, strict=True)])
-    count = np.array([len(face) for block in blocks for face in block.faces])
-    first = np.cumsum(count) - count
-    number = np.array([len(block.faces) for block in blocks])
-    return _Faces(
-        corners=corners,
-        first=first,
-        count=count,
-        middle=np.add.reduceat(corners, first) / count[:, None],
-        normal=np.concatenate([block.normals for block in blocks]),
-        low=np.minimum.reduceat(corners, first),
-        high=np.maximum.reduceat(corners, first),
-        start=np.cumsum(number) - number,
-        number=number,
-    )
-
-
-def _ranges(counts: Indices) -> tuple[Indices, Indices]:
-    """Return for each count k its position, k times, and the numbers 0..k-1."""
-    owner = np.repeat(np.arange(len(counts)), counts)
-    return owner, np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
-
-
-def _opposed(faces: _Faces, pairs: Indices, tolerance: float, angle: float) -> tuple[Indices, Indices]:
-    """Return the face pairs of `pairs` of blocks that may touch: opposed, close, with overlapping bounds."""
-    i, j = pairs.T
-    pair, k = _ranges(faces.number[i] * faces.number[j])
-    a = faces.start[i][pair] + k // faces.number[j][pair]
-    b = faces.start[j][pair] + k % faces.number[j][pair]
-    away = faces.normal[a] + faces.normal[b]
-    keep = np.einsum("ij,ij->i", away, away) <= (2.0 * np.sin(angle / 2.0)) ** 2
-    a, b = a[keep], b[keep]
-    keep = (faces.low[a] <= faces.high[b] + tolerance).all(axis=1)
-    keep &= (faces.low[b] <= faces.high[a] + tolerance).all(axis=1)
-    a, b = a[keep], b[keep]
-    # within the angle, no part of face b is nearer to plane a than this
-    slack = tolerance + angle * np.linalg.norm(faces.high[b] - faces.low[b], axis=1)
-    keep = np.abs(np.einsum("ij,ij->i", faces.middle[b] - faces.middle[a], faces.normal[a])) <= slack
-    return a[keep], b[keep]
-
-
-def _clip(faces: _Faces, a: Indices, b: Indices, length: float) -> _Patches:
+def _clip(faces: FaceTable, a: Indices, b: Indices, length: float) -> _Patches:
     """Return the polygons common to faces `a` and `b`, projected on the plane midway between them."""
     normal = faces.normal[a] - faces.normal[b]
     normal /= np.linalg.norm(normal, axis=1)[:, None]
@@ -170,25 +116,27 @@ def _clip(faces: _Faces, a: Indices, b: Indices, length: float) -> _Patches:
     frame = np.stack([t1, np.cross(normal, t1), normal], axis=1)
     origin = faces.middle[a]
     first, second = (_projected(faces, face, origin, frame) for face in (a, b))
+    least = SLIVER * np.minimum(length**2, np.minimum(faces.area[a], faces.area[b]))
+    bounds = np.stack([shapely.bounds(first), shapely.bounds(second)])
+    extent = np.maximum(bounds[..., 2:].min(axis=0) - bounds[..., :2].max(axis=0), 0.0)
+    near = np.flatnonzero(extent.prod(axis=1) > least)  # spares clipping faces that meet at an edge
     # a common part that is not one polygon (a line, a point, nothing) has no area
-    parts, pair = shapely.get_parts(shapely.intersection(first, second), return_index=True)
-    least = SLIVER * np.minimum(length**2, np.minimum(shapely.area(first), shapely.area(second)))
-    keep = shapely.area(parts) > least[pair]
-    pair = pair[keep]
+    parts, pair = shapely.get_parts(shapely.intersection(first[near], second[near]), return_index=True)
+    keep = shapely.area(parts) > least[near[pair]]
+    pair = near[pair[keep]]
     return _Patches(a[pair], b[pair], origin[pair], frame[pair], parts[keep])
 
 
-def _projected(faces: _Faces, face: Indices, origin: Array, frame: Array) -> Any:
-    """Return `face` (m,) as shapely polygons in the coordinates of the first two axes of `frame` about `origin`."""
-    owner, k = _ranges(faces.count[face])
+def _projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> Any:
+    """Return `face` (m,) as shapely polygons in the first two axes of `frame` about `origin`."""
+    owner, k = ranges(faces.sides[face])
     arms = faces.corners[faces.first[face][owner] + k] - origin[owner]
-    return shapely.polygons(
-        shapely.linearrings(np.einsum("kij,kj->ki", frame[owner, :2], arms), indices=owner)
-    )
+    points = np.einsum("kij,kj->ki", frame[owner, :2], arms)
+    return shapely.polygons(shapely.linearrings(points, indices=owner))
 
 
-def _within(faces: _Faces, patches: _Patches, tolerance: float) -> _Patches:
-    """Return the patches whose planes lie within `tolerance` at the centroid, with their origin moved midway."""
+def _within(faces: FaceTable, patches: _Patches, tolerance: float) -> _Patches:
+    """Return the patches whose planes lie within `tolerance` at the centroid, moved midway."""
     middle = shapely.get_coordinates(shapely.centroid(patches.shape))
     normal = patches.frame[:, 2]
     place = patches.origin + np.einsum("ki,kij->kj", middle, patches.frame[:, :2])
@@ -203,30 +151,29 @@ def _within(faces: _Faces, patches: _Patches, tolerance: float) -> _Patches:
 
 
 def _interfaces(
-    blocks: Sequence[Block], centre: Array, faces: _Faces, patches: _Patches, joint: object
+    blocks: Sequence[Block], centre: Array, faces: FaceTable, patches: _Patches, joint: object
 ) -> tuple[Interface, ...]:
     names = [block.name for block in blocks]
-    of = np.repeat(np.arange(len(blocks)), faces.number)
     rings = shapely.get_exterior_ring(patches.shape)
     rings = np.where(shapely.is_ccw(rings), rings, shapely.reverse(rings))
     points, owner = shapely.get_coordinates(rings, return_index=True)
-    last = np.append(np.diff(owner) > 0, True)  # repeats the first vertex of its ring
+    keep = np.diff(owner, append=-1) == 0  # the last vertex of a ring repeats its first
     tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(patches.shape))
-    points, owner = polygon.clean(points[~last[: len(owner)]], owner[~last[: len(owner)]], tolerance)
+    points, owner = polygon.clean(points[keep], owner[keep], tolerance)
     counts = np.bincount(owner, minlength=len(patches.a))
-    found: dict[int, Interface] = {}
+    found: list[tuple[int, Interface]] = []
     for n in np.unique(counts):
         group = np.flatnonzero(counts == n)
         stack = points[counts[owner] == n].reshape(-1, n, 2)
         arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
-        sides = zip(of[patches.a[group]], of[patches.b[group]], strict=True)
-        for k, (i, j), *values in zip(group, sides, *arrays, strict=True):
-            found[k] = Interface(names[i], names[j], *values, joint)
-    return tuple(found[k] for k in range(len(found)))
+        ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
+        for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
+            found.append((k, Interface(names[i], names[j], c, t, p, joint)))
+    return tuple(interface for _, interface in sorted(found, key=itemgetter(0)))
 
 
 def _local(stack: Array, origin: Array, frame: Array) -> tuple[Array, Array, Array]:
-    """Return centroids (m, 3), axes (m, 3, 3) and local polygons (m, n, 2), read-only, of polygons (m, n, 2)."""
+    """Return read-only centroids (m, 3), axes (m, 3, 3), local polygons (m, n, 2) of a stack (m, n, 2)."""
     rows, n = np.arange(len(stack)), stack.shape[1]
     middle = polygon.centroids(stack)
     longest = polygon.longest_side(stack, frame[:, :2])

@@ -11,8 +11,8 @@ from limitblocks.arrays import Array, Indices
 def overlapping_boxes(low: Array, high: Array) -> Indices:
     """Return the pairs i < j of boxes that overlap or touch, shape (p, 2), in lexicographic order.
 
-    Boxes are classed by their half-dimension in powers of two; each class is sought among the boxes of its own
-    and smaller classes, so that one large support does not widen the search for all.
+    Boxes are classed by their half-dimension in powers of two; each class is sought among the boxes of its
+    own and smaller classes, so that one large support does not widen the search for all.
 
     Parameters
     ----------

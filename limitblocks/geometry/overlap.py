@@ -11,7 +11,6 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import GeometryError
-from limitblocks.geometry import polyhedron
 from limitblocks.geometry.block import Block
 
 _CHUNK = 2_000_000  # distances held in memory at once
@@ -35,6 +34,8 @@ def refuse_overlaps(
     tolerance : float
         m.
     """
+    if len(pairs) == 0:
+        return
     bodies = {k: _Body.of(blocks[k], points[k]) for k in np.unique(pairs)}
     depths = np.minimum(_face_depths(bodies, pairs), _face_depths(bodies, pairs[:, ::-1]))
     faults = []
@@ -62,17 +63,18 @@ class _Body(NamedTuple):
     def of(cls, block: Block, points: Array) -> _Body:
         # the greatest height, not the mean of the face: a face may be warped within its tolerance
         offsets = (block.normals @ points.T).max(axis=1)
-        mesh = polyhedron.mesh(block.faces)
-        once = mesh.start < mesh.end
-        return cls(points, block.normals, offsets, points[mesh.end[once]] - points[mesh.start[once]])
+        once = block.mesh.start < block.mesh.end
+        edges = points[block.mesh.end[once]] - points[block.mesh.start[once]]
+        return cls(points, block.normals, offsets, edges)
 
 
 def _face_depths(bodies: dict[int, _Body], pairs: Indices) -> Array:
-    """Return how far each second body of a pair reaches behind the face of the first that separates it best, (p,)."""
+    """Return the least depth (p,) of each second body of a pair behind a face of the first, m."""
     depths = np.empty(len(pairs))
-    shapes = np.array([(len(bodies[i].normals), len(bodies[j].points)) for i, j in pairs]).reshape(-1, 2)
-    for faces, vertices in np.unique(shapes, axis=0):
-        group = np.flatnonzero((shapes == (faces, vertices)).all(axis=1))
+    shapes = np.array([(len(bodies[i].normals), len(bodies[j].points)) for i, j in pairs])
+    kinds, kind, count = np.unique(shapes, axis=0, return_inverse=True, return_counts=True)
+    groups = np.split(kind.ravel().argsort(kind="stable"), count.cumsum()[:-1])
+    for (faces, vertices), group in zip(kinds, groups, strict=True):
         for part in np.array_split(group, 1 + group.size * faces * vertices // _CHUNK):
             normals = np.array([bodies[i].normals for i in pairs[part, 0]])
             offsets = np.array([bodies[i].offsets for i in pairs[part, 0]])
@@ -99,7 +101,7 @@ def _common_volume(first: _Body, second: _Body) -> float:
     # the largest inscribed ball gives the interior point that Qhull needs, and the scale
     rows = np.column_stack([normals, np.ones(len(normals))])
     ball = linprog([0.0, 0.0, 0.0, -1.0], rows, offsets, bounds=(None, None))
-    if not ball.success or ball.x[3] <= 0.0:
+    if ball.x is None or ball.x[3] <= 0.0:
         return float("nan")
     centre, radius = ball.x[:3], float(ball.x[3])
     try:

@@ -35,7 +35,7 @@ def centroids(polygons: Array) -> Array:
 
 
 def second_moments(polygons: Array) -> Array:
-    """Return the integrals of x1^2, x2^2 and x1 x2 about the centroid, shape (..., 3), m4, of counter-clockwise polygons."""
+    """Return the integrals (..., 3) of x1^2, x2^2, x1 x2 about the centroid, m4; counter-clockwise."""
     p = polygons - centroids(polygons)[..., None, :]
     q = _following(p)
     x, y = np.moveaxis(np.stack([p, q, p + q]), -1, 0)
@@ -44,7 +44,7 @@ def second_moments(polygons: Array) -> Array:
 
 
 def clean(points: Array, owner: Indices, tolerance: Array) -> tuple[Array, Indices]:
-    """Remove duplicate vertices, then collinear ones.
+    """Remove duplicate and collinear vertices, those nearest to the line through their neighbours first.
 
     Parameters
     ----------
@@ -53,21 +53,23 @@ def clean(points: Array, owner: Indices, tolerance: Array) -> tuple[Array, Indic
     owner : Indices, shape (k,)
         Polygon of each vertex, ascending, each of 0..m-1 present.
     tolerance : Array, shape (m,)
-        Distance to the next vertex, or to the line through the neighbours, that counts as nothing.
+        Distance from the line through the two neighbours that counts as nothing.
 
     Returns
     -------
     points, owner
         As given, less the removed vertices.
     """
-    _, after = _neighbours(owner)
-    keep = np.hypot(*(points[after] - points).T) > tolerance[owner]
-    points, owner = points[keep], owner[keep]
-    before, after = _neighbours(owner)
-    chord, arm = points[after] - points[before], points - points[before]
-    cross = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0])
-    keep = cross > tolerance[owner] * np.hypot(*chord.T)
-    return points[keep], owner[keep]
+    while True:
+        before, after = _neighbours(owner)
+        chord, arm = points[after] - points[before], points - points[before]
+        cross = np.abs(chord[:, 0] * arm[:, 1] - chord[:, 1] * arm[:, 0])
+        distance = cross / np.maximum(np.hypot(chord[:, 0], chord[:, 1]), np.finfo(float).tiny)
+        # never two neighbours at once: a corner beside its near-duplicate must stay
+        drop = (distance <= distance[before]) & (distance < distance[after]) & (distance <= tolerance[owner])
+        if not drop.any():
+            return points, owner
+        points, owner = points[~drop], owner[~drop]
 
 
 def _neighbours(owner: Indices) -> tuple[Indices, Indices]:

@@ -1,6 +1,6 @@
 """Polyhedra with planar faces: closedness, face planes, volume, centroid, convexity.
 
-Points are taken about a place near the body (the mean vertex), so that the results stay exact far from the origin.
+Points are taken about a place near the body (its mean vertex): results stay exact far from the origin.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ ZERO_TOLERANCE = 1e-9
 class Mesh(NamedTuple):
     """Half-edges of a polyhedron, face after face: e half-edges, m faces.
 
-    `start`, `end` and `after` (e,) are a half-edge's vertices and the next one around its face, `face` (e,) is
-    its face and `first` (m,) the first half-edge of each face.
+    `start`, `end` and `after` (e,) are a half-edge's vertices and the next one around its face, `face` (e,)
+    is its face and `first` (m,) the first half-edge of each face.
     """
 
     start: Indices
@@ -47,8 +47,9 @@ class Shape(NamedTuple):
 def mesh(faces: Faces) -> Mesh:
     """Return the half-edges of `faces` (vertex indices, counter-clockwise seen from outside)."""
     counts = np.array([len(face) for face in faces])
-    start = np.concatenate([np.asarray(face, dtype=np.int64) for face in faces])
-    end, after = (np.concatenate([np.roll(face, -k) for face in faces]) for k in (1, 2))
+    start, end, after = (
+        np.array([v for f in faces for v in f[k:] + f[:k]], dtype=np.int64) for k in range(3)
+    )
     first = np.cumsum(counts) - counts
     return Mesh(start, end, after, np.repeat(np.arange(len(faces)), counts), first)
 
@@ -72,8 +73,8 @@ def mesh_fault(faces: Faces, vertices: int) -> str:
     for (a, b), times in edges.items():
         if times != 1 or edges[b, a] != 1:
             return (
-                f"the faces are not a closed, consistently oriented surface: edge {a}-{b} is used {times} times "
-                f"from {a} to {b} and {edges[b, a]} times back; each edge must be used once in each direction"
+                f"the faces are not a closed surface: uses of edge {a}-{b}: {times} from {a} to {b}, "
+                f"{edges[b, a]} back; each edge must be used once in each direction"
             )
     return ""
 
@@ -98,7 +99,7 @@ def shape(points: Array, edges: Mesh) -> Shape:
 
 
 def face_planes(points: Array, edges: Mesh, area_vectors: Array) -> tuple[Array, Array]:
-    """Return unit normals (m, 3) and offsets (m,) of the planes `normals @ x = offsets` through the mean of each face."""
+    """Return unit normals (m, 3) and offsets (m,) of the face planes `normals @ x = offsets`."""
     normals = area_vectors / np.sqrt(np.einsum("ij,ij->i", area_vectors, area_vectors))[:, None]
     counts = np.diff(edges.first, append=len(edges.start))
     middles = np.add.reduceat(points[edges.start], edges.first) / counts[:, None]
@@ -133,8 +134,8 @@ def _plane_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
     if warp.max() > limit:
         k = warp.argmax()
         return (
-            f"face {edges.face[k]} is not planar: vertex {edges.start[k]} is {warp[k]:.3g} m out of its plane; "
-            f"at most {limit:.3g} m is allowed (split the face or move the vertex)"
+            f"face {edges.face[k]} is not planar: vertex {edges.start[k]} is {warp[k]:.3g} m out of its "
+            f"plane; at most {limit:.3g} m is allowed, split the face or move the vertex"
         )
     if heights.max() > limit:
         face, vertex = np.unravel_index(heights.argmax(), heights.shape)

@@ -35,14 +35,8 @@ TINY = 1e-200  # floor of denominators whose numerators vanish faster
 class TorsionIntegrals:
     """Resultants of the limit shear stress per unit ``mu |sigma|``, arrays of the shape of the centres.
 
-    Attributes
-    ----------
-    V1, V2 : Array
-        Shear forces, Eqs (7) and (8), m2.
-    T, T1, T2 : Array
-        Torsion about the twisting centre and its parts by tau1 and tau2, Eqs (6), (9) and (10), m3.
-    T_reference : Array
-        Torsion about the reference point, m3.
+    V1, V2: shear forces, m2, Eqs (7) and (8). T, T1, T2: torsion about the twisting centre and its parts by
+    tau1 and tau2, m3, Eqs (6), (9) and (10). T_reference: torsion about the reference point, m3.
     """
 
     V1: Array
@@ -89,7 +83,7 @@ def normalised_edges(region: Region) -> tuple[Array, Array, float]:
     rings = [shapely.get_coordinates(ring) for part in parts for ring in (part.exterior, *part.interiors)]
     edges = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
     centroid = shapely.get_coordinates(shape.centroid)[0]
-    edges -= centroid
+    edges = edges[(edges[:, 0] != edges[:, 1]).any(axis=1)] - centroid
     size = float(np.hypot(edges[..., 0], edges[..., 1]).max())
     return edges / size, centroid, size
 
@@ -100,7 +94,7 @@ def cross(p: Array, q: Array) -> Array:
 
 
 def _legs(p: Array, q: Array) -> tuple[Array, ...]:
-    """Legs a (..., 1), b (..., 2), hypotenuses c of both triangles of each edge; its normal m, direction d."""
+    """Legs a (..., 1), b (..., 2), hypotenuses c of both triangles of each edge; normal m, direction d."""
     length = np.hypot(q[..., 0] - p[..., 0], q[..., 1] - p[..., 1])
     d = (q - p) / np.maximum(length, TINY)[..., None]
     m = np.stack([d[..., 1], -d[..., 0]], axis=-1)
@@ -163,8 +157,8 @@ def torsion_integrals(region: Region, centres: Any, reference: Any = None) -> To
     Returns
     -------
     TorsionIntegrals
-        Per unit ``mu |sigma|``. Relative accuracy 1e-12 at any distance of the centre, on polygons of aspect
-        ratio up to 100; above, T1, T2 and T_reference lose digits where they are small beside T.
+        Per unit ``mu |sigma|``. Relative accuracy at any distance of the centre, measured: V and T 1e-13,
+        T_reference 1e-11 up to an aspect ratio of 100; 1e-11 and 1e-9 at 10,000.
     """
     edges, centroid, size = normalised_edges(region)
     places = (np.asarray(centres, dtype=float) - centroid) / size

@@ -1,0 +1,5 @@
+"""Run the command line as `python -m limitblocks`."""
+
+from limitblocks.cli import main
+
+main()

@@ -1,0 +1,165 @@
+"""The model file as pydantic classes; joints and load terms are derived from their dataclasses."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, fields, is_dataclass
+from inspect import getdoc
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model, model_validator
+
+from limitblocks import joints
+from limitblocks.mechanics.loads import LoadTerm
+
+#: Name and class of every joint that a file may name: all that limitblocks.joints exports.
+JOINTS: dict[str, Any] = {
+    name: cls
+    for name, cls in ((name, getattr(joints, name)) for name in joints.__all__)
+    if is_dataclass(cls) and hasattr(cls, "yield_rows")
+}
+#: Name and class of every load term.
+TERMS: dict[str, Any] = {cls.__name__: cls for cls in get_args(LoadTerm)}
+
+# far beyond any structure, and its powers are still finite
+Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
+Vector = tuple[Number, Number, Number]
+_ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}]}
+
+
+class Document(BaseModel):
+    """Part of a model file: no unknown keys, no conversion of types, finite numbers."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True)
+
+
+class Box(Document):
+    """A box along the global axes."""
+
+    size: Vector
+    """Dimensions along X, Y, Z, m."""
+    at: Vector
+    """Centre, m."""
+
+
+class BlockDocument(Document):
+    """A rigid convex block: either vertices with faces, or a box."""
+
+    model_config = ConfigDict(json_schema_extra=_ONE_FORM)  # type: ignore[typeddict-item] # a schema is JSON
+
+    name: str
+    """Name, unique in the model."""
+    unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
+    """Weight per volume, N/m3; may be left out for supports."""
+    vertices: list[Vector] | None = None
+    """Vertices in global axes, m."""
+    faces: list[list[int]] | None = None
+    """Vertex indices (from 0) of each face, counter-clockwise seen from outside."""
+    box: Box | None = None
+
+    @model_validator(mode="after")
+    def _one_form(self) -> BlockDocument:
+        given = [key for key in ("vertices", "faces", "box") if getattr(self, key) is not None]
+        if given not in (["vertices", "faces"], ["box"]):
+            raise ValueError(
+                f"has {' and '.join(given) or 'no shape'}; expected either vertices and faces, or box"
+            )
+        return self
+
+
+class InterfaceDocument(Document):
+    """A plane convex contact polygon between two blocks."""
+
+    block_i: str
+    """Block that the normal points out of."""
+    block_j: str
+    centroid: Vector
+    """Centroid of the polygon, global axes, m."""
+    axes: tuple[Vector, Vector, Vector]
+    """Right-handed unit vectors s1, s2, n in global axes."""
+    polygon: Annotated[list[tuple[Number, Number]], Field(min_length=3)]
+    """Vertices along s1, s2 about the centroid, counter-clockwise about n, m."""
+    joint: str
+    """A name in `joints`."""
+
+
+class FindSettings(Document):
+    """Settings of contact detection, as for limitblocks.find_interfaces."""
+
+    joint: str
+    """The name in `joints` that every interface gets."""
+    gap: Number = 1e-3
+    """Distance that counts as touching, in block lengths."""
+    angle: Number = 1e-2
+    """Angle between face normals that counts as opposed, rad."""
+
+
+class Find(Document):
+    """Interfaces to be found by contact detection."""
+
+    find: FindSettings
+
+
+def _derived(cls: Any, **extra: Any) -> Any:
+    """The document class of a frozen dataclass: its fields, its class name as `type`, and `extra`."""
+    hints: dict[str, Any] = get_type_hints(cls)
+    parts: dict[str, Any] = {
+        field.name: (hints[field.name], ... if field.default is MISSING else field.default)
+        for field in fields(cls)
+        if field.init
+    }
+    parts["type"] = (Literal[cls.__name__], ...)
+    about = (getdoc(cls) or "").split("\n\n")[0]
+    return create_model(cls.__name__, __base__=Document, __doc__=about, **parts, **extra)
+
+
+class SelfWeight(Document):
+    """The weight of every block, along -Z."""
+
+    type: Literal["SelfWeight"]
+    factor: Number = 1.0
+
+
+def _one_of(documents: tuple[Any, ...]) -> Any:
+    return Annotated[Union[documents], Field(discriminator="type")]  # noqa: UP007
+
+
+if TYPE_CHECKING:
+    JointDocument = Any
+    TermDocument = Any
+else:  # built from the classes that exist, which a type checker cannot follow
+    JointDocument = _one_of(tuple(_derived(cls) for cls in JOINTS.values()))
+    TermDocument = _one_of((SelfWeight, *(_derived(cls, factor=(Number, 1.0)) for cls in TERMS.values())))
+
+
+def _form(interfaces: Any) -> str:
+    return "find" if isinstance(interfaces, dict | Find) else "list"
+
+
+Interfaces = Annotated[
+    Annotated[list[InterfaceDocument], Tag("list")] | Annotated[Find, Tag("find")], Discriminator(_form)
+]
+
+
+class ModelDocument(Document):
+    """A structure of rigid blocks for limit analysis with limitblocks. SI units: m, N, N/m3, Pa."""
+
+    model_config = ConfigDict(title="limitblocks model")
+
+    editor_schema: Annotated[str | None, Field(alias="$schema")] = None
+    """Where an editor finds the JSON Schema of this file; not used."""
+    schema_version: Literal[1]
+    """Version of this file format."""
+    name: str = ""
+    """Title in reports."""
+    blocks: list[BlockDocument]
+    """All blocks, those of the supports included."""
+    supports: list[str]
+    """Names of the blocks that do not move."""
+    joints: dict[str, JointDocument]
+    """What interfaces can carry, by name."""
+    interfaces: Interfaces
+    """The interfaces, or how to find them."""
+    dead: list[TermDocument] = [SelfWeight(type="SelfWeight")]
+    """Terms of the constant loads; self weight if left out."""
+    live: list[TermDocument]
+    """Terms of the loads that the load factor multiplies."""

@@ -1,0 +1,209 @@
+"""The model file: JSON in SI units, checked in full before a model is made of it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from difflib import get_close_matches
+from functools import cache, partial
+from pathlib import Path
+from reprlib import repr as _value
+from textwrap import shorten
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from limitblocks.arrays import read_only
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.io import strict_json
+from limitblocks.io.documents import (
+    JOINTS,
+    TERMS,
+    BlockDocument,
+    InterfaceDocument,
+    ModelDocument,
+    TermDocument,
+)
+from limitblocks.io.interfaces import interface_fault
+from limitblocks.joints import Joint
+from limitblocks.mechanics import Load, mass_proportional, self_weight
+from limitblocks.model import Model
+
+_LONGEST_LINE = 500
+
+
+def read(file: str | Path) -> Model:
+    """Return the model in `file`, a JSON document as described in docs/model-file.md.
+
+    What :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read or the model in it is wrong; `problems` has one line per fault, each with the
+        file and the place in it.
+    """
+    path = Path(file)
+    try:
+        with np.errstate(all="ignore"):  # numbers out of all proportion end as a fault, not as a warning
+            return _model(_document(strict_json.read_text(path)))
+    except ModelError as error:
+        lines = (shorten(f"{path}: {fault}", _LONGEST_LINE, placeholder=" ...") for fault in error.problems)
+        raise ModelError(*lines) from None
+
+
+@cache
+def model_schema() -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of the model file."""
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | ModelDocument.model_json_schema()
+
+
+def _document(text: str) -> ModelDocument:
+    data = strict_json.parse(text)
+    try:
+        return ModelDocument.model_validate_json(text)
+    except ValidationError as error:
+        faults = error.errors(include_url=False)
+    raise ModelError(*(f"{_place(fault['loc'], data)}{_said(fault)}" for fault in faults))
+
+
+def _place(steps: tuple[int | str, ...], data: Any) -> str:
+    """Path to a fault as the user would write it; pydantic's own steps into unions are not in `data`."""
+    path = ""
+    for step in steps:
+        if isinstance(data, list) and isinstance(step, int):
+            path += f"[{step}]"
+            data = data[step] if step < len(data) else None
+        elif isinstance(data, dict) and (step in data or step == steps[-1]):
+            path += f".{step}"
+            data = data.get(step)
+    return f"{path.lstrip('.')}: " if path else ""
+
+
+def _said(fault: Any) -> str:
+    """What pydantic found, in a sentence for the user."""
+    context = fault.get("ctx", {})
+    match fault["type"]:
+        case "missing":
+            return "is missing"
+        case "extra_forbidden":
+            near = get_close_matches(str(fault["loc"][-1]), _keys(), 1)
+            return "unknown key" + (f"; did you mean {near[0]!r}?" if near else "")
+        case "union_tag_not_found":
+            return "type is missing"
+        case "union_tag_invalid":
+            return f"type {_value(context['tag'])} is unknown; expected {context['expected_tags']}"
+        case "json_invalid":
+            return f"not JSON: {context['error']}"
+        case "value_error":
+            return str(context["error"])
+        case "tuple_type" | "list_type":
+            return f"expected a list [...], not {_value(fault['input'])}"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return f"expected an object {{...}}, not {_value(fault['input'])}"
+        case _:
+            said = fault["msg"].replace("Input should be", "expected").replace(" valid", "")
+            return f"{said}, not {_value(fault['input'])}"
+
+
+@cache
+def _keys() -> frozenset[str]:
+    schema = model_schema()
+    return frozenset(
+        key for part in (schema, *schema["$defs"].values()) for key in part.get("properties", ())
+    )
+
+
+class _Faults(list[str]):
+    """Faults with their places, gathered from parts that are made one by one."""
+
+    def made(self, place: str, make: Callable[..., Any], *arguments: Any) -> Any:
+        """Return what `make` gives, or None and note why not."""
+        try:
+            return make(*arguments)
+        except ModelError as error:
+            self.extend(f"{place}: {fault}" for fault in error.problems)
+
+    def all_made(self, key: str, make: Callable[..., Any], parts: Iterable[Any], *more: Any) -> list[Any]:
+        """Return what `make` gives for each part."""
+        return [self.made(f"{key}[{k}]", make, part, *more) for k, part in enumerate(parts)]
+
+
+def _model(document: ModelDocument) -> Model:
+    """The model of a document of the right form; raises ModelError with all its faults."""
+    faults = _Faults(_unknown_names(document))
+    blocks = faults.all_made("blocks", _block, document.blocks)
+    joints = {name: faults.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
+    dead = faults.all_made("dead", _load, document.dead)
+    live = faults.all_made("live", _load, document.live)
+    if isinstance(document.interfaces, list):
+        interfaces = faults.all_made("interfaces", _interface, document.interfaces, joints)
+    elif not faults:
+        settings = document.interfaces.find
+        options = {"gap": settings.gap, "angle": settings.angle}
+        find = partial(find_interfaces, blocks, joints[settings.joint], **options)
+        interfaces = faults.made("interfaces.find", find)
+    if faults:
+        raise ModelError(*faults)
+    return Model(blocks, document.supports, interfaces, sum(dead, Load()), sum(live, Load()), document.name)
+
+
+def _unknown_names(document: ModelDocument) -> list[str]:
+    """Names that stand for no block or joint, with their places."""
+    blocks, joints = {block.name for block in document.blocks}, set(document.joints)
+    used = [(f"supports[{k}]", name, blocks, "block") for k, name in enumerate(document.supports)]
+    for word in ("dead", "live"):
+        terms = enumerate(getattr(document, word))
+        used += [(f"{word}[{k}].block", t.block, blocks, "block") for k, t in terms if hasattr(t, "block")]
+    if isinstance(document.interfaces, list):
+        for k, one in enumerate(document.interfaces):
+            used.append((f"interfaces[{k}].block_i", one.block_i, blocks, "block"))
+            used.append((f"interfaces[{k}].block_j", one.block_j, blocks, "block"))
+            used.append((f"interfaces[{k}].joint", one.joint, joints, "joint"))
+    else:
+        used.append(("interfaces.find.joint", document.interfaces.find.joint, joints, "joint"))
+    faults = []
+    for place, name, known, word in used:
+        if name not in known:
+            near = get_close_matches(name, known, 1)
+            hint = f"; did you mean {near[0]!r}?" if near else ""
+            faults.append(f"{place}: {name!r} is not a {word} of the model{hint}")
+    return faults
+
+
+def _block(document: BlockDocument) -> Block:
+    if document.box is not None:
+        return Block.box(document.name, document.box.size, document.box.at, document.unit_weight)
+    return Block(document.name, document.vertices, document.faces, document.unit_weight)  # type: ignore[arg-type]
+
+
+def _joint(document: Any) -> Joint:
+    joint: Joint = JOINTS[document.type](**document.model_dump(exclude={"type"}))
+    return joint
+
+
+def _load(document: TermDocument) -> Load:
+    factor: float = document.factor
+    if document.type == "SelfWeight":
+        return factor * self_weight()
+    term = TERMS[document.type](**document.model_dump(exclude={"type", "factor"}))
+    # a unit vector stays as it is, so that what was written is read bit for bit
+    if document.type == "MassProportional" and abs(np.linalg.norm(term.direction) - 1.0) > 1e-12:
+        return factor * mass_proportional(term.direction)
+    return Load(((factor, term),))
+
+
+def _interface(document: InterfaceDocument, joints: dict[str, Joint | None]) -> Interface:
+    interface = Interface(
+        document.block_i,
+        document.block_j,
+        read_only(document.centroid),
+        read_only(document.axes),
+        read_only(document.polygon),
+        joints.get(document.joint),
+    )
+    fault = interface_fault(interface)
+    if fault:
+        raise ModelError(f"interface {interface.name}: {fault}")
+    return interface

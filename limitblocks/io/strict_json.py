@@ -1,0 +1,71 @@
+"""JSON text from a file the user names, with one clean line for every way it can be wrong."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any, NoReturn
+
+from limitblocks.errors import ModelError
+
+#: Largest model file accepted, bytes.
+LARGEST_FILE = 100_000_000
+
+
+def read_text(path: Path) -> str:
+    """Return the text of the file at `path`.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, is not a plain file, is empty, too large or not UTF-8.
+    """
+    try:
+        if path.exists() and not path.is_file():  # reading a pipe or a device may never end
+            raise ModelError("is not a file; name a model file (JSON)")
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise ModelError(f"cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # a null character in the name
+        raise ModelError(f"cannot be read: {error}") from None
+    if len(data) > LARGEST_FILE:
+        raise ModelError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB, the most that is read")
+    try:
+        text = data.decode("utf-8-sig")  # editors on Windows write a byte order mark
+    except UnicodeDecodeError as error:
+        raise ModelError(f"is not UTF-8 text: byte {error.start} cannot be decoded") from None
+    if not text.strip():
+        raise ModelError("is empty; expected a model as JSON")
+    return text
+
+
+def parse(text: str) -> Any:
+    """Return the value of JSON `text`, without the NaN, infinities and duplicate keys that Python lets pass.
+
+    Raises
+    ------
+    ModelError
+        The text is not JSON, nests too deeply, or has a key twice in one object.
+    """
+    try:
+        return json.loads(text, parse_constant=_refuse_constant, object_pairs_hook=_unique)
+    except json.JSONDecodeError as error:
+        raise ModelError(f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise ModelError("not a model: the JSON nests too deeply") from None
+    except ValueError as error:  # a whole number of thousands of digits
+        raise ModelError(f"not JSON: {error}") from None
+
+
+def _refuse_constant(word: str) -> NoReturn:
+    raise ModelError(f"not JSON: {word} is not a number; all numbers must be finite")
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        keys = [key for key, _ in pairs]
+        twice = next(key for key in keys if keys.count(key) > 1)
+        raise ModelError(f"key {twice!r} appears twice in one object; keep one of them")
+    return found

@@ -1,0 +1,144 @@
+"""What a model is, in numbers and words: for `limitblocks info` and for reports."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import asdict
+from inspect import getdoc
+from typing import Any
+
+import numpy as np
+
+from limitblocks.errors import ModelError
+from limitblocks.geometry import find_interfaces
+from limitblocks.geometry.polygon import areas
+from limitblocks.mechanics import Load
+from limitblocks.model import Model
+
+#: Gap (block lengths) and angle (rad) within which blocks without an interface get a warning.
+NEAR_GAP, NEAR_ANGLE = 1e-2, 5e-2
+_SHOWN = 8
+
+
+def facts(model: Model) -> dict[str, Any]:
+    """Return the facts of a model as plain numbers, lists and text; SI units."""
+    corners = np.concatenate([block.vertices for block in model.blocks])
+    free = model.free_blocks
+    return {
+        "name": model.name,
+        "digest": model.digest,
+        "blocks": len(model.blocks),
+        "free_blocks": len(free),
+        "supports": list(model.supports),
+        "interfaces": len(model.interfaces),
+        "weight": sum(block.weight for block in free if block.unit_weight is not None),
+        "volume": sum(block.volume for block in free),
+        "interface_area": float(sum(areas(interface.polygon) for interface in model.interfaces)),
+        "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
+        "joints": _counted(repr(interface.joint) for interface in model.interfaces),
+        "block_types": _counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
+        "interface_types": _counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
+        "dead": load_words(model.dead),
+        "live": load_words(model.live),
+        "warnings": warnings(model),
+    }
+
+
+def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
+    """Return the facts as rows to read: quantity and value with its unit."""
+    low, high = known["bounding_box"]
+    size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
+    return (
+        ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
+        ("Supports", _some(known["supports"])),
+        ("Block types", _times(known["block_types"])),
+        ("Interfaces", f"{known['interfaces']} ({_times(known['interface_types'])})"),
+        ("Interface area", f"{known['interface_area']:.4g} m²"),
+        ("Joints", _times(known["joints"])),
+        ("Weight of the free blocks", f"{known['weight'] / 1e3:.4g} kN"),
+        ("Volume of the free blocks", f"{known['volume']:.4g} m³"),
+        ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
+        ("Dead load", _some(known["dead"]) or "none"),
+        ("Live load", _some(known["live"])),
+    )
+
+
+def load_words(load: Load) -> list[str]:
+    """Return a line a term: its factor, kind and settings."""
+    lines = []
+    for factor, term in load.terms:
+        settings = ", ".join(f"{key} {_plain(value)}" for key, value in asdict(term).items())
+        lines.append(f"{factor:g} × {type(term).__name__}: {settings}")
+    return lines
+
+
+def assumptions(model: Model) -> dict[str, list[dict[str, Any]]]:
+    """Return what the joints assume, from their docstrings: paragraphs with `text`, or `items` of a list."""
+    classes = dict.fromkeys(type(interface.joint) for interface in model.interfaces)
+    return {cls.__name__: _paragraphs((getdoc(cls) or "").split("\nParameters\n")[0]) for cls in classes}
+
+
+def warnings(model: Model) -> list[str]:
+    """Return what is no error but may not be meant."""
+    found = []
+    weightless = [block.name for block in model.free_blocks if not block.unit_weight]
+    if weightless:
+        found.append(f"blocks without weight: {_some(weightless)}")
+    if not model.dead.terms:
+        found.append("no dead load: the structure has no weight to stabilise it")
+    near = _near_misses(model)
+    if near:
+        within = f"{NEAR_GAP:g} block lengths and {NEAR_ANGLE:g} rad"
+        found.append(f"no interface between blocks that nearly touch (within {within}): {_some(near)}")
+    return found
+
+
+def _near_misses(model: Model) -> list[str]:
+    """Pairs of blocks that would touch if they were a little closer or more parallel."""
+    supports = set(model.supports)
+    tied = {frozenset((interface.block_i, interface.block_j)) for interface in model.interfaces}
+    try:
+        close = find_interfaces(model.blocks, None, gap=NEAR_GAP, angle=NEAR_ANGLE)
+    except ModelError as error:  # explicit interfaces may join blocks that overlap
+        return list(error.problems)
+    pairs = dict.fromkeys(frozenset((one.block_i, one.block_j)) for one in close)
+    return ["|".join(sorted(pair)) for pair in pairs if pair not in tied and not pair <= supports]
+
+
+def _counted(words: Iterable[str]) -> dict[str, int]:
+    return dict(Counter(words).most_common())
+
+
+def _shape(faces: int, vertices: int) -> str:
+    return f"polyhedron of {faces} faces and {vertices} vertices"
+
+
+def _polygon(sides: int) -> str:
+    return {3: "triangle", 4: "quadrilateral"}.get(sides, f"{sides}-sided polygon")
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(names[:_SHOWN]) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
+
+
+def _plain(value: Any) -> str:
+    return (
+        "(" + ", ".join(f"{number:g}" for number in value) + ")" if isinstance(value, tuple) else str(value)
+    )
+
+
+def _times(counts: dict[str, int]) -> str:
+    return _some([f"{count} × {word}" for word, count in counts.items()])
+
+
+def _paragraphs(text: str) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = []
+    for paragraph in text.strip().split("\n\n"):
+        plain = paragraph.replace("`", "")
+        if plain.startswith("- "):
+            items = [" ".join(item.split()) for item in plain[2:].split("\n- ")]
+            found.append({"text": "", "items": items})
+        else:
+            found.append({"text": " ".join(plain.split()), "items": []})
+    return found

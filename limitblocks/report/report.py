@@ -1,0 +1,160 @@
+"""A report: one HTML file that needs nothing else, and the same content as JSON."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+from dataclasses import dataclass, field
+from datetime import datetime
+from functools import cached_property
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+from limitblocks.errors import LimitBlocksError
+from limitblocks.model import Model
+from limitblocks.report.facts import assumptions, fact_rows, facts
+from limitblocks.report.picture import mechanism_picture
+from limitblocks.report.sections import Section, section
+
+_FOLDER = Path(__file__).parent
+_MARK = '<meta name="generator" content="limitblocks '
+_MARK_WITHIN = 4096  # bytes from the start of the file
+_STATED = ("numpy", "scipy", "cvxpy", "clarabel")
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """Results of analyses of one model, to be filed and shown; made by :func:`report`.
+
+    Attributes
+    ----------
+    model : Model
+        The structure.
+    results : tuple
+        Results of its analyses.
+    date : datetime
+        When the report was made.
+    """
+
+    model: Model
+    results: tuple[Any, ...]
+    date: datetime = field(default_factory=lambda: datetime.now().astimezone())
+
+    @cached_property
+    def sections(self) -> tuple[Section, ...]:
+        """What the report says of each result."""
+        return tuple(section(self.model, result) for result in self.results)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the content as plain numbers, lists and text; SI units."""
+        return {
+            "title": self.title,
+            "date": self.date.isoformat(timespec="seconds"),
+            "versions": versions(),
+            "model": facts(self.model),
+            "assumptions": assumptions(self.model),
+            "results": [result.to_dict() for result in self.results],
+        }
+
+    @property
+    def json(self) -> str:
+        """The content as JSON text."""
+        return json.dumps(self.to_dict(), indent=1)
+
+    @property
+    def title(self) -> str:
+        """Title of the report."""
+        return self.model.name or "Limit analysis of a rigid-block structure"
+
+    @cached_property
+    def html(self) -> str:
+        """The report as one HTML document without references to other files."""
+        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+        environment = Environment(
+            loader=FileSystemLoader(_FOLDER),
+            autoescape=True,
+            undefined=StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+        )
+        style = (_FOLDER / "report.css").read_text(encoding="utf-8")
+        known = facts(self.model)
+        return environment.get_template("report.html").render(
+            title=self.title,
+            date=self.date,
+            sections=[(one, mechanism_picture(self.model, one.rates)) for one in self.sections],
+            warnings=[warning for one in self.sections for warning in one.warnings] + known["warnings"],
+            model=fact_rows(known),
+            assumptions=assumptions(self.model),
+            digest=self.model.digest,
+            versions=versions(),
+            style=style,
+            style_hash=base64.b64encode(hashlib.sha256(style.encode()).digest()).decode(),
+        )
+
+    def save(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
+        """Write the report as HTML and return its path.
+
+        Parameters
+        ----------
+        file : str or Path
+            Name of the file.
+        overwrite : bool, optional
+            Whether to replace a file that exists; by default only one that limitblocks wrote.
+
+        Raises
+        ------
+        LimitBlocksError
+            The file exists and may not be replaced, or it cannot be written.
+        """
+        path, html = Path(file), self.html
+        try:
+            if overwrite or (overwrite is None and _ours(path)):
+                path.write_text(html, encoding="utf-8")
+            else:
+                with path.open("x", encoding="utf-8") as stream:
+                    stream.write(html)
+        except FileExistsError:
+            said = "exists" if overwrite is False else "exists and was not written by limitblocks"
+            raise LimitBlocksError(f"{path} {said}; give another name or overwrite=True") from None
+        except OSError as error:
+            raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
+        return path
+
+
+def report(model: Model, *results: Any) -> Report:
+    """Return a report on `model` and the results of its analyses.
+
+    Parameters
+    ----------
+    model : Model
+        The structure.
+    *results
+        What the analyses of this model returned, such as :class:`limitblocks.Bounds`.
+
+    Raises
+    ------
+    LimitBlocksError
+        A result is of an unknown kind or belongs to another model.
+    """
+    made = Report(model, results)
+    made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
+    return made
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of limitblocks and of the packages its numbers come from."""
+    import limitblocks
+
+    return {"limitblocks": limitblocks.__version__} | {name: metadata.version(name) for name in _STATED}
+
+
+def _ours(path: Path) -> bool:
+    """Whether `path` is a report of ours, by the mark in its head."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as stream:
+        return _MARK.encode() in stream.read(_MARK_WITHIN)

@@ -1,0 +1,120 @@
+"""Running bond: one course cut into blocks at its head joints, around openings and their lintels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.errors import ModelError
+from limitblocks.structures.build import refuse
+
+SAME = 1e-6  # of a block: lengths closer than this are equal
+
+
+class Opening(NamedTuple):
+    """Rectangular opening: left edge and sill from the wall's lower left corner, width and height, m."""
+
+    left: float
+    sill: float
+    width: float
+    height: float
+
+
+class Piece(NamedTuple):
+    """A block of a wall: name, course from 0, first and last abscissa along the wall, m."""
+
+    name: str
+    course: int
+    start: float
+    end: float
+
+
+class Bond(NamedTuple):
+    """Running bond on a grid of half blocks: block length and course height, m; number of courses."""
+
+    block_length: float
+    course_height: float
+    courses: int
+
+    def pieces(
+        self, prefix: str, ends: Sequence[tuple[float, float]], shift: int, openings: Sequence[Opening] = ()
+    ) -> list[Piece]:
+        """Return the blocks of a wall, from the lowest course up and from left to right.
+
+        Parameters
+        ----------
+        prefix : str
+            Beginning of the block names; they go on with course and place, or `lintel` and its number.
+        ends : sequence of (float, float)
+            Abscissae between which the even and the odd courses (from 0) run, m.
+        shift : int
+            Parity of the courses whose head joints lie half a block off the multiples of the block length.
+        openings : sequence of Opening
+            Holes; each is bridged by a lintel one course high that bears on half a block at either side,
+            unless it reaches the top of the wall.
+        """
+        refuse(problem for opening in openings for problem in self._opening_problems(opening))
+        found = []
+        for course in range(self.courses):
+            start, end = ends[course % 2]
+            holes, lintels = self._interruptions(course, openings)
+            _refuse_clash(f"{prefix} course {course + 1}", start, end, [*holes, *lintels.values()])
+            found += [Piece(f"{prefix} lintel {k + 1}", course, *span) for k, span in lintels.items()]
+            offset = 0.5 * self.block_length * ((course + shift) % 2 == 0)
+            cuts = self._joints(start, end, offset, [*holes, *lintels.values()])
+            found += [Piece(f"{prefix} {course + 1}.{k + 1}", course, *span) for k, span in enumerate(cuts)]
+        return found
+
+    def _interruptions(
+        self, course: int, openings: Sequence[Opening]
+    ) -> tuple[list[tuple[float, float]], dict[int, tuple[float, float]]]:
+        """Where the bond of a course is interrupted: by openings, and by the lintels of numbered openings."""
+        holes, lintels = [], {}
+        for number, opening in enumerate(openings):
+            sill, head = (round(z / self.course_height) for z in (opening.sill, opening.sill + opening.height))
+            left, right = opening.left, opening.left + opening.width
+            if sill <= course < head:
+                holes.append((left, right))
+            elif course == head:
+                lintels[number] = (left - self.block_length / 2, right + self.block_length / 2)
+        return holes, lintels
+
+    def _joints(
+        self, start: float, end: float, offset: float, taken: Sequence[tuple[float, float]]
+    ) -> list[tuple[float, float]]:
+        """Spans between head joints at offset + k block lengths, from start to end, outside the taken spans."""
+        grid = offset + self.block_length * np.arange(-1, round(end / self.block_length) + 2)
+        edges = np.sort([start, end, *grid[(grid > start) & (grid < end)], *np.ravel(list(taken))])
+        spans = zip(edges.tolist(), edges[1:].tolist(), strict=False)
+        least = SAME * self.block_length
+        return [
+            (a, b) for a, b in spans if b - a > least and not any(c < (a + b) / 2 < d for c, d in taken)
+        ]
+
+    def _opening_problems(self, opening: Opening) -> list[str]:
+        half, height = self.block_length / 2, self.course_height
+        units = (half, height, half, height)
+        problems = [
+            f"{opening}: {name} is {value:g}, expected a multiple of {unit:g}"
+            for name, value, unit in zip(Opening._fields, opening, units, strict=True)
+            if abs(value / unit - round(value / unit)) > SAME
+        ]
+        if min(opening.width, opening.height) <= 0.0 or opening.sill < 0.0:
+            problems.append(f"{opening}: expected positive width and height, and a sill at or above the base")
+        if opening.sill + opening.height > (self.courses + SAME) * height:
+            problems.append(f"{opening}: the head is above the wall, {self.courses * height:g} m high")
+        return problems
+
+
+def _refuse_clash(where: str, start: float, end: float, spans: Sequence[tuple[float, float]]) -> None:
+    """Raise ModelError where openings and lintels of one course overlap or leave the wall."""
+    last = start
+    for left, right in sorted(spans):
+        if left < last - SAME or right > end + SAME:
+            raise ModelError(
+                f"{where}: an opening or lintel from {left:g} to {right:g} m overlaps another "
+                f"or leaves the wall, {start:g} to {end:g} m"
+            )
+        last = right

@@ -1,0 +1,69 @@
+"""What all structures share: prisms, boxes in a row, and the model of blocks that rest on supports."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, find_interfaces
+from limitblocks.joints import Joint
+from limitblocks.mechanics import mass_proportional, self_weight
+from limitblocks.model import Model
+
+UNIT_WEIGHT = 20e3  # N/m3, stone masonry
+HORIZONTAL = (1.0, 0.0, 0.0)
+
+
+def model_of(
+    blocks: Sequence[Block], supports: Sequence[Block], joint: Joint, direction: Sequence[float], name: str
+) -> Model:
+    """Model under self weight and a mass-proportional live load along `direction`; one joint everywhere."""
+    everything = [*supports, *blocks]
+    return Model(
+        blocks=everything,
+        supports=[support.name for support in supports],
+        interfaces=find_interfaces(everything, joint),
+        dead=self_weight(),
+        live=mass_proportional(direction),
+        name=name,
+    )
+
+
+def prism(name: str, outline: npt.ArrayLike, depth: float, unit_weight: float | None = None) -> Block:
+    """Prism along Y, centred on y = 0, of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
+    points = np.asarray(outline, dtype=float)
+    n = len(points)
+    x, z = np.tile(points, (2, 1)).T
+    y = np.repeat([-depth / 2, depth / 2], n)
+    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
+    faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
+    return Block(name, np.column_stack([x, y, z]), faces, unit_weight)
+
+
+def span_box(
+    name: str, x: Sequence[float], y: Sequence[float], z: Sequence[float], unit_weight: float | None = None
+) -> Block:
+    """Box between two values of each coordinate, m."""
+    low, high = np.column_stack([x, y, z])
+    return Block.box(name, size=high - low, at=(low + high) / 2, unit_weight=unit_weight)
+
+
+def base(x: Sequence[float], y: Sequence[float], depth: float, name: str = "base") -> Block:
+    """Support below z = 0 under a rectangle, m."""
+    return span_box(name, x, y, (-depth, 0.0))
+
+
+def refuse_not_positive(**values: float) -> None:
+    """Raise ModelError naming all `values` that are not finite and positive."""
+    refuse(f"{name.replace('_', ' ')} is {value!r}, expected a number > 0"
+           for name, value in values.items() if not 0.0 < value < np.inf)  # fmt: skip
+
+
+def refuse(problems: Iterable[str]) -> None:
+    """Raise ModelError if there are problems."""
+    found = tuple(problems)
+    if found:
+        raise ModelError(*found)

@@ -1,0 +1,88 @@
+"""Published arches: least thickness under self weight, and Oppenheim's arch under horizontal load."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import limitblocks as lb
+from limitblocks import structures
+
+RADIUS = 10.0
+JOINT_TYPES = [lb.OrdunaLourenco, lb.PointContact]
+
+
+def crown_force(model):
+    """Load factor of a force on the keystone; one where the arch just stands under its dead load alone.
+
+    The dead load is taken as lifted by the same force. The force works on the symmetrical mechanism of the dead
+    load, so that the load factor passes one at the least thickness with a finite slope.
+    """
+    keystone = model.free_blocks[len(model.free_blocks) // 2]
+    weight = 0.02 * sum(block.weight for block in model.free_blocks)
+    push = lb.force(keystone.name, (0, 0, -weight), at=keystone.centroid)
+    found = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
+    assert found.gap < 1e-6
+    return found.lower
+
+
+def least_thickness(joint, voussoirs, low, high, change=lambda model: model):
+    def surplus(ratio):
+        model = structures.arch(joint, radius=RADIUS, thickness=ratio * RADIUS, voussoirs=voussoirs)
+        return crown_force(change(model)) - 1.0
+
+    return brentq(surplus, low, high, xtol=1e-6)
+
+
+def lumped_on_the_centreline(model):
+    """Same angles, but each weight proportional to its angle and acting on the centreline."""
+    n = len(model.free_blocks)
+    angles = (np.arange(n) + 0.5) * np.pi / n - np.pi / 2
+    weight = np.mean([block.weight for block in model.free_blocks])
+    points = RADIUS * np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
+    loads = [
+        lb.force(block.name, (0, 0, -weight), at=point)
+        for block, point in zip(model.free_blocks, points, strict=True)
+    ]
+    return replace(model, dead=sum(loads, lb.Load()))
+
+
+@pytest.mark.parametrize("joint_type", JOINT_TYPES)
+def test_least_thickness_of_27_voussoirs(joint_type):
+    """Semicircular arch of 27 voussoirs, friction 0.5: t/R between 0.1067 and 0.1068."""
+    assert 0.1067 <= least_thickness(joint_type(0.5), 27, 0.104, 0.11) <= 0.1068
+
+
+def test_least_thickness_of_many_voussoirs():
+    """Milankovitch (1907), true centroids: t/R = 0.1075."""
+    assert least_thickness(lb.PointContact(0.7), 201, 0.104, 0.11) == pytest.approx(0.1075, abs=5e-5)
+
+
+@pytest.mark.parametrize(("friction", "expected"), [(0.7, 0.107426), (0.309215, 0.200637)])
+def test_least_thickness_with_weights_on_the_centreline(friction, expected):
+    """Cocchetti & Rizzi (2020), Table 3: t/R by friction, many voussoirs."""
+    found = least_thickness(
+        lb.PointContact(friction), 201, 0.97 * expected, 1.03 * expected, lumped_on_the_centreline
+    )
+    assert found == pytest.approx(expected, rel=2e-4)  # 201 voussoirs are not infinitely many
+
+
+@pytest.mark.parametrize("joint_type", JOINT_TYPES)
+def test_an_arch_thinner_than_the_least_thickness_falls(joint_type):
+    thin = structures.arch(joint_type(0.5), radius=RADIUS, thickness=1.066, voussoirs=27)
+    with pytest.raises(lb.NoEquilibrium):
+        lb.bounds(thin)
+    thick = structures.arch(joint_type(0.5), radius=RADIUS, thickness=1.069, voussoirs=27)
+    assert lb.bounds(thick).lower > 0.0
+
+
+@pytest.mark.parametrize("joint_type", JOINT_TYPES)
+def test_oppenheim(joint_type):
+    """Oppenheim (1992): R = 10, t/R = 0.15, embrace 157.5 deg, 7 voussoirs: 0.37 g."""
+    model = structures.arch(
+        joint_type(0.7), radius=RADIUS, thickness=1.5, voussoirs=7, embrace=np.radians(157.5)
+    )
+    found = lb.bounds(model)
+    assert found.lower == pytest.approx(0.37, abs=0.005)
+    assert found.gap < 1e-6

@@ -1,0 +1,152 @@
+"""Closed forms: equilibrium of one rigid body, and what follows from it for stacks and leaves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+
+JOINT_TYPES = [lb.OrdunaLourenco, lb.PointContact]
+
+
+@pytest.fixture(params=JOINT_TYPES, ids=lambda kind: kind.__name__)
+def joint_type(request):
+    return request.param
+
+
+def assert_load_factor(model, expected):
+    found = lb.bounds(model)
+    assert found.lower == pytest.approx(expected, rel=1e-6)
+    assert found.upper == pytest.approx(expected, rel=1e-6)
+    assert found.gap < 1e-6
+
+
+@pytest.mark.parametrize("friction", [0.2, 0.6])
+@pytest.mark.parametrize(("b", "h"), [(0.5, 1.0), (1.0, 0.4)])
+@pytest.mark.parametrize("direction", [(1, 0, 0), (-1, 0, 0), (0, 1, 0)])
+def test_block_slides_or_rocks(joint_type, friction, b, h, direction):
+    model = structures.block(joint_type(friction), width=b, height=h, depth=b, direction=direction)
+    assert_load_factor(model, min(friction, b / h))
+
+
+@pytest.mark.parametrize("count", [2, 5, 10])
+def test_column_rocks_as_a_whole_or_slides(joint_type, count):
+    friction, b, h = 0.3, 0.6, 0.25
+    model = structures.column(joint_type(friction), count=count, width=b, height=h)
+    assert_load_factor(model, min(friction, b / (count * h)))
+
+
+@pytest.mark.parametrize("z", [0.1, 0.5, 0.9])
+def test_force_at_a_height(joint_type, z):
+    friction, b, h = 0.4, 0.5, 1.0
+    model = structures.block(joint_type(friction), width=b, height=h)
+    weight = model.free_blocks[0].weight
+    pushed = replace(model, live=lb.force("block 1", (1, 0, 0), at=(0, 0, z)))
+    assert_load_factor(pushed, min(friction, b / (2 * z)) * weight)
+
+
+@pytest.mark.parametrize("fraction", [0.0, 0.5, 0.9, 0.999])
+@pytest.mark.parametrize("count", [1, 4, 8])
+def test_overhang_below_the_harmonic_limit(joint_type, count, fraction):
+    length, height, friction = 1.0, 0.4, 0.7
+    model = structures.overhang(
+        joint_type(friction), count=count, length=length, height=height, fraction=fraction
+    )
+    reach = max(block.vertices[:, 0].max() for block in model.free_blocks) - length
+    assert reach == pytest.approx(fraction * length / 2 * sum(1 / i for i in range(1, count + 1)))
+    assert_load_factor(model, min(friction, (1 - fraction) * length / (count * height)))
+
+
+@pytest.mark.parametrize("count", [1, 4, 8])
+def test_overhang_beyond_the_harmonic_limit_falls(joint_type, count):
+    model = structures.overhang(joint_type(0.7), count=count, length=1.0, height=0.4, fraction=1.001)
+    with pytest.raises(lb.NoEquilibrium):
+        lb.bounds(model)
+
+
+def leaves(joint, between, b=0.12, height=2.4):
+    """Two leaves side by side in Y, their common joint `between` or none."""
+    blocks = [
+        lb.Block.box("base", (1.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("inner", (1.0, b, height), (0, -b / 2, height / 2), 20e3),
+        lb.Block.box("outer", (1.0, b, height), (0, b / 2, height / 2), 20e3),
+    ]
+    found = lb.find_interfaces(blocks, joint)
+    vertical = {"inner", "outer"}
+    kept = [i for i in found if {i.block_i, i.block_j} != vertical]
+    if between is not None:
+        kept += [replace(i, joint=between) for i in found if {i.block_i, i.block_j} == vertical]
+    return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_two_leaves_without_connection_rock_one_by_one(joint_type, smooth):
+    b, height = 0.12, 2.4
+    between = joint_type(0.0) if smooth else None
+    assert_load_factor(leaves(joint_type(0.6), between, b, height), b / height)
+
+
+def test_two_leaves_in_one_rock_together(joint_type):
+    b, height = 0.12, 2.4
+    model = structures.block(joint_type(0.6), width=1.0, depth=2 * b, height=height, direction=(0, 1, 0))
+    assert_load_factor(model, 2 * b / height)
+
+
+def jammed(joint):
+    blocks = [
+        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    return lb.Model(
+        blocks,
+        ["floor", "ceiling"],
+        lb.find_interfaces(blocks, joint),
+        lb.self_weight(),
+        lb.mass_proportional((1, 0, 0)),
+    )
+
+
+def test_block_jammed_under_a_ceiling_is_unlimited(joint_type):
+    with pytest.raises(lb.UnlimitedLoad):
+        lb.bounds(jammed(joint_type(0.6)))
+
+
+def test_block_under_a_ceiling_without_friction_slides_at_once(joint_type):
+    found = lb.bounds(jammed(joint_type(0.0)))
+    assert found.lower == pytest.approx(0.0, abs=1e-6)
+    assert found.upper == pytest.approx(0.0, abs=1e-6)
+
+
+def tilted(model, angle):
+    """`model` with its ground tilted about Y, so that it slopes down towards +X; live load along the slope."""
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([(c, 0, s), (0, 1, 0), (-s, 0, c)])
+    blocks = [block.moved(turn, (0, 0, 0)) for block in model.blocks]
+    joint = model.interfaces[0].joint
+    return lb.Model(
+        blocks,
+        model.supports,
+        lb.find_interfaces(blocks, joint),
+        lb.self_weight(),
+        lb.mass_proportional(turn @ (1, 0, 0)),
+    )
+
+
+@pytest.mark.parametrize("angle", [0.1, 0.2])
+def test_tilting_plane_is_equivalent_to_a_horizontal_load(joint_type, angle):
+    level = structures.wall(joint_type(0.5), length=1.2, courses=4)
+    load_factor = lb.bounds(level).lower
+    # across the slope the weight is cos(angle), along it sin(angle): (sin + x) / cos = load factor
+    assert_load_factor(tilted(level, angle), load_factor * np.cos(angle) - np.sin(angle))
+
+
+def test_tilting_plane_ends_at_the_load_factor(joint_type):
+    b, h, friction = 0.4, 1.0, 0.6
+    level = structures.block(joint_type(friction), width=b, height=h)
+    limit = np.arctan(min(friction, b / h))
+    assert lb.bounds(tilted(level, limit - 1e-4)).lower > 0.0
+    with pytest.raises(lb.NoEquilibrium):
+        lb.bounds(tilted(level, limit + 1e-4))
