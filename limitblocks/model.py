@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -144,7 +144,9 @@ def _tagged(settings: Any) -> dict[str, Any]:
     """A frozen dataclass as a dictionary with its class name under `type`."""
     if not is_dataclass(settings) or isinstance(settings, type):
         raise ModelError(f"{settings!r} cannot be written to a file: it is not a dataclass")
-    return {"type": type(settings).__name__} | asdict(settings)
+    values = {"type": type(settings).__name__} | asdict(settings)
+    # friction=1 and friction=1.0 are one model
+    return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
 
 
 def _name_problems(model: Model) -> list[str]:

@@ -2,27 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, fields
 from inspect import getdoc
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_args, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model, model_validator
 
-from limitblocks import joints
-from limitblocks.mechanics.loads import LoadTerm
-
-#: Name and class of every joint that a file may name: all that limitblocks.joints exports.
-JOINTS: dict[str, Any] = {
-    name: cls
-    for name, cls in ((name, getattr(joints, name)) for name in joints.__all__)
-    if is_dataclass(cls) and hasattr(cls, "yield_rows")
-}
-#: Name and class of every load term.
-TERMS: dict[str, Any] = {cls.__name__: cls for cls in get_args(LoadTerm)}
+from limitblocks.io.registry import JOINTS, TERMS
 
 # far beyond any structure, and its powers are still finite
 Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
 Vector = tuple[Number, Number, Number]
+_BOUNDED: dict[Any, Any] = {float: Number, tuple[float, float, float]: Vector}
 _ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}]}
 
 
@@ -101,7 +92,7 @@ class Find(Document):
 
 def _derived(cls: Any, **extra: Any) -> Any:
     """The document class of a frozen dataclass: its fields, its class name as `type`, and `extra`."""
-    hints: dict[str, Any] = get_type_hints(cls)
+    hints = {key: _BOUNDED.get(hint, hint) for key, hint in get_type_hints(cls).items()}
     parts: dict[str, Any] = {
         field.name: (hints[field.name], ... if field.default is MISSING else field.default)
         for field in fields(cls)

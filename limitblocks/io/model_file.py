@@ -8,27 +8,22 @@ from functools import cache, partial
 from pathlib import Path
 from reprlib import repr as _value
 from textwrap import shorten
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from pydantic import ValidationError
 
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface, find_interfaces
 from limitblocks.io import strict_json
-from limitblocks.io.documents import (
-    JOINTS,
-    TERMS,
-    BlockDocument,
-    InterfaceDocument,
-    ModelDocument,
-    TermDocument,
-)
 from limitblocks.io.interfaces import interface_fault
+from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load, mass_proportional, self_weight
 from limitblocks.model import Model
+
+if TYPE_CHECKING:
+    from limitblocks.io.documents import BlockDocument, InterfaceDocument, ModelDocument, TermDocument
 
 _LONGEST_LINE = 500
 
@@ -56,10 +51,16 @@ def read(file: str | Path) -> Model:
 @cache
 def model_schema() -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of the model file."""
+    from limitblocks.io.documents import ModelDocument
+
     return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | ModelDocument.model_json_schema()
 
 
 def _document(text: str) -> ModelDocument:
+    from pydantic import ValidationError  # here, to keep `import limitblocks` quick
+
+    from limitblocks.io.documents import ModelDocument
+
     data = strict_json.parse(text)
     try:
         return ModelDocument.model_validate_json(text)
@@ -98,6 +99,8 @@ def _said(fault: Any) -> str:
             return f"not JSON: {context['error']}"
         case "value_error":
             return str(context["error"])
+        case "less_than" | "greater_than":
+            return f"expected a number less than 1e30 in size, not {_value(fault['input'])}"
         case "tuple_type" | "list_type":
             return f"expected a list [...], not {_value(fault['input'])}"
         case "model_type" | "model_attributes_type" | "dict_type":

@@ -88,3 +88,22 @@ def checked_friction(friction: float) -> float:
     if not (np.isfinite(friction) and friction >= 0.0):
         raise ModelError(f"friction is {friction!r}, expected a finite coefficient >= 0")
     return float(friction)
+
+
+def checked_stress(word: str, stress: float, positive: bool = False) -> None:
+    """Raise ModelError unless `stress`, Pa, is a finite number >= 0, or > 0 if it must be `positive`."""
+    if not (np.isfinite(stress) and (stress > 0.0 if positive else stress >= 0.0)):
+        least = "> 0; None stands for no limit" if positive else ">= 0"
+        raise ModelError(f"{word} is {stress!r} Pa, expected a finite stress {least}")
+
+
+def checked_choice(word: str, choice: str, choices: tuple[str, ...]) -> None:
+    """Raise ModelError unless `choice` is one of `choices`."""
+    if choice not in choices:
+        raise ModelError(f"{word} is {choice!r}, expected one of {', '.join(map(repr, choices))}")
+
+
+def checked_count(word: str, count: int, least: int) -> None:
+    """Raise ModelError unless `count` is a whole number of at least `least`."""
+    if not (isinstance(count, int | np.integer) and not isinstance(count, bool) and count >= least):
+        raise ModelError(f"{word} is {count!r}, expected a whole number of at least {least}")

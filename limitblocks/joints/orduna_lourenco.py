@@ -1,142 +1,155 @@
-"""The paper's piecewise-linear yield surface (Orduña & Lourenço 2005, Section 4)."""
+"""The paper's yield surface (Orduña & Lourenço 2005, Part I, Section 4) and its safe and unsafe relatives."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import product
+from typing import Any, Literal
 
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
 from limitblocks.geometry.polygon import areas, second_moments
-from limitblocks.joints.base import YieldRows, checked_friction
+from limitblocks.joints.base import (
+    YieldRows,
+    checked_choice,
+    checked_count,
+    checked_friction,
+    checked_stress,
+)
+from limitblocks.joints.queries import Queries
+from limitblocks.joints.rows import Rows, frictional, hinging, shear_directions, stacked
 from limitblocks.joints.torsion import rectangle_torsion_constant, torsion_constants
 
 SIGNS = (1.0, -1.0)
-HALF = np.sqrt(0.5)
-
-# Signs of (V1, V2, N, M1, M2, T) in each row; N, M and T are scaled per mode in `_frictional_rows`.
-TWIST = [(0, 0, 1, 0, 0, t) for t in SIGNS]  # Eq. (23)
-SLIP = (
-    [(s, 0, 1, 0, 0, 0) for s in SIGNS]  # Eq. (24)
-    + [(0, s, 1, 0, 0, 0) for s in SIGNS]  # Eq. (25)
-    + [(a * HALF, b * HALF, 1, 0, 0, 0) for a, b in product(SIGNS, SIGNS)]  # Eq. (26)
-)
-SHEAR_TORSION = [(v1, v2, 1, 0, 0, t) for (v1, v2, *_), t in product(SLIP, SIGNS)]  # Eqs (27)-(29)
-MOMENT_TORSION = [(0, 0, 1, a, b, t) for a, b, t in product(SIGNS, SIGNS, SIGNS)]  # Eq. (30)
-
-MODES = (
-    ("twist",) * len(TWIST)
-    + ("slip",) * len(SLIP)
-    + ("slip-twist",) * len(SHEAR_TORSION)
-    + ("moment-twist",) * len(MOMENT_TORSION)
-)
+# Signs of (V1, V2, N, M1, M2, T) in each row of the yield functions; `_Planes.rows` puts the factors.
+TWIST = np.array([(0, 0, 1, 0, 0, t) for t in SIGNS])  # Eq. (23)
+MOMENT_TWIST = np.array([(0, 0, 1, a, b, t) for a, b, t in product(SIGNS, SIGNS, SIGNS)])  # Eq. (30)
+SLIP_FORCE = 1.3  # of V0: where the planes (27)-(29) meet the axis T = 0
 
 
-@dataclass(frozen=True)
-class OrdunaLourenco:
-    """Yield surface of Orduña & Lourenço (2005): Eqs (23)-(30) and (36) on a convex polygon.
+@dataclass(frozen=True, repr=False)
+class OrdunaLourenco(Queries):
+    """Yield surface of Orduña & Lourenço (2005): Eqs (23)-(30) and (36) or (39) on a convex polygon.
 
     Planes for twist (2), slip (8), shear with torsion (16), bending with torsion (8) and hinging (one
     a side): 38 on a quadrilateral. An engineering approximation:
 
     - the slip octagon, Eqs (24)-(26), is drawn around the Coulomb circle: it overestimates the shear
-      strength by up to 1/cos(22.5 deg) - 1 = 8.2 % between its eight contact directions;
-    - Eqs (27)-(29) neglect the aspect ratio of the interface;
-    - Eq. (30) overestimates torsion under bending except when a hinge forms.
+      strength by up to 1/cos(22.5 deg) - 1 = 8.2 % between its eight contact directions; `slip` offers
+      safe polygons and the circle itself;
+    - Eqs (27)-(29) neglect the aspect ratio of the interface: against uniform pressure on a rectangle they
+      overestimate torsion near pure shear (by 0.3 T0 at V0) and may underestimate it in between, by up to
+      0.18 T0;
+    - Eq. (30) overestimates torsion under bending except when a hinge forms, by up to 30 % on a square;
+    - shear and bending reduce torsion independently of each other;
+    - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
+      exact stress block for bending about one axis of a rectangle, and an approximation for other shapes and
+      oblique bending. Torsion and shear are not reduced by crushing;
+    - cohesion acts on the whole area whatever the eccentricity, which overestimates it once a joint opens.
 
     Parameters
     ----------
     friction : float
-        Friction coefficient mu >= 0. With zero friction the interface carries N, M1, M2 only.
+        Friction coefficient mu >= 0. With zero friction and cohesion the interface carries N, M1, M2 only.
+    compressive_strength : float, optional
+        Effective strength fcef, Pa (Eqs 41-42: :func:`~limitblocks.joints.interaction.effective_strength`);
+        infinite unless given.
+    slip : {"paper", "inner", "outer", "exact"}
+        The Coulomb circle of Eqs (24)-(29) as the paper's octagon, a polygon within or around it, or itself
+        (second-order cones). In Eqs (27)-(29) the shear force is measured by the same polygon or circle.
+    sides : int
+        Sides of the inner or outer polygon, at least 3; too weak by up to 1 - cos(pi/sides), or too strong
+        by up to 1/cos(pi/sides) - 1.
+    cohesion, tensile_strength : float
+        Pa; mu |N| becomes mu |N| + A cohesion in Eqs (23)-(30), and hinging needs N = A tensile_strength more.
+        With friction, tension is limited to A cohesion / mu, too.
 
     Raises
     ------
     ModelError
-        If the friction is not a finite number >= 0.
+        If a number is out of range or a word unknown.
     """
 
     friction: float
+    compressive_strength: float | None = None
+    slip: Literal["paper", "inner", "outer", "exact"] = "paper"
+    sides: int = 8
+    cohesion: float = 0.0
+    tensile_strength: float = 0.0
 
     def __post_init__(self) -> None:
         checked_friction(self.friction)
+        if self.compressive_strength is not None:
+            checked_stress("compressive strength", self.compressive_strength, positive=True)
+        checked_choice("slip", self.slip, ("paper", "inner", "outer", "exact"))
+        checked_count("sides", self.sides, 3)
+        if self.slip == "paper" and self.sides != 8:
+            raise ModelError(
+                f"sides is {self.sides}, but slip='paper' is an octagon; choose slip='inner' or 'outer'"
+            )
+        checked_stress("cohesion", self.cohesion)
+        checked_stress("tensile strength", self.tensile_strength)
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""
-        m, n, _ = polygons.shape
         half_sides = equivalent_half_sides(polygons)
-        hinge = hinge_gradients(polygons)
-        resultants = np.broadcast_to(np.eye(6), (m, 6, 6))
-        if self.friction == 0.0:
-            resultants, gradient = resultants[:, :, 2:5], hinge[:, :, 2:5]
-            flow, pivot, modes = gradient, np.zeros((m, n)), ("hinge",) * n
-        else:
-            frictional, frictional_flow, frictional_pivot = _frictional_rows(polygons, half_sides, self.friction)
-            gradient = np.concatenate([frictional, hinge], axis=1)
-            flow = np.concatenate([frictional_flow, hinge], axis=1)
-            pivot = np.concatenate([frictional_pivot, np.zeros((m, n))], axis=1)
-            modes = MODES + ("hinge",) * n
-        return YieldRows(
-            F=-gradient,
-            g=np.zeros(gradient.shape[:2]),
-            G=-flow,
-            pivot=pivot,
-            reach=half_sides,
-            resultants=resultants,
-            linear=gradient.shape[1],
-            cones=(),
-            modes=modes,
-            friction=self.friction,
-        )
+        groups = [hinging(polygons, self.compressive_strength, self.tensile_strength, stress_unit)]
+        shear = self.friction > 0.0 or self.cohesion > 0.0
+        if shear:
+            groups = self._frictional_rows(polygons, half_sides, stress_unit) + groups
+        return stacked(groups, half_sides, self.friction, shear)
+
+    def _frictional_rows(self, polygons: Array, half_sides: Array, stress_unit: float) -> list[Rows]:
+        """Eqs (23)-(30) with the flow of Tables 3 and 5."""
+        cohesion = self.cohesion / stress_unit * areas(polygons)
+        per_torsion = 1.0 / _paper_torsion_constants(polygons, half_sides)
+        per_moment = 1.0 / half_sides.sum(axis=1)
+
+        def rows(
+            mode: str, table: Array, share: Any, moment: Any = 0.0, torsion: Any = 0.0, size: int = 0
+        ) -> Rows:
+            factors = np.broadcast_arrays(1.0, 1.0, share * self.friction, moment, moment, torsion, cohesion)
+            scale = np.stack(factors, axis=-1)[:, None, :]
+            g = share * table[:, 2] * scale[..., 6]
+            return frictional(mode, -table * scale[..., :6], g, size)
+
+        slip, slip_twist, size = _circle_tables(self.slip, self.sides)
+        return [
+            rows("twist", TWIST, 1.0, torsion=per_torsion),
+            rows("slip", slip, 1.0, size=size),
+            rows("slip-twist", slip_twist, SLIP_FORCE, torsion=per_torsion, size=size),
+            rows("moment-twist", MOMENT_TWIST, 0.5, self.friction / 2 * per_moment, per_moment),
+        ]
 
 
-def _frictional_rows(polygons: Array, half_sides: Array, friction: float) -> tuple[Array, Array, Array]:
-    """Gradients (m, 34, 6) of Eqs (23)-(30), flow directions of Tables 3 and 5, and their pivots."""
-    m = len(polygons)
-    per_torsion = 1.0 / _paper_torsion_constants(polygons, half_sides)[:, None]
-    per_moment = 1.0 / half_sides.sum(axis=1)[:, None]
-    scales = {
-        "twist": (friction, 0.0, per_torsion),
-        "slip": (friction, 0.0, 0.0),
-        "slip-twist": (1.3 * friction, 0.0, per_torsion),
-        "moment-twist": (friction / 2, per_moment * friction / 2, per_moment),
-    }
-    table = np.array(TWIST + SLIP + SHEAR_TORSION + MOMENT_TORSION, dtype=float)
-    gradient = np.broadcast_to(table, (m, *table.shape)).copy()
-    modes = np.array(MODES)
-    for mode, (normal, moment, torsion) in scales.items():
-        rows = modes == mode
-        gradient[:, rows, 2] *= normal
-        gradient[:, rows, 5] *= torsion
-        for column in (3, 4):
-            gradient[:, rows, column] *= moment
-    flow = gradient.copy()
-    flow[:, :, 2:5] = 0.0  # zero dilatancy, and Table 5 has no bending rotation
-    pivot = np.where(modes == "moment-twist", gradient[:, :, 5], 0.0)
-    return gradient, flow, pivot
-
-
-def hinge_gradients(polygons: Array) -> Array:
-    """Gradients (m, n, 6) of the hinging functions, Eqs (36)-(38), one a side of each polygon."""
-    start, end = polygons, np.roll(polygons, -1, axis=1)
-    edge = end - start
-    cross = start[..., 0] * end[..., 1] - end[..., 0] * start[..., 1]
-    zero, one = np.zeros_like(cross), np.ones_like(cross)
-    return np.stack([zero, zero, one, edge[..., 0] / cross, edge[..., 1] / cross, zero], axis=2)
+def _circle_tables(slip: str, sides: int) -> tuple[Array, Array, int]:
+    """Signs of the slip and the slip-twist rows, and the size of the cones they are (0: planes)."""
+    if slip == "exact":  # cones (-mu N - T / c_T, V1, V2); yield rows are minus these tables
+        V = [(-1, 0, 0, 0, 0, 0), (0, -1, 0, 0, 0, 0)]
+        twisted = [row for t in SIGNS for row in ((0, 0, 1, 0, 0, t), *V)]
+        return np.array([(0, 0, 1, 0, 0, 0), *V], dtype=float), np.array(twisted, dtype=float), 3
+    d = shear_directions(slip, sides)
+    planes = [(d1, d2, 1, 0, 0, 0) for d1, d2 in d]  # Eqs (24)-(26)
+    twisted = [(d1, d2, 1, 0, 0, t) for (d1, d2), t in product(d, SIGNS)]  # Eqs (27)-(29)
+    return np.array(planes), np.array(twisted), 0
 
 
 def equivalent_half_sides(polygons: Array) -> Array:
     """Half sides (m, 2) of the equivalent rectangle.
 
-    Quadrilaterals: Eqs (31)-(32), vertices in the order (+,-), (+,+), (-,+), (-,-). Other polygons, which
-    the paper leaves open: the rectangle with the same radii of gyration about x1 and x2, which agrees
-    with Eqs (31)-(32) on rectangles.
+    Quadrilaterals: Eqs (31)-(32), for the first vertex that makes them largest: it gives the order
+    (+,-), (+,+), (-,+), (-,-) that they presuppose. Other polygons, which the paper leaves open: the
+    rectangle with the same radii of gyration about x1 and x2, which agrees with Eqs (31)-(32) on rectangles.
     """
-    x1, x2 = polygons[..., 0], polygons[..., 1]
     if polygons.shape[1] == 4:
-        l1 = (x1[:, 0] + x1[:, 1] - x1[:, 2] - x1[:, 3]) / 4
-        l2 = (x2[:, 1] + x2[:, 2] - x2[:, 0] - x2[:, 3]) / 4
-        return np.stack([l1, l2], axis=1)
+        turns = np.stack([np.roll(polygons, -k, axis=1) for k in range(4)])
+        x1, x2 = turns[..., 0], turns[..., 1]
+        l1 = (x1[..., 0] + x1[..., 1] - x1[..., 2] - x1[..., 3]) / 4
+        l2 = (x2[..., 1] + x2[..., 2] - x2[..., 0] - x2[..., 3]) / 4
+        first = np.minimum(l1, l2).argmax(axis=0)
+        return np.stack([l1, l2], axis=-1)[first, np.arange(len(polygons))]
     second = second_moments(polygons)  # columns: integrals of x1^2, x2^2, x1 x2
     return np.sqrt(3.0 * second[:, :2] / areas(polygons)[:, None])
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
 import numpy as np
@@ -13,6 +12,7 @@ import shapely
 from limitblocks.arrays import Array
 from limitblocks.geometry import polyhedron
 from limitblocks.model import Model
+from limitblocks.report.painter import Body, painting_order, placed
 
 WIDTH, MARGIN = 1000.0, 12.0  # user units of the SVG
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
@@ -66,14 +66,6 @@ class Picture:
     largest: str
 
 
-class _Body(NamedTuple):
-    """Block as placed: vertices (n, 3), unit normals (m, 3) and offsets (m,) of its faces."""
-
-    points: Array
-    normals: Array
-    offsets: Array
-
-
 def mechanism_picture(model: Model, rates: Array) -> Picture:
     """Return the drawing of displacement rates (n, 6) of the blocks of `model`."""
     middle = np.mean([block.centroid for block in model.blocks], axis=0)
@@ -86,8 +78,8 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
     sizes = np.array([np.linalg.norm(shift, axis=1).max() for shift in shifts])
     magnification = _magnification(points, sizes, rates)
     view = _view(np.concatenate(points))
-    before = [_body(p, f) for p, f in zip(points, faces, strict=True)]
-    after = [_body(p + magnification * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
+    before = [placed(p, f) for p, f in zip(points, faces, strict=True)]
+    after = [placed(p + magnification * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
     page = _Page.around(np.concatenate([body.points for body in (*before, *after)]), view)
     moving = sizes > MOVING * max(sizes.max(), 1e-300)
     kinds = np.where(moving, "moving", "still").tolist()
@@ -146,12 +138,7 @@ class _Page(NamedTuple):
         return "M" + " ".join(f"{x:.1f},{y:.1f}".replace(".0", "") for x, y in places.tolist()) + "z"
 
 
-def _body(points: Array, faces: polyhedron.Faces) -> _Body:
-    mesh = polyhedron.mesh(faces)
-    return _Body(points, *polyhedron.face_planes(points, mesh, polyhedron.shape(points, mesh).area_vectors))
-
-
-def _drawn(name: str, kind: str, faces: polyhedron.Faces, body: _Body, view: Array, page: _Page) -> Drawn:
+def _drawn(name: str, kind: str, faces: polyhedron.Faces, body: Body, view: Array, page: _Page) -> Drawn:
     """The faces of a convex body that face the eye; they do not hide each other."""
     flat = body.points @ view[:2].T
     bright = body.normals @ LIGHT / np.linalg.norm(LIGHT)
@@ -160,7 +147,7 @@ def _drawn(name: str, kind: str, faces: polyhedron.Faces, body: _Body, view: Arr
     return Drawn(name, kind, tuple(Face(page.path(flat[list(faces[k])]), shades[k]) for k in seen))
 
 
-def _outline(bodies: Sequence[_Body], view: Array, page: _Page) -> str:
+def _outline(bodies: Sequence[Body], view: Array, page: _Page) -> str:
     hulls = shapely.convex_hull([shapely.multipoints(body.points @ view[:2].T) for body in bodies])
     # a hair wider, to close the slits between blocks that touch
     whole = shapely.buffer(shapely.union_all(hulls), 1.0 / page.scale, join_style="mitre")
@@ -174,59 +161,3 @@ def _axes(live: Array, view: Array) -> tuple[tuple[str, float, float], ...]:
         vectors["live"] = live / np.linalg.norm(live)
     tips = {label: (view[:2] @ vector).tolist() for label, vector in vectors.items()}
     return tuple((label, round(x, 3), -round(y, 3)) for label, (x, y) in tips.items())
-
-
-def painting_order(bodies: Sequence[_Body], eye: Array) -> list[int]:
-    """Return the order, back to front, in which convex bodies hide each other rightly.
-
-    Of two bodies that overlap on the page, a face plane that separates them tells which is in front.
-    Bodies in a ring of such pairs, or that interpenetrate, go by their depth.
-    """
-    depth = [float((body.points @ eye).mean()) for body in bodies]
-    nearer: list[list[int]] = [[] for _ in bodies]
-    waiting = [0] * len(bodies)
-    for i, j in _overlapping(bodies, eye):
-        front, back = (i, j) if _in_front(bodies[i], bodies[j], eye, depth[i] > depth[j]) else (j, i)
-        nearer[back].append(front)
-        waiting[front] += 1
-    ready = [(depth[k], k) for k in range(len(bodies)) if not waiting[k]]
-    heapify(ready)
-    rest = sorted(range(len(bodies)), key=depth.__getitem__, reverse=True)
-    order: dict[int, None] = {}
-    while len(order) < len(bodies):
-        while not ready:  # a ring: let the farthest one go first
-            k = rest.pop()
-            if k not in order:
-                ready.append((depth[k], k))
-        k = heappop(ready)[1]
-        if k in order:
-            continue
-        order[k] = None
-        for front in nearer[k]:
-            waiting[front] -= 1
-            if not waiting[front]:
-                heappush(ready, (depth[front], front))
-    return list(order)
-
-
-def _overlapping(bodies: Sequence[_Body], eye: Array) -> list[tuple[int, int]]:
-    """Pairs of bodies whose outlines on the page overlap."""
-    right = np.cross([0.0, 0.0, 1.0], eye)
-    plane = np.array([right, np.cross(eye, right)]).T
-    hulls = shapely.convex_hull([shapely.multipoints(body.points @ plane) for body in bodies])
-    pairs = shapely.STRtree(hulls).query(hulls, predicate="intersects").T
-    return [(int(i), int(j)) for i, j in pairs if i < j]
-
-
-def _in_front(first: _Body, second: _Body, eye: Array, default: bool) -> bool:
-    """Whether `first` is nearer to the eye than `second`, by the face plane that separates them best."""
-    best, answer = -np.inf, default
-    for one, other, behind in ((first, second, False), (second, first, True)):
-        gaps = (one.normals @ other.points.T).min(axis=1) - one.offsets
-        k = int(gaps.argmax())
-        if gaps[k] > best:
-            best = gaps[k]
-            # the other lies beyond the face k of this one
-            answer = behind == bool(one.normals[k] @ eye > 0.0)
-    size = float(np.abs(first.points - first.points[0]).max())
-    return answer if best > -1e-2 * size else default

@@ -85,8 +85,8 @@ def _bounds(bounds: Bounds) -> Section:
         ),
         headline=f"{bounds.lower:#.4g}",
         values=(
-            ("Static load factor", f"{bounds.lower:#.9g}", f"lower bound, {static}"),
-            ("Kinematic load factor", f"{bounds.upper:#.9g}", f"upper bound, {kinematic}"),
+            ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
+            ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the larger of the two"),
         ),
         checks=tuple(

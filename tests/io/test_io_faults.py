@@ -1,0 +1,317 @@
+import copy
+import json
+import os
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+from limitblocks.io import strict_json
+
+GOOD = {
+    "schema_version": 1,
+    "name": "Portal",
+    "blocks": [
+        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
+        {"name": "left", "box": {"size": [0.5, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "right", "box": {"size": [0.5, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.2]}, "unit_weight": 24e3},
+    ],
+    "supports": ["ground"],
+    "joints": {"dry": {"type": "OrdunaLourenco", "friction": 0.6}},
+    "interfaces": {"find": {"joint": "dry"}},
+    "dead": [{"type": "SelfWeight"}],
+    "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
+}
+CUBE = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
+CORNERS = [[x, y, z + 3.0] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+
+
+def explicit():
+    blocks = [lb.Block.box(b["name"], **b["box"], unit_weight=b.get("unit_weight")) for b in GOOD["blocks"]]
+    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return json.loads(json.dumps(model.to_dict()))
+
+
+EXPLICIT = explicit()
+
+
+def changed(document, *path, to):
+    """A copy of `document` with the value at `path` replaced, or taken out if `to` is Ellipsis."""
+    document = copy.deepcopy(document)
+    part = document
+    for step in path[:-1]:
+        part = part[step]
+    if isinstance(part, list) and path[-1] == len(part):
+        part.append(to)
+    elif to is ...:
+        del part[path[-1]]
+    else:
+        part[path[-1]] = to
+    return document
+
+
+def find(*path, to):
+    return changed(GOOD, *path, to=to)
+
+
+def listed(*path, to):
+    return changed(EXPLICIT, *path, to=to)
+
+
+def block(vertices, faces):
+    return find("blocks", 4, to={"name": "stone", "vertices": vertices, "faces": faces, "unit_weight": 1.0})
+
+
+AXES = EXPLICIT["interfaces"][0]["axes"]
+WARPED = [*CORNERS[:7], [1.0, 1.0, 4.3]]
+FLAT = [[x, y, 3.0] for x, y, _ in CORNERS]
+
+FAULTS = {
+    "unknown block in an interface": (
+        listed("interfaces", 0, "block_j", to="lef"),
+        ["interfaces[0].block_j", "'lef'", "'left'"],
+    ),
+    "unknown support": (find("supports", to=["grond"]), ["supports[0]", "'grond'", "did you mean 'ground'"]),
+    "no support": (find("supports", to=[]), ["no support"]),
+    "only supports": (find("supports", to=["ground", "left", "right", "lintel"]), ["no free block"]),
+    "zero volume": (block(FLAT, CUBE), ["blocks[4]", "'stone'", "coincide"]),
+    "no thickness": (find("blocks", 1, "box", "size", to=[1, 1, 0]), ["blocks[1]", "'left'", "positive"]),
+    "face not planar": (block(WARPED, CUBE), ["blocks[4]", "'stone'", "not planar"]),
+    "open mesh": (block(CORNERS, CUBE[:5]), ["blocks[4]", "'stone'", "closed"]),
+    "vertex out of range": (block(CORNERS, [*CUBE[:5], [4, 5, 7, 9]]), ["'stone'", "out of range"]),
+    "duplicate names": (find("blocks", 2, "name", to="left"), ["'left'"]),
+    "overlap": (find("blocks", 3, "box", "at", to=[0, 0, 2.1]), ["overlap by", "m3", "'lintel'", "'left'"]),
+    "floating": (find("blocks", 3, "box", "at", to=[0, 0, 2.5]), ["floating", "'lintel'"]),
+    "no live load": (find("live", to=[]), ["no live load"]),
+    "live load missing": (find("live", to=...), ["live: is missing"]),
+    "no direction": (find("live", 0, "direction", to=[0, 0, 0]), ["live[0]", "non-zero"]),
+    "load on unknown block": (
+        find("live", 0, to={"type": "Moment", "block": "lintl", "moment": [0, 1, 0]}),
+        ["live[0].block", "'lintl'", "'lintel'"],
+    ),
+    "load type": (find("dead", 0, "type", to="Snow"), ["dead[0]", "'Snow'", "'SelfWeight'"]),
+    "joint type": (find("joints", "dry", "type", to="Glue"), ["joints.dry", "'Glue'", "'OrdunaLourenco'"]),
+    "joint without type": (find("joints", "dry", "type", to=...), ["joints.dry", "type is missing"]),
+    "friction": (find("joints", "dry", "friction", to=-0.1), ["joints.dry", "friction is -0.1"]),
+    "unknown joint": (
+        find("interfaces", "find", "joint", to="dri"),
+        ["interfaces.find.joint", "'dri'", "'dry'"],
+    ),
+    "gap": (find("interfaces", "find", "gap", to=-1.0), ["interfaces.find", "gap is -1.0"]),
+    "wrong type": (
+        find("blocks", 1, "unit_weight", to="20e3"),
+        ["blocks[1].unit_weight: expected a number, not '20e3'"],
+    ),
+    "truth for a number": (find("blocks", 1, "box", "at", 1, to=True), ["blocks[1].box.at[1]", "not True"]),
+    "negative weight": (find("blocks", 1, "unit_weight", to=-1), ["blocks[1].unit_weight"]),
+    "no weight": (find("blocks", 1, "unit_weight", to=...), ["'left'", "no unit weight"]),
+    "vertex of two": (block([*CORNERS[:2], [0, 0]], CUBE), ["blocks[4].vertices[2][2]: is missing"]),
+    "no shape": (find("blocks", 1, "box", to=...), ["blocks[1]: has no shape"]),
+    "two shapes": (find("blocks", 1, "faces", to=CUBE), ["blocks[1]: has faces and box"]),
+    "empty name": (find("blocks", 1, "name", to=" "), ["blocks[1]"]),
+    "unknown key": (
+        find("blocks", 1, "unitweight", to=1),
+        ["blocks[1].unitweight: unknown key; did you mean 'unit_weight'"],
+    ),
+    "unknown key at the top": (find("suports", to=[]), ["suports: unknown key; did you mean 'supports'"]),
+    "later version": (find("schema_version", to=2), ["schema_version: expected 1, not 2"]),
+    "huge number": (find("blocks", 1, "box", "at", 0, to=1e300), ["blocks[1].box.at[0]"]),
+    "huge friction": (find("joints", "dry", "friction", to=1e300), ["joints.dry.friction"]),
+    "huge direction": (find("live", 0, "direction", 2, to=1e300), ["live[0].direction[2]"]),
+    "list for an object": ([], ["expected an object"]),
+    "text for an object": ("model", ["expected an object"]),
+    "interfaces a number": (find("interfaces", to=3), ["interfaces: expected a list"]),
+    "axes off": (
+        listed("interfaces", 0, "axes", 0, 0, to=1.001),
+        ["interfaces[0]: interface ground|left: axes", "orthonormal"],
+    ),
+    "axes left-handed": (
+        listed("interfaces", 0, "axes", to=[AXES[1], AXES[0], AXES[2]]),
+        ["ground|left", "left-handed"],
+    ),
+    "polygon clockwise": (
+        listed("interfaces", 0, "polygon", to=[[1, 1], [1, -1], [-1, -1], [-1, 1]]),
+        ["ground|left", "counter-clockwise"],
+    ),
+    "polygon not convex": (
+        listed("interfaces", 0, "polygon", to=[[2, 0], [0.5, 0.5], [0, 2], [-2, 0], [0, -2]]),
+        ["ground|left", "not convex"],
+    ),
+    "polygon beside": (
+        listed("interfaces", 0, "polygon", to=[[1, 1], [2, 1], [2, 2], [1, 2]]),
+        ["ground|left", "strictly inside"],
+    ),
+    "polygon off centre": (
+        listed("interfaces", 0, "polygon", to=[[1, -1], [1.1, 1], [-1, 1], [-1, -1]]),
+        ["ground|left", "centroid"],
+    ),
+    "pentagram": (
+        listed(
+            "interfaces",
+            0,
+            "polygon",
+            to=[[1, 0], [-0.81, 0.59], [0.31, -0.95], [0.31, 0.95], [-0.81, -0.59]],
+        ),
+        ["ground|left", "crosses itself"],
+    ),
+    "polygon of two": (
+        listed("interfaces", 0, "polygon", to=[[1, 0], [0, 1]]),
+        ["interfaces[0].polygon", "at least 3"],
+    ),
+    "interface to itself": (listed("interfaces", 0, "block_j", to="ground"), ["joins a block to itself"]),
+}
+TEXTS = {
+    "empty": (b"", ["is empty"]),
+    "white space": (b" \n ", ["is empty"]),
+    "truncated": (json.dumps(GOOD).encode()[:300], ["line 1, column", "not JSON"]),
+    "not JSON": (b"<xml/>", ["not JSON"]),
+    "NaN": (json.dumps(GOOD).replace("24000.0", "NaN").encode(), ["NaN"]),
+    "Infinity": (json.dumps(GOOD).replace("24000.0", "-Infinity").encode(), ["-Infinity"]),
+    "infinity by size": (json.dumps(GOOD).replace("24000.0", "1e999").encode(), ["blocks[3].unit_weight"]),
+    "digits": (json.dumps(GOOD).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
+    "duplicate key": (b'{"schema_version": 1, "name": "a", "name": "b"}', ["'name' appears twice"]),
+    "encoding": (
+        json.dumps(GOOD).replace("Portal", "Säule").encode("latin-1"),
+        ["UTF-8"],
+    ),
+    "UTF-16": (json.dumps(GOOD).encode("utf-16"), ["UTF-8"]),
+    "lone surrogate": (json.dumps(GOOD).replace("Portal", "\\ud800").encode(), ["not JSON"]),
+    "nested lists": (b"[" * 100_000, ["nests too deeply"]),
+    "nested a little": (b'{"blocks":' + b"[" * 500 + b"]" * 500 + b"}", []),
+}
+CASES = {k: (json.dumps(document).encode(), said) for k, (document, said) in FAULTS.items()} | TEXTS
+
+
+def assert_clean(lines, file, said):
+    assert lines
+    for line in lines:
+        assert str(file) in line
+        assert "\n" not in line
+        assert "pydantic" not in line.lower()
+    text = "\n".join(lines)
+    assert all(part in text for part in said), text
+
+
+@pytest.fixture
+def file(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return "model.json"
+
+
+@pytest.mark.parametrize(("data", "said"), CASES.values(), ids=CASES)
+def test_fault_is_one_line_that_names_file_and_place(data, said, file):
+    with open(file, "wb") as stream:
+        stream.write(data)
+    with pytest.raises(lb.ModelError) as caught:
+        lb.read(file)
+    assert_clean(caught.value.problems, file, said)
+    result = CliRunner().invoke(app, ["info", file])
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert_clean(result.stderr.splitlines(), file, said)
+
+
+def test_good_documents_are_read(file):
+    for document in (GOOD, EXPLICIT):
+        with open(file, "w") as stream:
+            json.dump(document, stream)
+        assert len(lb.read(file).interfaces) == 4
+
+
+def test_all_faults_come_at_once(file):
+    document = find("blocks", 1, "unit_weight", to="heavy")
+    document["live"][0]["direction"] = [1, 2]
+    document["supports"] = [7]
+    del document["joints"]
+    with open(file, "w") as stream:
+        json.dump(document, stream)
+    with pytest.raises(lb.ModelError) as caught:
+        lb.read(file)
+    places = ("blocks[1].unit_weight", "supports[0]", "joints", "live[0].direction[2]")
+    assert [problem.split(": ")[1] for problem in caught.value.problems] == list(places)
+    document = find("blocks", 1, "box", "size", to=[1, 1, 0])
+    document["supports"], document["joints"]["dry"]["friction"] = ["sky"], -1
+    document["live"][0]["direction"] = [0, 0, 0]
+    with open(file, "w") as stream:
+        json.dump(document, stream)
+    with pytest.raises(lb.ModelError) as caught:
+        lb.read(file)
+    assert len(caught.value.problems) == 4
+
+
+def test_missing_file_directory_and_pipe(tmp_path):
+    for name, said in (("none.json", "No such file"), (".", "not a file"), ("a\0b", "cannot be read")):
+        with pytest.raises(lb.ModelError, match=said):
+            lb.read(tmp_path / name)
+    if hasattr(os, "mkfifo"):
+        os.mkfifo(tmp_path / "pipe")
+        with pytest.raises(lb.ModelError, match="not a file"):
+            lb.read(tmp_path / "pipe")
+
+
+def test_too_large_a_file_is_refused(tmp_path):
+    file = tmp_path / "large.json"
+    with file.open("wb") as stream:
+        stream.truncate(2 * strict_json.LARGEST_FILE)  # sparse: takes no space
+    with pytest.raises(lb.ModelError, match="larger than 100 MB"):
+        lb.read(file)
+
+
+VALUES = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from([0.0, -1.0, 1e-300, 1e29, 1e308, [], {}, [[]], "", "left", "ground", "dry", "type"]),
+    st.text(max_size=8),
+    st.lists(st.floats(-2, 2), max_size=4),
+)
+
+
+def places(part, path=()):
+    """Paths to every value in a document."""
+    items = part.items() if isinstance(part, dict) else enumerate(part) if isinstance(part, list) else ()
+    for key, value in items:
+        yield (*path, key)
+        yield from places(value, (*path, key))
+
+
+def outcome(file):
+    """The model in `file`, or our error; any other exception fails the test."""
+    try:
+        return lb.read(file)
+    except lb.LimitBlocksError as error:
+        return error
+
+
+MUTATIONS = [(document, path) for document in (GOOD, EXPLICIT) for path in places(document)]
+
+
+@given(st.sampled_from(MUTATIONS), VALUES | st.just(...), st.data())
+def test_only_our_errors_come_out_of_mutated_documents(tmp_path_factory, mutation, value, data):
+    document, path = mutation
+    document = changed(document, *path, to=value)
+    if data.draw(st.booleans()) and isinstance(value, dict):
+        document = changed(document, *path, data.draw(st.text(max_size=3)), to=data.draw(VALUES))
+    file = tmp_path_factory.mktemp("fuzz") / "model.json"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    read = outcome(file)
+    if isinstance(read, lb.LimitBlocksError):
+        assert all(str(file) in problem for problem in read.problems)
+        assert "\n" not in str(read)
+    else:
+        assert lb.read(read.save(file, overwrite=True)).digest == read.digest
+
+
+@given(st.data())
+def test_only_our_errors_come_out_of_broken_text(tmp_path_factory, data):
+    text = bytearray(json.dumps(GOOD).encode())
+    for _ in range(data.draw(st.integers(1, 4))):
+        text[data.draw(st.integers(0, len(text) - 1))] = data.draw(st.integers(0, 255))
+    file = tmp_path_factory.mktemp("fuzz") / "model.json"
+    file.write_bytes(text[: data.draw(st.integers(0, len(text)))] if data.draw(st.booleans()) else text)
+    assert "\n" not in str(outcome(file))

@@ -1,0 +1,240 @@
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.report import painter, picture
+from limitblocks.report.facts import facts
+
+
+def portal(name="lintel", joint=None):
+    blocks = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
+        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
+        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, joint or lb.OrdunaLourenco(0.6))
+    return lb.Model(
+        blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)), f"Portal {name}"
+    )
+
+
+def grid(across, up, slide):
+    """Boxes stacked in columns on a base, with displacement rates that slide every block."""
+    blocks = [lb.Block.box("base", (across + 2, 3, 1), (across / 2, 0, -0.5))]
+    blocks += [
+        lb.Block.box(f"b{i}.{k}", (1, 1, 1), (i + 0.5, 0, k + 0.5), 1e3)
+        for i in range(across)
+        for k in range(up)
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
+    model = lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    rates = np.zeros((len(blocks), 6))
+    rates[1:, 0] = slide
+    return model, rates
+
+
+class Checked(HTMLParser):
+    """Gathers text, tags and open elements."""
+
+    VOID = frozenset({"meta", "path", "line", "circle"})
+
+    def __init__(self, html):
+        super().__init__()
+        self.tags, self.open, self.text = [], [], ""
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+@pytest.fixture(scope="module")
+def model():
+    return portal()
+
+
+@pytest.fixture(scope="module")
+def bounds(model):
+    return lb.bounds(model)
+
+
+@pytest.fixture(scope="module")
+def html(model, bounds):
+    return lb.report(model, bounds).html
+
+
+def test_report_says_what_an_engineer_files(html, model, bounds):
+    page = Checked(html)
+    assert page.open == []
+    text = " ".join(page.text.split())
+    for part in (
+        "Portal lintel",
+        f"{bounds.lower:#.4g}",
+        f"{bounds.upper:#.7g}",
+        f"{bounds.gap:.1e}",
+        "64 kN",
+        "friction=0.6",
+        "8.2 %",
+        "Real joints dilate less",
+        model.digest,
+        lb.__version__,
+        np.__version__,
+        *(entry.meaning for entry in bounds.residuals.entries),
+    ):
+        assert part in text
+    assert text.count("✓ pass") == len(bounds.residuals.entries)
+
+
+def test_report_refers_to_nothing_outside(html):
+    assert set(re.findall(r"https?://[^\"'<\s]+", html)) == {"http://www.w3.org/2000/svg"}
+    assert not re.search(r"\b(src|href|style)=|@import|url\(|<script|<link|\bon\w+=", html)
+    assert "default-src 'none'" in html
+
+
+def test_content_security_policy_lets_the_style_pass(html):
+    import base64
+    import hashlib
+
+    (style,) = re.findall(r"<style>(.*?)</style>", html, flags=re.DOTALL)
+    digest = base64.b64encode(hashlib.sha256(style.encode()).digest()).decode()
+    assert f"style-src 'sha256-{digest}'" in html
+
+
+def test_report_can_be_read_aloud(html):
+    page = Checked(html)
+    attributes = dict(page.tags)
+    assert attributes["html"]["lang"] == "en"
+    labels = attributes["svg"]["aria-labelledby"].split()
+    assert {attrs.get("id") for tag, attrs in page.tags if tag in ("title", "desc")} >= set(labels)
+    assert all("scope" in attrs for tag, attrs in page.tags if tag == "th")
+    assert [tag for tag, _ in page.tags].count("h1") == 1
+
+
+def test_failed_residual_is_told_apart(model, bounds):
+    from dataclasses import replace
+
+    html = lb.report(model, replace(bounds, tolerance=1e-20)).html
+    assert "✗ fail" in html
+    assert "looser than the usual" in lb.report(model, replace(bounds, tolerance=1e-3)).html
+
+
+def test_names_are_escaped():
+    model = portal('<script>alert("1")</script>&')
+    html = lb.report(model, lb.bounds(model)).html
+    assert "<script" not in html
+    assert "&lt;script&gt;" in html
+    assert Checked(html).open == []
+
+
+def test_report_without_results_describes_the_model(model):
+    html = lb.report(model).html
+    assert "64 kN" in html
+    assert "<svg" not in html
+
+
+def test_json_holds_the_same_content(model, bounds):
+    import json
+
+    content = json.loads(lb.report(model, bounds).json)
+    assert content["model"]["digest"] == model.digest
+    assert content["results"][0]["lower"] == bounds.lower
+    assert content["assumptions"]["OrdunaLourenco"]
+
+
+def test_two_thousand_blocks_stay_under_three_megabytes():
+    model, rates = grid(50, 40, 1.0)
+    drawing = picture.mechanism_picture(model, rates)
+    paths = [
+        face.path for layer in (drawing.blocks, drawing.ghosts) for block in layer for face in block.faces
+    ]
+    assert len(drawing.blocks) == 2001
+    assert sum(len(path) + 40 for path in paths) + 60 * len(drawing.blocks) < 2_500_000
+
+
+def test_save_replaces_only_our_own_files(model, bounds, tmp_path):
+    report, file = lb.report(model, bounds), tmp_path / "report.html"
+    assert report.save(file) == file
+    assert report.save(str(file)) == file
+    with pytest.raises(lb.LimitBlocksError, match="exists"):
+        report.save(file, overwrite=False)
+    file.write_text("<html>my own page about limitblocks</html>")
+    with pytest.raises(lb.LimitBlocksError, match="not written by limitblocks"):
+        report.save(file)
+    assert "my own page" in file.read_text()
+    report.save(file, overwrite=True)
+    assert file.read_text(encoding="utf-8") == report.html
+    with pytest.raises(lb.LimitBlocksError, match="cannot write"):
+        report.save(tmp_path / "none" / "report.html")
+
+
+def test_unknown_results_and_results_of_other_models_are_refused(model, bounds):
+    with pytest.raises(lb.LimitBlocksError, match="cannot show str; expected a result: Bounds"):
+        lb.report(model, bounds, "bounds")
+    with pytest.raises(lb.LimitBlocksError, match="another model"):
+        lb.report(portal("beam"), bounds)
+
+
+def test_blocks_that_nearly_touch_are_warned_of():
+    blocks = [
+        lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("left", (1, 1, 1), (-0.502, 0, 0.5), 1e3),
+        lb.Block.box("right", (1, 1, 1), (0.502, 0, 0.5), 1e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
+    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    (warning,) = facts(model)["warnings"]
+    assert "left|right" in warning
+    assert facts(portal())["warnings"] == []
+
+
+@pytest.mark.parametrize("slide", [0.0, 1.0])
+def test_nearer_blocks_are_drawn_later(slide):
+    model, rates = grid(4, 3, slide)
+    order = [block.name for block in picture.mechanism_picture(model, rates).blocks]
+    assert order[0] == "base"  # its top is larger and its middle nearer than most blocks, yet all stand on it
+    for i in range(4):
+        column = [order.index(f"b{i}.{k}") for k in range(3)]
+        assert column == sorted(column)  # seen from above
+    for k in range(3):
+        course = [order.index(f"b{i}.{k}") for i in range(4)]
+        assert course == sorted(course)  # seen from the right
+
+
+def test_painting_order_survives_blocks_in_a_ring():
+    # three bars, each on the next: no order is right, but all must be drawn
+    sizes = (3, 0.2, 0.2), (0.2, 3, 0.2), (0.2, 0.2, 3)
+    blocks = [lb.Block.box(str(k), size, np.roll((0.5, 0.0, -0.5), k)) for k, size in enumerate(sizes)]
+    faces = [painter.placed(block.vertices, block.faces) for block in blocks]
+    assert sorted(painter.painting_order(faces, np.ones(3) / np.sqrt(3))) == [0, 1, 2]
+
+
+def test_picture_shows_what_moves_and_how_far():
+    model, rates = grid(2, 2, 0.0)
+    rates[4, 0] = 7.0
+    drawing = picture.mechanism_picture(model, rates)
+    kinds = {block.name: block.kind for block in drawing.blocks}
+    assert kinds == {"base": "support", "b0.0": "still", "b0.1": "still", "b1.0": "still", "b1.1": "moving"}
+    assert drawing.largest == "b1.1"
+    assert [ghost.name for ghost in drawing.ghosts] == ["b1.1"]
+    assert drawing.magnification * 7.0 == pytest.approx(0.08 * np.linalg.norm((4, 3, 3)))
+    assert all(len(block.faces) == 3 for block in drawing.blocks)  # of a box
+    numbers = [
+        float(n) for block in drawing.blocks for f in block.faces for n in re.findall(r"-?[\d.]+", f.path)
+    ]
+    assert min(numbers) >= 0.0
+    assert max(numbers) <= max(1000.0, drawing.height)
