@@ -1,7 +1,8 @@
 """Facade with a door, a window and two return walls, pushed out of plane: how strong, and how does it fail?
 
-The facade is 6.4 m x 4.4 m, of stones 0.8 m x 0.4 m x 0.4 m in running bond; its quoins alternate with those of the
-return walls. The load factor is the horizontal acceleration, over g, at which it starts to move outwards.
+The facade is 6.4 m x 4.4 m, of stones 0.8 m x 0.4 m x 0.4 m in running bond; its quoins alternate with
+those of the return walls. The load factor is the horizontal acceleration, over g, at which it starts to
+move outwards.
 """
 
 from pathlib import Path

@@ -16,7 +16,15 @@ from limitblocks.errors import (
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
 from limitblocks.io import model_schema, read
-from limitblocks.joints import Joint, OrdunaLourenco, PointContact, YieldRows
+from limitblocks.joints import (
+    ExactTorsion,
+    Joint,
+    OrdunaLourenco,
+    PointContact,
+    YieldRows,
+    effective_strength,
+    interface,
+)
 from limitblocks.mechanics import Load, force, mass_proportional, moment, self_weight
 from limitblocks.model import Model
 from limitblocks.report import Report, report
@@ -27,6 +35,7 @@ __all__ = [
     "Block",
     "Bounds",
     "CheckFailed",
+    "ExactTorsion",
     "GeometryError",
     "Interface",
     "Joint",
@@ -45,8 +54,10 @@ __all__ = [
     "UnlimitedLoad",
     "YieldRows",
     "bounds",
+    "effective_strength",
     "find_interfaces",
     "force",
+    "interface",
     "mass_proportional",
     "model_schema",
     "moment",

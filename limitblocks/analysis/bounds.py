@@ -50,11 +50,11 @@ class Bounds:
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface at the lower bound, local axes, N and N m; N <= 0.
     generalised_stresses : Array, shape (s,)
-        What the joints' rows act on: for OrdunaLourenco the stress resultants, for PointContact the forces of the
-        points, in the order of the limit problem, dimensionless.
+        What the joints' rows act on: for OrdunaLourenco the stress resultants, for PointContact the forces of
+        the points, in the order of the limit problem, dimensionless.
     displacement_rates : Array, shape (n, 6)
-        Mechanism of the upper bound: (du, dv, dw, dwX, dwY, dwZ) of each block of the model at its centroid, global
-        axes, such that the live load does the work 1 N m, Eq. (55); zero for supports.
+        Mechanism of the upper bound: (du, dv, dw, dwX, dwY, dwZ) of each block of the model at its centroid,
+        global axes, such that the live load does the work 1 N m, Eq. (55); zero for supports.
     flow_multipliers : Array, shape (R,)
         Flow multiplier of each row of the limit problem, dimensionless.
     residuals : Residuals
@@ -174,14 +174,21 @@ def _solved(problem: LimitProblem, tolerance: float) -> tuple[Solution, Solution
     for static, kinematic in zip(*(attempts(program, conic) for program in programs), strict=True):
         for found, kept, evidence in (
             (static, statics, static_residuals(problem, float(static.values[0]), static.values[1])),
-            (kinematic, kinematics, kinematic_residuals(problem, _power(problem, kinematic), *kinematic.values)),
+            (
+                kinematic,
+                kinematics,
+                kinematic_residuals(problem, _power(problem, kinematic), *kinematic.values),
+            ),
         ):
             worst = Residuals(evidence).worst
             said.append(f"{found.solver} {found.status}, {worst.name} residual {worst.value:.1e}")
             if worst.value <= tolerance:
                 kept.append(found)
         if statics and kinematics:
-            pair = max(statics, key=lambda s: float(s.values[0])), min(kinematics, key=partial(_power, problem))
+            pair = (
+                max(statics, key=lambda s: float(s.values[0])),
+                min(kinematics, key=partial(_power, problem)),
+            )
             gap = relative_gap(float(pair[0].values[0]), _power(problem, pair[1]))
             if gap <= tolerance:
                 return pair
@@ -205,8 +212,8 @@ def explain(problem: LimitProblem) -> None:
         unbalanced = np.abs(problem.C.T @ x - problem.live).max()
         if unbalanced < CERTIFIED and problem.cones.margin(problem.F @ x).min() > -CERTIFIED:
             raise UnlimitedLoad(
-                "the live load can grow without limit: a stress state within the yield surface balances it alone; "
-                "check its direction, or use the non-associated analysis"
+                "the live load can grow without limit: a stress state within the yield surface balances it "
+                "alone; check its direction, or use the non-associated analysis"
             )
 
 
@@ -218,6 +225,10 @@ def refuse_falling(problem: LimitProblem) -> None:
         surplus = problem.dead @ u - problem.g @ y
         if abs(surplus) <= FALLING:
             return
-        if np.abs(flow).max() < CERTIFIED and problem.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
+        if (
+            np.abs(flow).max() < CERTIFIED
+            and problem.cones.margin(y).min() > -CERTIFIED
+            and surplus > FALLING
+        ):
             speed = np.abs(u).reshape(-1, 6).max(axis=1)
             raise NoEquilibrium(tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist()))

@@ -103,7 +103,8 @@ def checked_choice(word: str, choice: str, choices: tuple[str, ...]) -> None:
         raise ModelError(f"{word} is {choice!r}, expected one of {', '.join(map(repr, choices))}")
 
 
-def checked_count(word: str, count: int, least: int) -> None:
+def checked_count(word: str, count: object, least: int) -> None:
     """Raise ModelError unless `count` is a whole number of at least `least`."""
-    if not (isinstance(count, int | np.integer) and not isinstance(count, bool) and count >= least):
+    whole = isinstance(count, int | np.integer) and not isinstance(count, bool)
+    if not (whole and count >= least):  # type: ignore[operator] # whole
         raise ModelError(f"{word} is {count!r}, expected a whole number of at least {least}")

@@ -63,8 +63,8 @@ class OrdunaLourenco(Queries):
         Sides of the inner or outer polygon, at least 3; too weak by up to 1 - cos(pi/sides), or too strong
         by up to 1/cos(pi/sides) - 1.
     cohesion, tensile_strength : float
-        Pa; mu |N| becomes mu |N| + A cohesion in Eqs (23)-(30), and hinging needs N = A tensile_strength more.
-        With friction, tension is limited to A cohesion / mu, too.
+        Pa; mu |N| becomes mu |N| + A cohesion in Eqs (23)-(30), and N becomes N - A tensile_strength in
+        hinging. With friction, tension is limited to A cohesion / mu, too.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def equivalent_half_sides(polygons: Array) -> Array:
         l1 = (x1[..., 0] + x1[..., 1] - x1[..., 2] - x1[..., 3]) / 4
         l2 = (x2[..., 1] + x2[..., 2] - x2[..., 0] - x2[..., 3]) / 4
         first = np.minimum(l1, l2).argmax(axis=0)
-        return np.stack([l1, l2], axis=-1)[first, np.arange(len(polygons))]
+        return np.asarray(np.stack([l1, l2], axis=-1)[first, np.arange(len(polygons))])
     second = second_moments(polygons)  # columns: integrals of x1^2, x2^2, x1 x2
     return np.sqrt(3.0 * second[:, :2] / areas(polygons)[:, None])
 

@@ -120,8 +120,6 @@ def stacked(groups: Sequence[Rows], reach: Array, friction: float, shear: bool =
             if group.size
             for _ in range(count // group.size)
         ),
-        modes=tuple(
-            group.mode for count, group in zip(counts, groups, strict=True) for _ in range(count)
-        ),
+        modes=tuple(group.mode for count, group in zip(counts, groups, strict=True) for _ in range(count)),
         friction=friction,
     )

@@ -66,7 +66,9 @@ def arch(
         prism(f"voussoir {k + 1}", (inner[k], inner[k + 1], outer[k + 1], outer[k]), depth, unit_weight)
         for k in range(voussoirs)
     ]
-    below = thickness * np.array([-np.cos(embrace / 2), -np.sin(embrace / 2)])  # tangent at the left springing
+    below = thickness * np.array(
+        [-np.cos(embrace / 2), -np.sin(embrace / 2)]
+    )  # tangent at the left springing
     left = [outer[0] + below, inner[0] + below, inner[0], outer[0]]
     right = np.array(left[::-1]) * (-1.0, 1.0)
     supports = [prism("left support", left, depth), prism("right support", right, depth)]

@@ -73,7 +73,9 @@ class Bond(NamedTuple):
         """Where the bond of a course is interrupted: by openings, and by the lintels of numbered openings."""
         holes, lintels = [], {}
         for number, opening in enumerate(openings):
-            sill, head = (round(z / self.course_height) for z in (opening.sill, opening.sill + opening.height))
+            sill, head = (
+                round(z / self.course_height) for z in (opening.sill, opening.sill + opening.height)
+            )
             left, right = opening.left, opening.left + opening.width
             if sill <= course < head:
                 holes.append((left, right))
@@ -84,14 +86,12 @@ class Bond(NamedTuple):
     def _joints(
         self, start: float, end: float, offset: float, taken: Sequence[tuple[float, float]]
     ) -> list[tuple[float, float]]:
-        """Spans between head joints at offset + k block lengths, from start to end, outside the taken spans."""
+        """Spans between head joints at offset + k block lengths, from start to end, outside `taken`."""
         grid = offset + self.block_length * np.arange(-1, round(end / self.block_length) + 2)
         edges = np.sort([start, end, *grid[(grid > start) & (grid < end)], *np.ravel(list(taken))])
         spans = zip(edges.tolist(), edges[1:].tolist(), strict=False)
         least = SAME * self.block_length
-        return [
-            (a, b) for a, b in spans if b - a > least and not any(c < (a + b) / 2 < d for c, d in taken)
-        ]
+        return [(a, b) for a, b in spans if b - a > least and not any(c < (a + b) / 2 < d for c, d in taken)]
 
     def _opening_problems(self, opening: Opening) -> list[str]:
         half, height = self.block_length / 2, self.course_height

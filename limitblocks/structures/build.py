@@ -33,7 +33,7 @@ def model_of(
 
 
 def prism(name: str, outline: npt.ArrayLike, depth: float, unit_weight: float | None = None) -> Block:
-    """Prism along Y, centred on y = 0, of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
+    """Prism along Y about y = 0 of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
     points = np.asarray(outline, dtype=float)
     n = len(points)
     x, z = np.tile(points, (2, 1)).T

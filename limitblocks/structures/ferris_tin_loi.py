@@ -32,7 +32,7 @@ def _with_openings(
     return [even, uneven, even, *middle, even, uneven, even]
 
 
-COURSES = {
+COURSES: dict[int, list[Sequence[float]]] = {
     1: [_HALVES, _FULL] * 3,
     2: [_HALVES, _FULL] * 5,
     3: _with_openings(_EVEN_3, _UNEVEN_3, _OPEN_EVEN_3, _OPEN_UNEVEN_3),
@@ -50,8 +50,8 @@ def ferris_tin_loi_wall(
 ) -> Model:
     """Return wall 1, 2, 3 or 4 of Ferris & Tin-Loi (2001) on a rigid base, in the plane X, Z.
 
-    Blocks of 0.4 m x 0.175 m and half blocks; the source has friction 0.65 everywhere. Associated load factors
-    along X: 0.64286, 0.58000, 0.40369, 0.33195.
+    Blocks of 0.4 m x 0.175 m and half blocks; the source has friction 0.65 everywhere. Associated load
+    factors along X: 0.64286, 0.58000, 0.40369, 0.33195.
 
     Parameters
     ----------

@@ -28,7 +28,7 @@ def block(
     unit_weight: float = UNIT_WEIGHT,
     direction: Sequence[float] = HORIZONTAL,
 ) -> Model:
-    """Return a single block on a base; under its own weight along X its load factor is min(mu, width / height).
+    """Return a single block on a base; its load factor along X is min(mu, width / height).
 
     Parameters
     ----------
@@ -86,11 +86,12 @@ def overhang(
     unit_weight: float = UNIT_WEIGHT,
     direction: Sequence[float] = HORIZONTAL,
 ) -> Model:
-    """Return the harmonic stack: block i from the top projects by `fraction` length / (2 i) in X over the next.
+    """Return the harmonic stack: block i from the top projects in X by `fraction` length / (2 i).
 
-    At fraction one, the top projects by (length / 2) (1 + 1/2 + ... + 1/count) over the edge of the table and the
-    stack is about to fall. Below one its load factor along X is min(mu, (1 - fraction) length / (count height)):
-    the centroid of the k top blocks is (1 - fraction) length / 2 inside the edge of the block below them.
+    At fraction one, the top projects by (length / 2) (1 + 1/2 + ... + 1/count) over the edge of the table
+    and the stack is about to fall. Below one its load factor along X is
+    min(mu, (1 - fraction) length / (count height)): the centroid of the k top blocks is
+    (1 - fraction) length / 2 inside the edge of the block below them.
 
     Parameters
     ----------
@@ -120,7 +121,7 @@ def _stack(
     direction: Sequence[float],
     name: str,
 ) -> Model:
-    """Equal blocks on one another, their left edges at `offsets` along X; the table ends where an unshifted block would."""
+    """Equal blocks, their left edges at `offsets` along X, on a table as long as a block at offset zero."""
     length, depth, height = size
     y = (-depth / 2, depth / 2)
     blocks = [

@@ -43,8 +43,8 @@ def wall(
     block_length, block_height, thickness : float
         Dimensions of a block along X, Z and Y, m.
     openings : sequence of Opening
-        (left, sill, width, height) in m, from the lower left corner, on the grid of half blocks and courses. Each
-        is bridged by a lintel one course high that bears on half a block at either side.
+        (left, sill, width, height) in m, from the lower left corner, on the grid of half blocks and courses.
+        Each is bridged by a lintel one course high that bears on half a block at either side.
     unit_weight : float
         N/m3.
     direction : sequence of float
@@ -75,7 +75,7 @@ def facade(
 ) -> Model:
     """Return a facade with a door, a window and two return walls, interlocked at the corners.
 
-    The facade stands on X from 0 to `length`, its outer face at y = 0; the return walls run along Y. All walls are
+    The facade stands on X from 0 to `length`, its outer face at y = 0; the return walls run along Y. All are
     half a block thick, so that the quoins belong to the facade and to the return wall in turn, course by
     course, and each bears half on the other wall. Default: stones of 0.8 m x 0.4 m x 0.4 m, 6.4 m x 4.4 m.
 
@@ -94,7 +94,7 @@ def facade(
     unit_weight : float
         N/m3.
     direction : sequence of float
-        Direction of the live load, which is the weight; default: the facade is pushed out, away from the returns.
+        Direction of the live load, which is the weight; default: outwards, away from the return walls.
     """
     _refuse_dimensions(
         courses, block_length, length=length, return_length=return_length, block_height=block_height

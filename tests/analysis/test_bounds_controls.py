@@ -164,9 +164,7 @@ def test_a_wrong_answer_of_the_first_solver_is_passed_over(monkeypatch):
     expected = lb.bounds(model)
     honest, spoilt = programs._solve, wrong(lambda v: 1.01 * v)
     first = programs.SOLVERS[0]
-    monkeypatch.setattr(
-        programs, "_solve", lambda program, s: (spoilt if s is first else honest)(program, s)
-    )
+    monkeypatch.setattr(programs, "_solve", lambda program, s: (spoilt if s is first else honest)(program, s))
     assert lb.bounds(model).lower == pytest.approx(expected.lower, rel=1e-6)
 
 

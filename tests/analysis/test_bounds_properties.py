@@ -1,6 +1,7 @@
 """What the bounds must satisfy whatever the structure: invariance, monotony, virtual work, equilibrium."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -29,7 +30,10 @@ def reference(request):
     return model, lb.bounds(model)
 
 
-def rebuilt(model, blocks, turn=np.eye(3)):
+STILL = np.eye(3)
+
+
+def rebuilt(model, blocks, turn=STILL):
     """`model` with other blocks: interfaces are found again and the loads turned."""
 
     def turned(load):
@@ -77,7 +81,9 @@ def test_order_of_the_blocks(reference, seed):
     assert_same(lb.bounds(rebuilt(model, [model.blocks[k] for k in order])), expected)
 
 
-@pytest.mark.parametrize(("length", "force"), [(1e3, 1e-3), (1e-3, 1e-6), (1e3, 1.0)], ids=["kN mm", "MN km", "N mm"])
+@pytest.mark.parametrize(
+    ("length", "force"), [(1e3, 1e-3), (1e-3, 1e-6), (1e3, 1.0)], ids=["kN mm", "MN km", "N mm"]
+)
 def test_units(reference, length, force):
     model, expected = reference
     blocks = [
@@ -101,10 +107,12 @@ def test_load_factor_is_inverse_to_the_live_load(reference):
 @pytest.mark.parametrize("joint_type", [lb.OrdunaLourenco, lb.PointContact])
 def test_monotone_in_friction(joint_type):
     found = [
-        lb.bounds(structures.facade(joint_type(mu), length=2.4, courses=3, return_length=1.2, openings=[])).lower
+        lb.bounds(
+            structures.facade(joint_type(mu), length=2.4, courses=3, return_length=1.2, openings=[])
+        ).lower
         for mu in (0.0, 0.1, 0.3, 0.5, 0.8)
     ]
-    assert all(low <= high + 1e-6 for low, high in zip(found, found[1:], strict=False))
+    assert all(low <= high + 1e-6 for low, high in pairwise(found))
     assert found[0] == pytest.approx(0.0, abs=1e-6)
     assert found[-1] > found[1]
 

@@ -21,7 +21,8 @@ def supported_interfaces(model):
 
 
 @pytest.mark.parametrize(
-    ("number", "blocks", "interfaces", "on_base"), [(1, 33, 83, 6), (2, 55, 141, 6), (3, 46, 102, 4), (4, 55, 116, 6)]
+    ("number", "blocks", "interfaces", "on_base"),
+    [(1, 33, 83, 6), (2, 55, 141, 6), (3, 46, 102, 4), (4, 55, 116, 6)],
 )
 def test_ferris_tin_loi_counts(number, blocks, interfaces, on_base):
     """Blocks and interfaces of the source, which counts the interfaces with the base, not the base."""
@@ -89,7 +90,9 @@ def test_facade_is_interlocked_with_its_returns():
     stone, returns = 0.8, 0.4 * (3.2 - 0.4) * 4.4
     openings = 1.2 * 2.4 + 1.2 * 1.2
     assert volume(model) == pytest.approx(0.4 * (6.4 * 4.4 - openings) + 2 * returns)
-    assert all(np.ptp(block.vertices[:, :2], axis=0).min() == pytest.approx(0.4) for block in model.free_blocks)
+    assert all(
+        np.ptp(block.vertices[:, :2], axis=0).min() == pytest.approx(0.4) for block in model.free_blocks
+    )
     for side in ("left", "right"):
         bearing = [
             i for i in model.interfaces
@@ -97,7 +100,9 @@ def test_facade_is_interlocked_with_its_returns():
         ]  # fmt: skip
         # between every two courses the quoin of one wall bears on half a stone of the other
         assert len(bearing) == 11 - 1
-        assert [lb.geometry.polygon.areas(i.polygon) for i in bearing] == pytest.approx([0.4 * stone / 2] * 10)
+        assert [lb.geometry.polygon.areas(i.polygon) for i in bearing] == pytest.approx(
+            [0.4 * stone / 2] * 10
+        )
         quoins = [b for b in model.free_blocks if b.name.startswith(side) and b.vertices[:, 1].min() < 0.01]
         assert len(quoins) == 11 // 2
 
@@ -138,7 +143,10 @@ def test_arch_geometry():
 @pytest.mark.parametrize("embrace", [2 * np.pi / 3, np.radians(157.5), np.pi])
 def test_arch_is_symmetrical(embrace):
     model = structures.arch(JOINT, radius=5.0, thickness=0.9, voussoirs=8, embrace=embrace)
-    left, right = lb.bounds(model).lower, lb.bounds(replace(model, live=lb.mass_proportional((-1, 0, 0)))).lower
+    left, right = (
+        lb.bounds(model).lower,
+        lb.bounds(replace(model, live=lb.mass_proportional((-1, 0, 0)))).lower,
+    )
     assert left == pytest.approx(right, rel=1e-6)
 
 

@@ -16,8 +16,8 @@ JOINT_TYPES = [lb.OrdunaLourenco, lb.PointContact]
 def crown_force(model):
     """Load factor of a force on the keystone; one where the arch just stands under its dead load alone.
 
-    The dead load is taken as lifted by the same force. The force works on the symmetrical mechanism of the dead
-    load, so that the load factor passes one at the least thickness with a finite slope.
+    The dead load is taken as lifted by the same force. The force works on the symmetrical mechanism of the
+    dead load, so that the load factor passes one at the least thickness with a finite slope.
     """
     keystone = model.free_blocks[len(model.free_blocks) // 2]
     weight = 0.02 * sum(block.weight for block in model.free_blocks)
@@ -66,6 +66,28 @@ def test_least_thickness_with_weights_on_the_centreline(friction, expected):
         lb.PointContact(friction), 201, 0.97 * expected, 1.03 * expected, lumped_on_the_centreline
     )
     assert found == pytest.approx(expected, rel=2e-4)  # 201 voussoirs are not infinitely many
+
+
+def test_thrust_and_haunch_hinge_of_the_thinnest_arch():
+    """Cocchetti & Rizzi (2020), Table 3: thrust 0.621772 gamma t d R, hinge 54.50 deg from the crown."""
+    n = 201
+    model = lumped_on_the_centreline(
+        structures.arch(lb.PointContact(0.7), radius=RADIUS, thickness=0.10743 * RADIUS, voussoirs=n)
+    )
+    weight_per_angle = sum(block.weight for block in model.free_blocks) / np.pi
+    keystone = model.free_blocks[n // 2]
+    push = lb.force(keystone.name, (0, 0, -0.02 * np.pi * weight_per_angle), at=keystone.centroid)
+    found = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
+    assert found.lower == pytest.approx(1.0, abs=0.01)
+    horizontal = [
+        abs(i.axes.T @ Q[:3])[0] for i, Q in zip(model.interfaces, found.stress_resultants, strict=True)
+    ]
+    assert np.array(horizontal) / weight_per_angle == pytest.approx(0.621772, rel=2e-3)
+    spin = {b.name: u[4] for b, u in zip(model.blocks, found.displacement_rates, strict=True)}
+    opening = np.array([abs(spin[i.block_j] - spin[i.block_i]) for i in model.interfaces])
+    angle = np.degrees([np.arctan2(abs(i.centroid[0]), i.centroid[2]) for i in model.interfaces])
+    haunch = (angle > 20) & (angle < 80)
+    assert np.average(angle[haunch], weights=opening[haunch]) == pytest.approx(54.50, abs=180 / n)
 
 
 @pytest.mark.parametrize("joint_type", JOINT_TYPES)

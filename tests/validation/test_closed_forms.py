@@ -121,7 +121,7 @@ def test_block_under_a_ceiling_without_friction_slides_at_once(joint_type):
 
 
 def tilted(model, angle):
-    """`model` with its ground tilted about Y, so that it slopes down towards +X; live load along the slope."""
+    """`model` with its ground tilted about Y, sloping down towards +X; live load along the slope."""
     c, s = np.cos(angle), np.sin(angle)
     turn = np.array([(c, 0, s), (0, 1, 0), (-s, 0, c)])
     blocks = [block.moved(turn, (0, 0, 0)) for block in model.blocks]

@@ -1,0 +1,429 @@
+"""The paper's yield surface: every equation against the rows, flow rules, crushing, relatives of the octagon."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import limitblocks as lb
+from limitblocks.joints.interaction import effective_strength, rectangle_torsion_bending
+from limitblocks.joints.orduna_lourenco import equivalent_half_sides
+from limitblocks.joints.torsion import rectangle_torsion_constant
+
+L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0  # Figs 8(b) and 12
+SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
+RECTANGLE = SQUARE * [L1, L2]
+AREA = 4 * L1 * L2
+C_T = float(rectangle_torsion_constant(L1, L2))
+COMPRESSION = (0, 0, N, 0, 0, 0)
+HEXAGON = np.array([(np.cos(t), 0.6 * np.sin(t)) for t in np.arange(6) * np.pi / 3])
+TRAPEZIUM = np.array([(2.0, -1.0), (0.5, 1.0), (-0.7, 1.0), (-2.0, -1.0)])
+SLIPS = {
+    "paper": lb.OrdunaLourenco(MU),
+    "inner": lb.OrdunaLourenco(MU, slip="inner", sides=12),
+    "outer": lb.OrdunaLourenco(MU, slip="outer", sides=12),
+    "exact": lb.OrdunaLourenco(MU, slip="exact"),
+    "crush": lb.OrdunaLourenco(MU, compressive_strength=2e4),
+    "cones": lb.OrdunaLourenco(MU, slip="exact", compressive_strength=2e4),
+    "bonded": lb.OrdunaLourenco(MU, 2e4, slip="exact", cohesion=3e3, tensile_strength=1e3),
+}
+every_joint = pytest.mark.parametrize("joint", SLIPS.values(), ids=SLIPS)
+
+
+def states(count, seed=0):
+    """Stress resultants of all sizes around the yield surface, under compression."""
+    rng = np.random.default_rng(seed)
+    units = np.array([MU, MU, 0.0, L2, L1, MU * C_T])
+    return rng.uniform(200, 600, (count, 1)) * (rng.normal(size=(count, 6)) * units * 0.5 - [0, 0, 1, 0, 0, 0])
+
+
+def yield_functions(Q, shear=None):
+    """Eqs (23)-(30) and (36) of a rectangle, as printed; the largest of each mode."""
+    V1, V2, n, M1, M2, T = np.asarray(Q).T
+    octagon = np.max([abs(V1), abs(V2), (abs(V1) + abs(V2)) / np.sqrt(2)], axis=0)
+    V = octagon if shear is None else shear(V1, V2)
+    return {
+        "twist": abs(T) / C_T + MU * n,
+        "slip": V + MU * n,
+        "slip-twist": abs(T) / C_T + V + 1.3 * MU * n,
+        "moment-twist": abs(T) / (L1 + L2) + MU / 2 * ((abs(M1) + abs(M2)) / (L1 + L2) + n),
+        "hinge": np.max([abs(M1) / L2 + n, abs(M2) / L1 + n], axis=0),
+    }
+
+
+def rows_by_mode(joint, Q):
+    """-(F Q + g) of planes and ||z|| - t of cones, the largest of each mode, for states Q (k, 6)."""
+    rows = joint.yield_rows(RECTANGLE[None])
+    value = Q @ rows.F[0].T + rows.g[0]
+    found, k = {}, 0
+    for size in (*([1] * rows.linear), *rows.cones):
+        margin = value[:, k] - np.linalg.norm(value[:, k + 1 : k + size], axis=1)
+        found.setdefault(rows.modes[k], []).append(-margin)
+        k += size
+    return {mode: np.max(values, axis=0) for mode, values in found.items()}
+
+
+def test_row_counts():
+    """Reading notes, section 2: 38 on a quadrilateral, 34 and one a side on others."""
+    modes = lb.OrdunaLourenco(MU).yield_rows(RECTANGLE[None]).modes
+    counts = [modes.count(mode) for mode in ("twist", "slip", "slip-twist", "moment-twist", "hinge")]
+    assert (counts, len(modes)) == ([2, 8, 16, 8, 4], 38)
+    assert len(lb.OrdunaLourenco(MU).yield_rows(HEXAGON[None]).modes) == 40
+    for joint, linear, cones in (
+        (SLIPS["inner"], 2 + 12 + 24 + 8 + 4, 0),
+        (SLIPS["exact"], 2 + 8 + 4, 3),
+        (SLIPS["crush"], 34, 4),
+        (SLIPS["cones"], 10, 7),
+        (lb.OrdunaLourenco(0.0), 4, 0),
+        (lb.OrdunaLourenco(0.0, compressive_strength=1e6), 0, 4),
+    ):
+        rows = joint.yield_rows(RECTANGLE[None])
+        assert (rows.linear, rows.cones) == (linear, (3,) * cones)
+        assert len(rows.modes) == rows.F.shape[1] == linear + 3 * cones
+
+
+def test_rows_are_the_printed_equations():
+    Q = states(200)
+    expected = yield_functions(Q)
+    for mode, values in rows_by_mode(lb.OrdunaLourenco(MU), Q).items():
+        np.testing.assert_allclose(values, expected[mode], atol=1e-9, err_msg=mode)
+    expected = yield_functions(Q, np.hypot)
+    for mode, values in rows_by_mode(SLIPS["exact"], Q).items():
+        np.testing.assert_allclose(values, expected[mode], atol=1e-9, err_msg=mode)
+
+
+@pytest.mark.parametrize(
+    ("M1", "M2", "T"), [(L2, 0, MU * L1 / 2), (L2, L1, 0), (0, L1, MU * L2 / 2)], ids=["A", "B", "C"]
+)
+def test_table_4_lies_on_eq_30_and_on_the_surface(M1, M2, T):
+    Q = -N * np.array([(0, 0, -1, a * M1, b * M2, c * T) for a in (1, -1) for b in (1, -1) for c in (1, -1)])
+    found = rows_by_mode(lb.OrdunaLourenco(MU), Q / -N)
+    np.testing.assert_allclose(found["moment-twist"], 0, atol=1e-12)
+    assert max(values.max() for values in found.values()) <= 1e-12
+    interface = lb.interface(RECTANGLE, None)
+    for state in Q:
+        assert "moment-twist" in lb.OrdunaLourenco(MU).active_modes(interface, state)
+        assert lb.OrdunaLourenco(MU).utilisation(interface, state) == pytest.approx(1, abs=1e-12)
+
+
+def test_torsion_strength_of_fig_12():
+    for joint in SLIPS.values():
+        plain = type(joint)(MU, slip=joint.slip, sides=joint.sides)
+        T0 = plain.strength(lb.interface(RECTANGLE, plain), (0, 0, 0, 0, 0, 1), COMPRESSION)
+        assert T0 == pytest.approx(16.26, abs=0.005)
+        assert T0 == pytest.approx(rectangle_torsion_bending(L1, L2, MU, N, 0, 0), rel=1e-13)
+
+
+def test_vertex_order_does_not_matter():
+    """Eqs (31)-(32) presuppose (+,-), (+,+), (-,+), (-,-); other first vertices are turned to it."""
+    for polygon in (RECTANGLE, TRAPEZIUM):
+        for k in range(4):
+            turned = np.roll(polygon, k, axis=0)
+            np.testing.assert_allclose(equivalent_half_sides(turned[None]), equivalent_half_sides(polygon[None]))
+
+
+# ---------------------------------------------------------------------------------------- the circle
+
+
+@pytest.mark.parametrize("sides", [3, 4, 8, 12, 17])
+def test_inner_and_outer_polygons_enclose_the_circle(sides):
+    interface = lb.interface(RECTANGLE, None)
+    inner, outer = (lb.OrdunaLourenco(MU, slip=slip, sides=sides) for slip in ("inner", "outer"))
+    exact = lb.OrdunaLourenco(MU, slip="exact")
+    limit = np.cos(np.pi / sides)
+    ratios = []
+    for angle in np.linspace(0, 2 * np.pi, 97):
+        for T in (0.0, 0.05, -0.05):
+            d = (np.cos(angle), np.sin(angle), 0, 0, 0, T)
+            low, true, high = (j.strength(interface, d, COMPRESSION) for j in (inner, exact, outer))
+            assert low <= true * (1 + 1e-12)
+            assert true <= high * (1 + 1e-12)
+            if T == 0.0:
+                assert true == pytest.approx(-MU * N, rel=1e-13)
+                ratios.append((low / true, true / high))
+    assert min(min(pair) for pair in ratios) >= limit - 1e-12
+    assert np.min(ratios, axis=0)[1] == pytest.approx(limit, abs=0.01)
+    assert ratios[0] == pytest.approx((1, 1), abs=1e-12)  # along V1 both are exact
+
+
+def test_gap_of_the_polygons_falls_as_the_square_of_their_sides():
+    gaps = [1 - np.cos(np.pi / sides) for sides in (8, 16, 32)]
+    interface, found = lb.interface(RECTANGLE, None), []
+    for sides in (8, 16, 32):
+        angle = np.pi / sides
+        d = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
+        joint = lb.OrdunaLourenco(MU, slip="inner", sides=sides)
+        found.append(1 - joint.strength(interface, d, COMPRESSION) / (-MU * N))
+    np.testing.assert_allclose(found, gaps, rtol=1e-9)
+    assert found[0] / found[1] == pytest.approx(4, rel=0.02)
+
+
+def test_paper_octagon_is_too_strong_by_eight_per_cent():
+    interface, angle = lb.interface(RECTANGLE, None), np.pi / 8
+    d = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
+    strength = lb.OrdunaLourenco(MU).strength(interface, d, COMPRESSION)
+    assert strength / (-MU * N) == pytest.approx(1 / np.cos(np.pi / 8), rel=1e-12)
+    assert 1 / np.cos(np.pi / 8) == pytest.approx(1.082, abs=5e-4)
+    outer = lb.OrdunaLourenco(MU, slip="outer")
+    for Q in states(40):
+        assert outer.utilisation(interface, Q) == pytest.approx(lb.OrdunaLourenco(MU).utilisation(interface, Q))
+
+
+# ------------------------------------------------------------------------------------------ the set
+
+
+@every_joint
+def test_the_set_is_convex_and_holds_the_compression_ray(joint):
+    interface = lb.interface(RECTANGLE, joint)
+    surface = []
+    for Q in states(40):
+        held = (0, 0, Q[2], 0, 0, 0)
+        surface.append(held + (Q - held) * joint.strength(interface, Q - held, held))
+    surface = np.array(surface)
+    for Q in (surface[::2] + surface[1::2]) / 2:
+        assert joint.utilisation(interface, Q) <= 1 + 1e-9
+    for force in (1e-6, 1.0, 1e3):
+        assert joint.utilisation(interface, (0, 0, -force, 0, 0, 0)) == 0
+    limit = np.inf if joint.compressive_strength is None else joint.compressive_strength * AREA
+    assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == pytest.approx(limit, rel=1e-9)
+
+
+@every_joint
+def test_scaling_is_exact(joint):
+    """Forces by 8, lengths by 4: stresses by 1/2, moments by 32."""
+    big = lb.interface(4 * RECTANGLE, None)
+    settings = {"slip": joint.slip, "sides": joint.sides, "cohesion": joint.cohesion / 2}
+    if joint.compressive_strength is not None:
+        settings["compressive_strength"] = joint.compressive_strength / 2
+    same = lb.OrdunaLourenco(MU, tensile_strength=joint.tensile_strength / 2, **settings)
+    for Q in states(20):
+        scaled = Q * 8 * np.array([1, 1, 1, 4, 4, 4])
+        assert same.utilisation(big, scaled) == pytest.approx(
+            joint.utilisation(lb.interface(RECTANGLE, None), Q), rel=1e-11
+        )
+
+
+def test_stack_is_the_single_ones_and_the_stress_unit_divides():
+    polygons = np.stack([RECTANGLE, 2 * RECTANGLE, TRAPEZIUM])
+    joint = SLIPS["bonded"]
+    rows = joint.yield_rows(polygons)
+    for k, polygon in enumerate(polygons):
+        np.testing.assert_allclose(rows.F[k], joint.yield_rows(polygon[None]).F[0], rtol=1e-13)
+        np.testing.assert_allclose(rows.g[k], joint.yield_rows(polygon[None]).g[0], rtol=1e-13)
+    weaker = lb.OrdunaLourenco(MU, 2e3, slip="exact", cohesion=3e2, tensile_strength=1e2)
+    for name in ("F", "g"):
+        ours = getattr(joint.yield_rows(polygons, 10.0), name)
+        np.testing.assert_allclose(ours, getattr(weaker.yield_rows(polygons), name), rtol=1e-13)
+
+
+# --------------------------------------------------------------------------------------- flow rules
+
+
+def test_tables_3_and_5_and_hinging():
+    joint, interface = lb.OrdunaLourenco(MU), lb.interface(RECTANGLE, None)
+    Q = np.array([10.0, -20.0, N, 8.0, -12.0, 3.0])
+    flow = joint.flow_directions(interface, Q)
+    modes = np.array(joint.yield_rows(RECTANGLE[None]).modes)
+    half = np.sqrt(0.5)
+    assert flow.shape == (38, 6)
+    expected = {(s, 0) for s in (1, -1)} | {(0, s) for s in (1, -1)}
+    expected |= {(a * half, b * half) for a in (1, -1) for b in (1, -1)}
+    slip, slip_twist = flow[modes == "slip"], flow[modes == "slip-twist"]
+    assert {tuple(v) for v in np.round(slip[:, :2], 12)} == {tuple(np.round(v, 12)) for v in expected}
+    assert not slip[:, 2:].any()
+    assert not slip_twist[:, 2:5].any()
+    np.testing.assert_allclose(abs(slip_twist[:, 5]), 1 / C_T)
+    turning = flow[modes == "moment-twist"]
+    e1, e2 = -Q[4] / N, Q[3] / N
+    per_twist = turning / turning[:, 5:]
+    np.testing.assert_allclose(per_twist, np.tile([e2, -e1, 0, 0, 0, 1], (8, 1)), atol=1e-12)
+    np.testing.assert_allclose(per_twist[:, :2], np.tile([Q[3] / N, Q[4] / N], (8, 1)))  # as printed
+    hinge = flow[modes == "hinge"]
+    np.testing.assert_allclose(np.sort(hinge[:, 3]), [-1 / L2, 0, 0, 1 / L2])
+    np.testing.assert_allclose(hinge[:, 2], 1)
+
+
+def test_point_of_action_without_normal_force_is_bounded():
+    joint, interface = lb.OrdunaLourenco(MU), lb.interface(RECTANGLE, None)
+    for Q in ([0, 0, 0, 5.0, -3.0, 0], [0, 0, -1e-12, 5.0, -3.0, 0], [0, 0, 0, 0, 0, 0], [0, 0, -1, 5.0, 3.0, 0]):
+        flow = joint.flow_directions(interface, Q)
+        turning = flow[26:34] / flow[26:34, 5:]
+        assert (abs(turning[:, :2]) <= [L2 + 1e-12, L1 + 1e-12]).all()
+
+
+@pytest.mark.parametrize("name", ["paper", "exact"])
+def test_associated_flow_is_the_gradient_by_finite_differences(name):
+    joint, interface = SLIPS[name], lb.interface(RECTANGLE, None)
+
+    def functions(Q):
+        values = yield_functions(Q, None if name == "paper" else np.hypot)
+        return np.array([values["slip"], values["slip-twist"], values["moment-twist"]])
+
+    plain = lb.OrdunaLourenco(MU, slip=joint.slip)
+    for Q in states(10):
+        flow = plain.flow_directions(interface, Q, dilatancy=MU)
+        gradient = np.array(
+            [(functions(Q + h) - functions(Q - h)) / (2 * step) for step, h in zip(*_steps(), strict=True)]
+        ).T
+        for row in gradient:  # the active one of each mode is among the rows, up to its length
+            parallel = flow @ row / np.linalg.norm(flow, axis=1) / np.linalg.norm(row)
+            assert parallel.max() == pytest.approx(1, abs=1e-9)
+
+
+def _steps():
+    step = np.array([1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5])
+    return step, np.diag(step)
+
+
+def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
+    f = 2e4
+    joint, interface = lb.OrdunaLourenco(MU, compressive_strength=f), lb.interface(RECTANGLE, None)
+    rows = joint.yield_rows(RECTANGLE[None])
+    c = lb.OrdunaLourenco(MU).yield_rows(RECTANGLE[None]).F[0, -4:] * -1
+
+    def eq_39(Q):
+        return c @ Q + Q[2] ** 2 / (AREA * f)
+
+    for Q in states(10):
+        flow = joint.flow_directions(interface, Q)[-4:]
+        gradient = np.array([(eq_39(Q + h) - eq_39(Q - h)) / (2 * s) for s, h in zip(*_steps(), strict=True)]).T
+        np.testing.assert_allclose(flow, gradient, atol=1e-6)
+        np.testing.assert_allclose(flow[:, 2], 1 + 2 * Q[2] / (AREA * f), rtol=1e-12)
+        np.testing.assert_allclose(joint.flow_directions(interface, Q, MU)[-4:], flow, rtol=1e-12)
+    rng = np.random.default_rng(1)
+    for _ in range(50):  # any y in K* dissipates g.y at least: no state of the set does more work
+        z = rng.normal(size=2)
+        y = np.array([np.linalg.norm(z), *z])
+        dq = -rows.F[0, 34:37].T @ y
+        Q = states(1, rng.integers(1 << 30))[0]
+        if joint.utilisation(interface, Q) <= 1:
+            assert dq @ Q <= rows.g[0, 34:37] @ y + 1e-9
+
+
+def test_dilatancy_is_between_zero_and_friction():
+    joint, interface = lb.OrdunaLourenco(MU), lb.interface(RECTANGLE, None)
+    Q = states(1)[0]
+    none, half, full = (joint.flow_directions(interface, Q, d) for d in (0.0, MU / 2, MU))
+    np.testing.assert_allclose(half, (none + full) / 2, atol=1e-12)
+    np.testing.assert_allclose(full, -joint.yield_rows(RECTANGLE[None]).F[0], atol=1e-12)
+    np.testing.assert_allclose(half[2:10, 2], MU / 2)  # slip opens by the tangent
+    for dilatancy in (-0.1, MU + 0.01, np.nan):
+        with pytest.raises(lb.ModelError, match="dilatancy is .* expected 0 to the friction coefficient 0.7"):
+            joint.flow_directions(interface, Q, dilatancy)
+
+
+def test_zero_friction_carries_normal_force_and_bending_only():
+    interface = lb.interface(RECTANGLE, None)
+    for joint in (lb.OrdunaLourenco(0.0), lb.OrdunaLourenco(0.0, compressive_strength=1e6)):
+        assert joint.strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION) == 0
+        assert joint.utilisation(interface, (1, 0, N, 0, 0, 0)) == np.inf
+        assert joint.flow_directions(interface, COMPRESSION).shape == (4, 6)
+        with pytest.raises(lb.ModelError, match="outside the yield set already"):
+            joint.strength(interface, (0, 0, -1, 0, 0, 0), (1, 0, N, 0, 0, 0))
+    M = lb.OrdunaLourenco(0.0).strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
+    assert M == pytest.approx(-N * L2, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------ crushing
+
+
+@given(share=st.floats(0.0, 1.0), f=st.floats(1e3, 1e9), along=st.sampled_from([(1, 0), (0, 1), (0, -1)]))
+def test_moment_strength_is_the_stress_block(share, f, along):
+    """M = |N| l (1 - |N| / (A fcef)): zero at N = 0 and at N = -A fcef."""
+    joint, interface = lb.OrdunaLourenco(MU, compressive_strength=f), lb.interface(RECTANGLE, None)
+    force = share * f * AREA
+    M = joint.strength(interface, (0, 0, 0, *along, 0), (0, 0, -force, 0, 0, 0))
+    half = L2 if along[0] else L1
+    assert M == pytest.approx(force * half * (1 - share), abs=1e-9 * f * AREA * half)
+
+
+def test_eq_39_becomes_eq_36_as_the_strength_grows():
+    interface = lb.interface(RECTANGLE, None)
+    Q = states(1)[0] * [1, 1, 1, 0.1, 0.1, 0.1]
+    infinite = lb.OrdunaLourenco(MU).strength(interface, (0, 0, 0, 1, 0.4, 0), Q)
+    gaps = np.array(
+        [
+            1 - lb.OrdunaLourenco(MU, f).strength(interface, (0, 0, 0, 1, 0.4, 0), Q) / infinite
+            for f in (1e6, 1e7, 1e8, 1e12)
+        ]
+    )
+    assert (gaps > -1e-12).all()
+    np.testing.assert_allclose(gaps[:-2] / gaps[1:-1], 10, rtol=1e-3)
+    assert abs(gaps[-1]) < 1e-8
+
+
+@pytest.mark.parametrize(("b", "h", "share"), [(0.5, 1.0, 0.1), (0.3, 2.0, 0.4), (1.0, 1.5, 0.01)])
+@pytest.mark.parametrize("friction", [2.0, 0.0])
+def test_block_rocking_with_crushing(b, h, share, friction):
+    """Alpha = (b/h) (1 - W / (A fcef)), through both bounds; without friction by a moment alone."""
+    weight = 20e3 * h  # per area
+    joint = lb.OrdunaLourenco(friction, compressive_strength=weight / share, slip="exact")
+    model = lb.structures.block(joint, width=b, height=h, depth=0.7, unit_weight=20e3)
+    factor = 1.0
+    if friction == 0.0:
+        stone = next(block for block in model.blocks if block.unit_weight)
+        factor = stone.weight * h / 2
+        model = lb.Model(
+            model.blocks, model.supports, model.interfaces, model.dead, lb.moment(stone.name, (0, 1, 0))
+        )
+    bounds = lb.bounds(model)
+    expected = b / h * (1 - share) * factor
+    assert bounds.lower == pytest.approx(expected, rel=1e-6)
+    assert bounds.upper == pytest.approx(expected, rel=1e-6)
+
+
+def test_column_too_heavy_for_its_joint_falls():
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=0.99 * 20e3)
+    with pytest.raises(lb.NoEquilibrium):
+        lb.bounds(lb.structures.block(joint, width=0.5, height=1.0, unit_weight=20e3))
+
+
+def test_effective_strength_is_what_the_joint_takes():
+    f = effective_strength(20e6)
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=f)
+    assert joint.strength(lb.interface(RECTANGLE, joint), (0, 0, -1, 0, 0, 0)) == pytest.approx(12e6 * AREA)
+
+
+# ----------------------------------------------------------------------------- cohesion and tension
+
+
+def test_cohesion_and_tension():
+    c, ft, f = 3e3, 1e3, 2e4
+    joint, interface = SLIPS["bonded"], lb.interface(RECTANGLE, None)
+    V = joint.strength(interface, (0.6, 0.8, 0, 0, 0, 0), COMPRESSION)
+    assert V == pytest.approx(c * AREA - MU * N, rel=1e-12)
+    T = joint.strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION)
+    assert T == pytest.approx(C_T * (c * AREA - MU * N), rel=1e-12)
+    assert joint.strength(interface, (0, 0, 1, 0, 0, 0)) == pytest.approx(ft * AREA, rel=1e-9)
+    assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == pytest.approx(f * AREA, rel=1e-9)
+    # the stress block: compression on the depth that balances N, tension on the rest
+    depth = (ft * AREA - N) / (f + ft) / (2 * L1)
+    M = (f + ft) * 2 * L1 * depth * (L2 - depth / 2)
+    assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(M, rel=1e-12)
+    dry = lb.OrdunaLourenco(MU, tensile_strength=ft)  # friction alone allows no tension
+    assert dry.strength(interface, (0, 0, 1, 0, 0, 0)) == 0
+    sticky = lb.OrdunaLourenco(0.0, cohesion=c)
+    assert sticky.strength(interface, (1, 0, 0, 0, 0, 0), COMPRESSION) == pytest.approx(c * AREA, rel=1e-12)
+
+
+# ------------------------------------------------------------------------------------------ bad input
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"friction": -0.1}, "friction is -0.1"),
+        ({"friction": np.nan}, "friction is nan"),
+        ({"friction": 0.6, "compressive_strength": 0.0}, "compressive strength is 0.0 Pa.*None"),
+        ({"friction": 0.6, "compressive_strength": np.inf}, "compressive strength is inf"),
+        ({"friction": 0.6, "slip": "circle"}, "slip is 'circle', expected one of 'paper', 'inner'"),
+        ({"friction": 0.6, "slip": "inner", "sides": 2}, "sides is 2, expected a whole number of at least 3"),
+        ({"friction": 0.6, "slip": "inner", "sides": 6.5}, "sides is 6.5"),
+        ({"friction": 0.6, "sides": 12}, "sides is 12, but slip='paper' is an octagon"),
+        ({"friction": 0.6, "cohesion": -1.0}, "cohesion is -1.0 Pa, expected a finite stress >= 0"),
+        ({"friction": 0.6, "tensile_strength": np.nan}, "tensile strength is nan"),
+    ],
+)
+def test_bad_settings_are_named(settings, message):
+    with pytest.raises(lb.ModelError, match=message):
+        lb.OrdunaLourenco(**settings)
