@@ -41,11 +41,12 @@ class Claim:
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of the model's interfaces, local axes, N and N m; N <= 0 in compression.
     displacement_rates : Array, shape (n, 6), optional
-        Of all blocks of the model at their centroids, global axes, in any scale; searched for if missing.
+        Of all blocks of the model at their centroids, global axes, m and rad, in the scale in which the live
+        load does the work 1 N m, Eq. (55); searched for if missing.
     flow_multipliers : Array, shape (R,), optional
-        Of the rows of the limit problem, dimensionless, in the scale live . u = 1; searched for if missing.
+        Of the rows of the limit problem, m, in the same scale; searched for if missing.
     generalised_stresses : Array, shape (s,), optional
-        Dimensionless stresses that the rows act on; only needed where a joint has inner forces.
+        Stresses that the rows act on, N and N m; needed where a joint has inner forces (PointContact).
     dilatancy : float
         Tangent of the dilatancy angle of the flow.
     digest : str
@@ -128,7 +129,7 @@ def check_mcp(model: Model, result: Claimed, *, tolerance: float = TOLERANCE) ->
     load_factor = claim.load_factor / problem.scales.load_factor
     x = _stresses(problem, claim)
     u = _rates(model, claim)
-    y = claim.flow_multipliers
+    y = None if claim.flow_multipliers is None else claim.flow_multipliers / problem.scales.work
     found = u is None or y is None
     if found:
         u, y = find_mechanism(problem, x, claim.dilatancy, rates=u)
@@ -184,10 +185,29 @@ def _claim(model: Model, result: Claimed) -> Claim:
 
 def _stresses(problem: LimitProblem, claim: Claim) -> Array:
     """Generalised stresses of the claim, dimensionless."""
+    B = problem.resultants
     resultants = (claim.stress_resultants / problem.scales.resultants).ravel()
     if claim.generalised_stresses is None:
-        return inner_stresses(problem, resultants)
-    off = np.abs(problem.resultants @ claim.generalised_stresses - resultants).max(initial=0.0)
-    if not off <= TOLERANCE * max(1.0, np.abs(resultants).max(initial=0.0)):
+        if B.nnz > B.shape[1]:
+            raise ModelError(
+                "this model has joints with inner forces (point contacts), which the stress resultants do not "
+                "determine: give generalised_stresses too"
+            )
+        return np.asarray(B.T @ resultants)
+    stresses = claim.generalised_stresses / problem.stress_units
+    off = float(np.abs(B @ stresses - resultants).max(initial=0.0))
+    if not off <= TOLERANCE * max(1.0, float(np.abs(resultants).max(initial=0.0))):
         raise ModelError(f"generalised stresses and stress resultants differ by {off:.1e} block weights")
-    return claim.generalised_stresses
+    return np.asarray(stresses)
+
+
+def _rates(model: Model, claim: Claim) -> Array | None:
+    """Dimensionless rates of the free blocks in the scale live . u = 1, if the claim has rates."""
+    if claim.displacement_rates is None:
+        return None
+    moving = dict(zip((block.name for block in model.blocks), claim.displacement_rates, strict=True))
+    for name in model.supports:
+        if np.any(moving[name] != 0.0):
+            raise ModelError(f"displacement rates move the support {name!r}, expected zero")
+    problem = model.problem
+    return np.concatenate([moving[name] for name in problem.blocks]) / problem.rate_units

@@ -46,11 +46,12 @@ SOLVERS = (
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """What a solver claims: its word and the values of the variables; evidence is recomputed elsewhere."""
+    """What a solver claims: its word, the variables' values and the first constraint's dual; no evidence."""
 
     solver: str
     status: str
     values: tuple[Array, ...]
+    dual: Array
 
 
 @dataclass(frozen=True)
@@ -84,8 +85,8 @@ def kinematic_program(problem: LimitProblem) -> Program:
 def falling_program(problem: LimitProblem) -> Program:
     """Mechanism of unit size on which the dead loads do most work beyond the dissipation. Variables: u, y.
 
-    Its value is zero exactly where the dead loads stand; otherwise the blocks that move in it fall
-    (phase one of the static program, by its dual).
+    Its value is zero exactly where the dead loads stand, and then the dual of the first constraint is a
+    stress state that carries them; otherwise the blocks that move in it fall.
     """
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
     flow = problem.C @ u + problem.F.T @ y == 0
@@ -128,8 +129,11 @@ def _solve(program: Program, solver: Solver) -> Solution:
         except (cp.SolverError, ValueError, ArithmeticError) as error:
             status = f"{type(error).__name__}: {error}"
     log.info("%s: %s", solver.name, status)
-    values = tuple(
-        np.full(v.shape, np.nan) if v.value is None else np.asarray(v.value, dtype=float)
-        for v in program.variables
-    )
-    return Solution(solver.name, status, values)
+    first = program.problem.constraints[0]
+    values = tuple(_number(variable.value, variable.shape) for variable in program.variables)
+    return Solution(solver.name, status, values, _number(first.dual_value, first.shape))
+
+
+def _number(value: Array | None, shape: tuple[int, ...]) -> Array:
+    """What a solver left, NaN where it left nothing."""
+    return np.full(shape, np.nan) if value is None else np.asarray(value, dtype=float)

@@ -9,7 +9,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.mechanics import LimitProblem
 
-SMALL_LOAD = 1e-3  # block weights; a load factor below it is compared in these units
+SMALL_LOAD = 0.1  # block weights; a live load below it is compared in these units
 
 
 @dataclass(frozen=True)
@@ -84,5 +84,5 @@ def kinematic_residuals(
 
 
 def relative_gap(lower: float, upper: float) -> float:
-    """Return |upper - lower| over the larger bound, or over a thousandth block weight if both are less."""
+    """Return |upper - lower| over the larger bound, or over a tenth of a block weight if both are less."""
     return abs(upper - lower) / max(abs(lower), abs(upper), SMALL_LOAD)

@@ -116,3 +116,15 @@ class LimitProblem:
     scales: Scales
     blocks: tuple[str, ...]
     interfaces: tuple[str, ...]
+
+    @property
+    def stress_units(self) -> Array:
+        """Units of the generalised stresses, N or N m, shape (s,)."""
+        is_force = abs(self.resultants).T @ np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces)) > 0
+        return self.scales.force * np.where(is_force, 1.0, self.scales.length)
+
+    @property
+    def rate_units(self) -> Array:
+        """Units of the displacement rates (m, rad) in which the live load does the work 1 N m, shape (6 n,)."""
+        unit = self.scales.work * np.repeat([1.0, 1.0 / self.scales.length], 3)
+        return np.tile(unit, len(self.blocks))

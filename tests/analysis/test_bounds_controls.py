@@ -22,9 +22,10 @@ def solved(request):
     problem, found = model.problem, lb.bounds(model)
     scales = problem.scales
     free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
-    rates = found.displacement_rates[free] / (scales.work * np.repeat([1, 1 / scales.length], 3))
+    rates = found.displacement_rates[free].ravel() / problem.rate_units
     lower, upper = found.lower / scales.load_factor, found.upper / scales.load_factor
-    return problem, (lower, found.generalised_stresses, upper, rates.ravel(), found.flow_multipliers)
+    stresses = found.generalised_stresses / problem.stress_units
+    return problem, (lower, stresses, upper, rates, found.flow_multipliers / scales.work)
 
 
 def caught(problem, values):

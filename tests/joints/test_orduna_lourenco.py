@@ -34,7 +34,9 @@ def states(count, seed=0):
     """Stress resultants of all sizes around the yield surface, under compression."""
     rng = np.random.default_rng(seed)
     units = np.array([MU, MU, 0.0, L2, L1, MU * C_T])
-    return rng.uniform(200, 600, (count, 1)) * (rng.normal(size=(count, 6)) * units * 0.5 - [0, 0, 1, 0, 0, 0])
+    return rng.uniform(200, 600, (count, 1)) * (
+        rng.normal(size=(count, 6)) * units * 0.5 - [0, 0, 1, 0, 0, 0]
+    )
 
 
 def yield_functions(Q, shear=None):
@@ -109,9 +111,9 @@ def test_table_4_lies_on_eq_30_and_on_the_surface(M1, M2, T):
 def test_torsion_strength_of_fig_12():
     for joint in SLIPS.values():
         plain = type(joint)(MU, slip=joint.slip, sides=joint.sides)
-        T0 = plain.strength(lb.interface(RECTANGLE, plain), (0, 0, 0, 0, 0, 1), COMPRESSION)
-        assert T0 == pytest.approx(16.26, abs=0.005)
-        assert T0 == pytest.approx(rectangle_torsion_bending(L1, L2, MU, N, 0, 0), rel=1e-13)
+        torsion = plain.strength(lb.interface(RECTANGLE, plain), (0, 0, 0, 0, 0, 1), COMPRESSION)
+        assert torsion == pytest.approx(16.26, abs=0.005)
+        assert torsion == pytest.approx(rectangle_torsion_bending(L1, L2, MU, N, 0, 0), rel=1e-13)
 
 
 def test_vertex_order_does_not_matter():
@@ -119,7 +121,9 @@ def test_vertex_order_does_not_matter():
     for polygon in (RECTANGLE, TRAPEZIUM):
         for k in range(4):
             turned = np.roll(polygon, k, axis=0)
-            np.testing.assert_allclose(equivalent_half_sides(turned[None]), equivalent_half_sides(polygon[None]))
+            np.testing.assert_allclose(
+                equivalent_half_sides(turned[None]), equivalent_half_sides(polygon[None])
+            )
 
 
 # ---------------------------------------------------------------------------------------- the circle
@@ -166,7 +170,9 @@ def test_paper_octagon_is_too_strong_by_eight_per_cent():
     assert 1 / np.cos(np.pi / 8) == pytest.approx(1.082, abs=5e-4)
     outer = lb.OrdunaLourenco(MU, slip="outer")
     for Q in states(40):
-        assert outer.utilisation(interface, Q) == pytest.approx(lb.OrdunaLourenco(MU).utilisation(interface, Q))
+        assert outer.utilisation(interface, Q) == pytest.approx(
+            lb.OrdunaLourenco(MU).utilisation(interface, Q)
+        )
 
 
 # ------------------------------------------------------------------------------------------ the set
@@ -245,7 +251,12 @@ def test_tables_3_and_5_and_hinging():
 
 def test_point_of_action_without_normal_force_is_bounded():
     joint, interface = lb.OrdunaLourenco(MU), lb.interface(RECTANGLE, None)
-    for Q in ([0, 0, 0, 5.0, -3.0, 0], [0, 0, -1e-12, 5.0, -3.0, 0], [0, 0, 0, 0, 0, 0], [0, 0, -1, 5.0, 3.0, 0]):
+    for Q in (
+        [0, 0, 0, 5.0, -3.0, 0],
+        [0, 0, -1e-12, 5.0, -3.0, 0],
+        [0, 0, 0, 0, 0, 0],
+        [0, 0, -1, 5.0, 3.0, 0],
+    ):
         flow = joint.flow_directions(interface, Q)
         turning = flow[26:34] / flow[26:34, 5:]
         assert (abs(turning[:, :2]) <= [L2 + 1e-12, L1 + 1e-12]).all()
@@ -286,7 +297,9 @@ def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
 
     for Q in states(10):
         flow = joint.flow_directions(interface, Q)[-4:]
-        gradient = np.array([(eq_39(Q + h) - eq_39(Q - h)) / (2 * s) for s, h in zip(*_steps(), strict=True)]).T
+        gradient = np.array(
+            [(eq_39(Q + h) - eq_39(Q - h)) / (2 * s) for s, h in zip(*_steps(), strict=True)]
+        ).T
         np.testing.assert_allclose(flow, gradient, atol=1e-6)
         np.testing.assert_allclose(flow[:, 2], 1 + 2 * Q[2] / (AREA * f), rtol=1e-12)
         np.testing.assert_allclose(joint.flow_directions(interface, Q, MU)[-4:], flow, rtol=1e-12)
@@ -308,7 +321,9 @@ def test_dilatancy_is_between_zero_and_friction():
     np.testing.assert_allclose(full, -joint.yield_rows(RECTANGLE[None]).F[0], atol=1e-12)
     np.testing.assert_allclose(half[2:10, 2], MU / 2)  # slip opens by the tangent
     for dilatancy in (-0.1, MU + 0.01, np.nan):
-        with pytest.raises(lb.ModelError, match="dilatancy is .* expected 0 to the friction coefficient 0.7"):
+        with pytest.raises(
+            lb.ModelError, match=r"dilatancy is .* expected 0 to the friction coefficient 0.7"
+        ):
             joint.flow_directions(interface, Q, dilatancy)
 
 
@@ -320,8 +335,8 @@ def test_zero_friction_carries_normal_force_and_bending_only():
         assert joint.flow_directions(interface, COMPRESSION).shape == (4, 6)
         with pytest.raises(lb.ModelError, match="outside the yield set already"):
             joint.strength(interface, (0, 0, -1, 0, 0, 0), (1, 0, N, 0, 0, 0))
-    M = lb.OrdunaLourenco(0.0).strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
-    assert M == pytest.approx(-N * L2, rel=1e-12)
+    moment = lb.OrdunaLourenco(0.0).strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
+    assert moment == pytest.approx(-N * L2, rel=1e-12)
 
 
 # ------------------------------------------------------------------------------------------ crushing
@@ -332,9 +347,9 @@ def test_moment_strength_is_the_stress_block(share, f, along):
     """M = |N| l (1 - |N| / (A fcef)): zero at N = 0 and at N = -A fcef."""
     joint, interface = lb.OrdunaLourenco(MU, compressive_strength=f), lb.interface(RECTANGLE, None)
     force = share * f * AREA
-    M = joint.strength(interface, (0, 0, 0, *along, 0), (0, 0, -force, 0, 0, 0))
+    moment = joint.strength(interface, (0, 0, 0, *along, 0), (0, 0, -force, 0, 0, 0))
     half = L2 if along[0] else L1
-    assert M == pytest.approx(force * half * (1 - share), abs=1e-9 * f * AREA * half)
+    assert moment == pytest.approx(force * half * (1 - share), abs=1e-9 * f * AREA * half)
 
 
 def test_eq_39_becomes_eq_36_as_the_strength_grows():
@@ -390,15 +405,15 @@ def test_effective_strength_is_what_the_joint_takes():
 def test_cohesion_and_tension():
     c, ft, f = 3e3, 1e3, 2e4
     joint, interface = SLIPS["bonded"], lb.interface(RECTANGLE, None)
-    V = joint.strength(interface, (0.6, 0.8, 0, 0, 0, 0), COMPRESSION)
-    assert V == pytest.approx(c * AREA - MU * N, rel=1e-12)
-    T = joint.strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION)
-    assert T == pytest.approx(C_T * (c * AREA - MU * N), rel=1e-12)
+    shear = joint.strength(interface, (0.6, 0.8, 0, 0, 0, 0), COMPRESSION)
+    assert shear == pytest.approx(c * AREA - MU * N, rel=1e-12)
+    torsion = joint.strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION)
+    assert torsion == pytest.approx(C_T * (c * AREA - MU * N), rel=1e-12)
     assert joint.strength(interface, (0, 0, 1, 0, 0, 0)) == pytest.approx(ft * AREA, rel=1e-9)
     assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == pytest.approx(f * AREA, rel=1e-9)
     # the stress block: compression on the depth that balances N, tension on the rest
     depth = (ft * AREA - N) / (f + ft) / (2 * L1)
-    M = (f + ft) * 2 * L1 * depth * (L2 - depth / 2)
+    moment = (f + ft) * 2 * L1 * depth * (L2 - depth / 2)
     assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(M, rel=1e-12)
     dry = lb.OrdunaLourenco(MU, tensile_strength=ft)  # friction alone allows no tension
     assert dry.strength(interface, (0, 0, 1, 0, 0, 0)) == 0

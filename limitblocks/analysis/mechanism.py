@@ -1,0 +1,94 @@
+"""The linear program that completes a claimed stress state by its mechanism. scipy only."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.optimize import linprog
+
+from limitblocks.arrays import Array
+from limitblocks.mechanics import LimitProblem
+from limitblocks.mechanics.flow import plastic_potential
+
+ACTIVE = 1e-3  # block weights: rows closer than this to yield may flow
+APEX_DIRECTIONS = 32
+PRECISE: Any = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
+
+def find_mechanism(
+    problem: LimitProblem, stresses: Array, dilatancy: float = 0.0, rates: Array | None = None
+) -> tuple[Array, Array]:
+    """Return displacement rates u and multipliers y of least residual for a stress state.
+
+    A linear program over the rows at or near yield minimises max |C u + G^T y| + y . (F x + g) under
+    live . u = 1, y in K*. With `rates` given only the multipliers are sought. Where none exists the result
+    is NaN, which every residual counts as infinite.
+    """
+    n, R = problem.C.shape[1], problem.F.shape[0]
+    rows = problem.F @ stresses + problem.g
+    columns = _flow_columns(problem, rows)
+    flow = (plastic_potential(problem, stresses, dilatancy).T @ columns).tocsr()
+    worst = np.ones((problem.C.shape[0], 1))
+    free = problem.C if rates is None else sparse.csr_array((problem.C.shape[0], 0))
+    known = np.zeros(problem.C.shape[0]) if rates is None else problem.C @ rates
+    above = sparse.hstack([free, flow, -worst])
+    below = sparse.hstack([-free, -flow, -worst])
+    k = free.shape[1]
+    live = sparse.hstack([sparse.csr_array(problem.live[None, :k]), sparse.csr_array((1, columns.shape[1] + 1))])
+    found = linprog(
+        np.concatenate([np.zeros(k), np.maximum(columns.T @ rows, 0.0), [1.0]]),
+        A_ub=sparse.vstack([above, below]).tocsr(),
+        b_ub=np.concatenate([-known, known]),
+        A_eq=live if k else None,
+        b_eq=[1.0] if k else None,
+        bounds=[(None, None)] * k + [(0.0, None)] * (columns.shape[1] + 1),
+        method="highs-ipm",
+        options=PRECISE,
+    )
+    if found.x is None:
+        return np.full(n, np.nan), np.full(R, np.nan)
+    u = found.x[:k] if rates is None else rates
+    return u, columns @ found.x[k:-1]
+
+
+def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
+    """Generators of the multipliers that complementarity allows near yield: y = columns @ (>= 0).
+
+    On a cone's boundary the ray orthogonal to the state, (1, -z/||z||); at its apex rays all around.
+    """
+    linear = np.flatnonzero(rows[: problem.cones.linear] < ACTIVE)
+    parts = [(linear[:, None], np.ones((len(linear), 1, 1)))]
+    for first, count, size in problem.cones.blocks:
+        cone = rows[first : first + count * size].reshape(count, size)
+        places = first + np.arange(count * size).reshape(count, size)
+        z = np.linalg.norm(cone[:, 1:], axis=1)
+        near, apex = cone[:, 0] - z < ACTIVE, z < ACTIVE
+        edge = near & ~apex
+        ray = np.concatenate([np.ones((edge.sum(), 1)), -cone[edge, 1:] / z[edge, None]], axis=1)
+        parts.append((places[edge], ray[:, None]))
+        parts.append((places[near & apex], np.broadcast_to(_rays(size), (int((near & apex).sum()), *_rays(size).shape))))
+    return _columns(parts, len(rows))
+
+
+def _columns(parts: list[tuple[Any, Array]], height: int) -> sparse.csr_array:
+    """Sparse columns from rows' places (k, size) and stacks of generators (k, count, size)."""
+    data, row, column, width = [], [], [], 0
+    for places, rays in parts:
+        k, count, _ = rays.shape
+        number = width + np.arange(k * count).reshape(k, count, 1)
+        data.append(rays.ravel())
+        row.append(np.broadcast_to(places[:, None], rays.shape).ravel())
+        column.append(np.broadcast_to(number, rays.shape).ravel())
+        width += k * count
+    triplets = (np.concatenate(data), (np.concatenate(row), np.concatenate(column)))
+    return sparse.coo_array(triplets, shape=(height, width)).tocsr()
+
+
+def _rays(size: int) -> Array:
+    """Unit rays (1, d) around a second-order cone of size 3."""
+    angles = 2 * np.pi * np.arange(APEX_DIRECTIONS) / APEX_DIRECTIONS
+    rays = np.ones((APEX_DIRECTIONS, size))
+    rays[:, 1], rays[:, 2] = np.cos(angles), np.sin(angles)
+    return rays

@@ -1,0 +1,149 @@
+"""Point contacts: torsion against uniform pressure, refinement, inner and outer cones, queries by cutting planes."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.joints.cutting_planes import farthest
+from limitblocks.joints.torsion import rectangle_torsion_constant
+
+L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0
+SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
+RECTANGLE = SQUARE * [L1, L2]
+TRIANGLE = np.array([(0.0, 0.0), (4.0, 0.0), (0.0, 1.0)])
+COMPRESSION = np.array([0, 0, N, 0, 0, 0])
+TORSION = (0, 0, 0, 0, 0, 1)
+
+
+@pytest.mark.parametrize(("ratio", "excess"), [(1, 1.85), (2, 1.88), (4, 1.94)])
+def test_torsion_is_mu_n_times_half_the_diagonal(ratio, excess):
+    interface = lb.interface(SQUARE * [ratio, 1], None)
+    torsion = lb.PointContact(MU).strength(interface, TORSION, COMPRESSION)
+    assert torsion == pytest.approx(-MU * N * np.hypot(ratio, 1), rel=1e-9)
+    assert torsion / (-MU * N * rectangle_torsion_constant(ratio, 1)) == pytest.approx(excess, abs=0.01)
+
+
+@pytest.mark.parametrize("points", [2, 3, 5])
+def test_refining_changes_nothing(points):
+    corners, finer = lb.PointContact(MU), lb.PointContact(MU, points=points)
+    rng = np.random.default_rng(points)
+    for polygon in (RECTANGLE, TRIANGLE):
+        interface = lb.interface(polygon, None)
+        for d in rng.normal(size=(4, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]:
+            assert finer.strength(interface, d, COMPRESSION) == pytest.approx(
+                corners.strength(interface, d, COMPRESSION), rel=1e-8
+            )
+
+
+def test_any_force_within_the_polygon_is_carried_by_the_corners():
+    """The reason: share it by barycentric weights."""
+    interface, joint = lb.interface(TRIANGLE, None), lb.PointContact(MU)
+    rng = np.random.default_rng(0)
+    for weights in rng.dirichlet(np.ones(3), 10):
+        (x1, x2), angle = weights @ interface.polygon, rng.uniform(0, 2 * np.pi)
+        V1, V2 = -MU * N * np.cos(angle), -MU * N * np.sin(angle)
+        Q = np.array([V1, V2, N, x2 * N, -x1 * N, x1 * V2 - x2 * V1])
+        assert joint.utilisation(interface, Q) <= 1 + 1e-9
+
+
+@pytest.mark.parametrize("polygon", [RECTANGLE, TRIANGLE], ids=["rectangle", "triangle"])
+def test_shear_and_hinging_are_exact(polygon):
+    interface, joint = lb.interface(polygon, None), lb.PointContact(MU)
+    hinging = lb.OrdunaLourenco(MU)
+    for angle in np.linspace(0, 6, 13):
+        d = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
+        assert joint.strength(interface, d, COMPRESSION) == pytest.approx(-MU * N, rel=1e-9)
+        d = (0, 0, 0, np.cos(angle), np.sin(angle), 0)
+        expected = hinging.strength(interface, d, COMPRESSION)
+        assert joint.strength(interface, d, COMPRESSION) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("sides", [4, 8, 24])
+def test_inner_and_outer_enclose_the_cones(sides):
+    interface, limit = lb.interface(RECTANGLE, None), np.cos(np.pi / sides)
+    exact = lb.PointContact(MU)
+    for d in np.random.default_rng(sides).normal(size=(6, 6)) * [1, 1, 0, 0.01, 0.01, 0.1]:
+        low, true, high = (
+            joint.strength(interface, d, COMPRESSION)
+            for joint in (
+                lb.PointContact(MU, cone="inner", sides=sides),
+                exact,
+                lb.PointContact(MU, cone="outer", sides=sides),
+            )
+        )
+        assert low <= true * (1 + 1e-9)
+        assert true <= high * (1 + 1e-9)
+    for cone, factor in (("inner", limit), ("outer", 1 / limit)):
+        rows = lb.PointContact(MU, cone=cone, sides=sides).yield_rows(RECTANGLE[None])
+        assert (rows.linear, rows.cones, len(rows.modes)) == (4 + 4 * sides, (), 4 + 4 * sides)
+        angle = np.pi / sides
+        worst = (np.cos(angle), np.sin(angle), 0, 0, 0, 0) if cone == "outer" else None
+        worst = worst or (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
+        strength = lb.PointContact(MU, cone=cone, sides=sides).strength(interface, worst, COMPRESSION)
+        assert strength == pytest.approx(-MU * N * factor, rel=1e-9)
+
+
+def test_convexity_scaling_and_the_compression_ray():
+    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
+    surface = []
+    for d in np.random.default_rng(5).normal(size=(12, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]:
+        surface.append(COMPRESSION + d * joint.strength(interface, d, COMPRESSION))
+    for Q in np.add(surface[::2], surface[1::2]) / 2:
+        assert joint.utilisation(interface, Q) <= 1 + 1e-8
+    Q = surface[0]
+    big = Q * 8 * np.array([1, 1, 1, 4, 4, 4])
+    assert joint.utilisation(lb.interface(4 * RECTANGLE, None), big) == pytest.approx(1, rel=1e-8)
+    assert joint.utilisation(interface, COMPRESSION) == 0
+    assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == np.inf
+    assert joint.strength(interface, (0.5, 0, -1, 0, 0, 0)) == np.inf
+    assert joint.strength(interface, (0, 0, 1, 0, 0, 0), COMPRESSION) == pytest.approx(-N, rel=1e-9)
+    assert joint.strength(interface, (0, 0, 1, 0, 0, 0)) == 0
+
+
+def test_active_modes_of_a_mechanism():
+    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
+    assert joint.active_modes(interface, np.add(COMPRESSION, [100, 0, 0, 1, 1, 0])) == ()
+    assert joint.active_modes(interface, np.add(COMPRESSION, [-MU * N, 0, 0, 0, 0, 0])) == ("slip",)
+    assert joint.active_modes(interface, np.add(COMPRESSION, [0, 0, 0, -L2 * N, 0, 0])) == ("open",)
+    assert joint.active_modes(
+        interface, np.add(COMPRESSION, [0, 0, 0, 0, 0, -MU * N * np.hypot(L1, L2)])
+    ) == ("slip",)
+    assert joint.active_modes(interface, (0, 0, 1, 0, 0, 0)) == ("open",)
+    assert joint.active_modes(interface, np.zeros(6)) == ()
+    assert joint.utilisation(interface, (0, 0, 1, 0, 0, 0)) == np.inf
+
+
+def test_zero_friction():
+    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(0.0)
+    assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(-N * L2, rel=1e-9)
+    assert joint.strength(interface, TORSION, COMPRESSION) == 0
+    with pytest.raises(lb.ModelError, match="outside the yield set already"):
+        joint.strength(interface, TORSION, np.add(COMPRESSION, [1, 0, 0, 0, 0, 0]))
+
+
+def test_answer_satisfies_the_cones_to_1e_10():
+    rows = lb.PointContact(MU, points=2).yield_rows(SQUARE[None])
+    t, rates = farthest(rows, np.array([0, 0, -1.0, 0.2, 0.1, 0]), np.array([0.3, -0.4, 0, 0.1, 0, 0.9]))
+    assert 0 < t < 2
+    assert rates.shape == (16,)
+    # the multipliers are a mechanism: their work bounds t from above
+    assert (rates >= 0).all()
+
+
+def test_no_flow_in_stress_resultants():
+    with pytest.raises(lb.ModelError, match="no flow directions"):
+        lb.PointContact(MU).flow_directions(lb.interface(RECTANGLE, None), COMPRESSION)
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"friction": -0.1}, "friction is -0.1"),
+        ({"friction": 0.6, "points": 0}, "points is 0, expected a whole number of at least 1"),
+        ({"friction": 0.6, "cone": "paper"}, "cone is 'paper', expected one of 'exact', 'inner', 'outer'"),
+        ({"friction": 0.6, "sides": 2}, "sides is 2"),
+    ],
+)
+def test_bad_settings_are_named(settings, message):
+    with pytest.raises(lb.ModelError, match=message):
+        lb.PointContact(**settings)
