@@ -43,7 +43,8 @@ class Model:
     ------
     ModelError
         With all faults at once: no or unknown support, no free block, two blocks of one name, an interface
-        of an unknown block, a block without interfaces to a support, a load on an unknown block, no live load.
+        of an unknown block, a block that no chain of interfaces ties to a support, a load on an unknown
+        block, no live load.
     """
 
     blocks: Sequence[Block]
@@ -177,7 +178,9 @@ def _floating_problems(model: Model) -> list[str]:
     floating = [block.name for block in model.blocks if part[place[block.name]] not in held]
     if not floating:
         return []
-    shown = ", ".join(map(repr, floating[:8])) + (f" and {len(floating) - 8} more" if len(floating) > 8 else "")
+    shown = ", ".join(map(repr, floating[:8])) + (
+        f" and {len(floating) - 8} more" if len(floating) > 8 else ""
+    )
     return [f"floating: no chain of interfaces ties {shown} to a support"]
 
 

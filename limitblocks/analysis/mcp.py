@@ -139,7 +139,12 @@ def check_mcp(model: Model, result: Claimed, *, tolerance: float = TOLERANCE) ->
 
 
 def mcp_residuals(
-    problem: LimitProblem, load_factor: float, stresses: Array, rates: Array, multipliers: Array, dilatancy: float
+    problem: LimitProblem,
+    load_factor: float,
+    stresses: Array,
+    rates: Array,
+    multipliers: Array,
+    dilatancy: float,
 ) -> Residuals:
     """Recompute the residuals of Eqs (54)-(59); all arguments dimensionless, see LimitProblem."""
     G = plastic_potential(problem, stresses, dilatancy)
@@ -168,7 +173,9 @@ def _claim(model: Model, result: Claimed) -> Claim:
         **{name: None if value is None else np.asarray(value, float) for name, value in optional.items()},
     )
     if claim.digest and claim.digest != model.digest:
-        raise ModelError(f"the result belongs to model {claim.digest[:12]}, not to this model {model.digest[:12]}")
+        raise ModelError(
+            f"the result belongs to model {claim.digest[:12]}, not to this model {model.digest[:12]}"
+        )
     problem = model.problem
     expected = {
         "stress_resultants": (len(model.interfaces), 6),
@@ -190,8 +197,8 @@ def _stresses(problem: LimitProblem, claim: Claim) -> Array:
     if claim.generalised_stresses is None:
         if B.nnz > B.shape[1]:
             raise ModelError(
-                "this model has joints with inner forces (point contacts), which the stress resultants do not "
-                "determine: give generalised_stresses too"
+                "this model has joints with inner forces (point contacts), which the stress resultants do "
+                "not determine: give generalised_stresses too"
             )
         return np.asarray(B.T @ resultants)
     stresses = claim.generalised_stresses / problem.stress_units

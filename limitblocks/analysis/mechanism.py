@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy import sparse
-from scipy.optimize import linprog
+from scipy import optimize, sparse
 
 from limitblocks.arrays import Array
 from limitblocks.mechanics import LimitProblem
@@ -14,6 +13,7 @@ from limitblocks.mechanics.flow import plastic_potential
 
 ACTIVE = 1e-3  # block weights: rows closer than this to yield may flow
 APEX_DIRECTIONS = 32
+linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
 PRECISE: Any = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
@@ -30,18 +30,18 @@ def find_mechanism(
     rows = problem.F @ stresses + problem.g
     columns = _flow_columns(problem, rows)
     flow = (plastic_potential(problem, stresses, dilatancy).T @ columns).tocsr()
-    worst = np.ones((problem.C.shape[0], 1))
+    worst = sparse.csr_array(np.ones((problem.C.shape[0], 1)))
     free = problem.C if rates is None else sparse.csr_array((problem.C.shape[0], 0))
     known = np.zeros(problem.C.shape[0]) if rates is None else problem.C @ rates
     above = sparse.hstack([free, flow, -worst])
     below = sparse.hstack([-free, -flow, -worst])
     k = free.shape[1]
-    live = sparse.hstack([sparse.csr_array(problem.live[None, :k]), sparse.csr_array((1, columns.shape[1] + 1))])
-    found = linprog(
+    work = [sparse.csr_array(problem.live[None, :k]), sparse.csr_array((1, columns.shape[1] + 1))]
+    found = linear_program(
         np.concatenate([np.zeros(k), np.maximum(columns.T @ rows, 0.0), [1.0]]),
         A_ub=sparse.vstack([above, below]).tocsr(),
         b_ub=np.concatenate([-known, known]),
-        A_eq=live if k else None,
+        A_eq=sparse.hstack(work).tocsr() if k else None,
         b_eq=[1.0] if k else None,
         bounds=[(None, None)] * k + [(0.0, None)] * (columns.shape[1] + 1),
         method="highs-ipm",
@@ -68,7 +68,8 @@ def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
         edge = near & ~apex
         ray = np.concatenate([np.ones((edge.sum(), 1)), -cone[edge, 1:] / z[edge, None]], axis=1)
         parts.append((places[edge], ray[:, None]))
-        parts.append((places[near & apex], np.broadcast_to(_rays(size), (int((near & apex).sum()), *_rays(size).shape))))
+        at_apex = places[near & apex]
+        parts.append((at_apex, np.broadcast_to(_rays(size), (len(at_apex), APEX_DIRECTIONS, size))))
     return _columns(parts, len(rows))
 
 

@@ -104,9 +104,11 @@ class PointContact(Queries):
         """Modes of one mechanism at Q, because the forces of the points are not unique."""
         held = Q * [0, 0, 1, 0, 0, 0] / question.unit
         d = Q / question.unit - held
-        t, work = farthest(question.rows, held, d) if d.any() else (np.inf, np.zeros(0))
-        if held[2] >= -OUTSIDE and not t > 1.0:
-            return ("open",)
+        if held[2] > OUTSIDE or not d.any():
+            return ("open",) if held[2] > OUTSIDE else ()
+        t, work = farthest(question.rows, held, d)
+        if held[2] >= -OUTSIDE:
+            return () if t > 1.0 else ("open",)
         if t > 1.0 + tolerance:
             return ()
         moving = work > tolerance * work.max(initial=0.0)

@@ -11,6 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.joints.base import YieldRows
 
 OUTSIDE = 1e-9  # of the size of a stress state: violations of a yield function below it are rounding
+TINY = np.finfo(float).tiny
 FLAT = 1e-13  # of a row's size: change along a direction below it is rounding
 
 
@@ -67,7 +68,7 @@ class Question:
             if self.rows.modes[k.start] == "crush":  # (||z||^2 - t^2) / 4 is the yield function of Eq. (39)
                 normal = np.concatenate([[t], -z]) / 2
             else:  # ||z|| - t
-                normal = np.concatenate([[1.0], -z / max(float(np.linalg.norm(z)), np.finfo(float).tiny)])
+                normal = np.concatenate([[1.0], -z / max(float(np.linalg.norm(z)), TINY)])
             directions.append((normal @ -G[k])[None])
         return np.concatenate(directions)
 
@@ -79,6 +80,8 @@ def _cone_reach(value: Array, slope: Array) -> float:
         return np.inf
     # A t^2 + 2 B t + C, which is at least zero inside
     A, B, C = b**2 - w @ w, a * b - z @ w, max(a**2 - z @ z, 0.0)
+    if b < 0 and max(abs(A) / b**2, abs(B) / max(-a * b, TINY), C / max(a**2, TINY)) < FLAT:
+        return float(a / -b)  # along the boundary to the apex
     root = np.sqrt(max(B**2 - A * C, 0.0))
     if B > 0.0:  # then A < 0; this form does not cancel
         return float((B + root) / -A)

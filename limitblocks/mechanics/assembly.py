@@ -98,7 +98,9 @@ def _scales(free: Sequence[Block], dead: Array, live: Array) -> Scales:
     length = float(np.mean([np.cbrt(block.volume) for block in free]))
 
     def magnitude(load: Array) -> float:
-        return float((np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length).sum())
+        return float(
+            (np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length).sum()
+        )
 
     if magnitude(live) == 0.0:
         raise ModelError("the live load is zero on every free block, expected a force or moment to multiply")
@@ -113,9 +115,9 @@ def _grouped(interfaces: Sequence[Interface], scales: Scales) -> tuple[list[_Gro
         members[joint_of(interface), len(interface.polygon)].append(k)
     stress_unit = scales.force / scales.length**2
     asked = []
-    for (joint, _), found in members.items():
-        polygons = np.stack([interfaces[k].polygon for k in found]) / scales.length
-        asked.append((np.array(found), joint.yield_rows(polygons, stress_unit)))
+    for (joint, _), places in members.items():
+        polygons = np.stack([interfaces[k].polygon for k in places]) / scales.length
+        asked.append((np.array(places), joint.yield_rows(polygons, stress_unit)))
     linear = sum(rows.linear * len(found) for found, rows in asked)
     sizes = sorted({size for _, rows in asked for size in rows.cones})
     counts = {size: sum(rows.cones.count(size) * len(found) for found, rows in asked) for size in sizes}
@@ -151,7 +153,9 @@ def _blocks(parts: list[tuple[Array, Indices, Indices]], shape: tuple[int, int])
     return sparse.coo_array(triplets, shape=shape).tocsr()
 
 
-def _compatibility(free: Sequence[Block], interfaces: Sequence[Interface], scales: Scales) -> sparse.csr_array:
+def _compatibility(
+    free: Sequence[Block], interfaces: Sequence[Interface], scales: Scales
+) -> sparse.csr_array:
     """Compatibility matrix of the paper, rows in stress resultants, lengths over the block length."""
     place = {block.name: k for k, block in enumerate(free)}
     block_i = np.array([place.get(interface.block_i, -1) for interface in interfaces])

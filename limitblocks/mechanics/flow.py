@@ -45,12 +45,14 @@ def plastic_potential(problem: LimitProblem, stresses: Array, dilatancy: float =
     """
     least = float(problem.friction.min())
     if not 0.0 <= dilatancy <= least:
-        raise ModelError(f"dilatancy is {dilatancy!r}, expected 0 to the least friction coefficient, {least:g}")
-    zero = (problem.G + _pivoted(problem, stresses)).tocsr()
+        raise ModelError(
+            f"dilatancy is {dilatancy!r}, expected 0 to the least friction coefficient, {least:g}"
+        )
+    zero = sparse.csr_array(problem.G + _pivoted(problem, stresses))
     if dilatancy == 0.0:
         return zero
     share = sparse.diags_array((dilatancy / problem.friction)[problem.row_interface])
-    return (zero + share @ (problem.F - zero)).tocsr()
+    return sparse.csr_array(zero + share @ (problem.F - zero))
 
 
 def _pivoted(problem: LimitProblem, stresses: Array) -> sparse.csr_array:
@@ -62,4 +64,5 @@ def _pivoted(problem: LimitProblem, stresses: Array) -> sparse.csr_array:
     entries = np.concatenate([-turn * e2, turn * e1])
     places = np.concatenate([rows, rows]), np.concatenate([6 * k, 6 * k + 1])
     shape = (len(problem.pivot), problem.resultants.shape[0])
-    return (sparse.coo_array((entries, places), shape=shape).tocsr() @ problem.resultants).tocsr()
+    tangential = sparse.coo_array((entries, places), shape=shape).tocsr()
+    return sparse.csr_array(tangential @ problem.resultants)

@@ -125,6 +125,6 @@ class LimitProblem:
 
     @property
     def rate_units(self) -> Array:
-        """Units of the displacement rates (m, rad) in which the live load does the work 1 N m, shape (6 n,)."""
+        """Units of the displacement rates (m, rad): the live load does the work 1 N m; shape (6 n,)."""
         unit = self.scales.work * np.repeat([1.0, 1.0 / self.scales.length], 3)
         return np.tile(unit, len(self.blocks))

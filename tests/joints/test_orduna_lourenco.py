@@ -1,4 +1,4 @@
-"""The paper's yield surface: every equation against the rows, flow rules, crushing, relatives of the octagon."""
+"""The paper's yield surface: equations against rows, flow rules, crushing, relatives of the octagon."""
 
 import numpy as np
 import pytest
@@ -251,12 +251,7 @@ def test_tables_3_and_5_and_hinging():
 
 def test_point_of_action_without_normal_force_is_bounded():
     joint, interface = lb.OrdunaLourenco(MU), lb.interface(RECTANGLE, None)
-    for Q in (
-        [0, 0, 0, 5.0, -3.0, 0],
-        [0, 0, -1e-12, 5.0, -3.0, 0],
-        [0, 0, 0, 0, 0, 0],
-        [0, 0, -1, 5.0, 3.0, 0],
-    ):
+    for Q in ((0, 0, force, 5, -3, 0) for force in (0.0, -1e-12, -1.0)):
         flow = joint.flow_directions(interface, Q)
         turning = flow[26:34] / flow[26:34, 5:]
         assert (abs(turning[:, :2]) <= [L2 + 1e-12, L1 + 1e-12]).all()
@@ -273,17 +268,17 @@ def test_associated_flow_is_the_gradient_by_finite_differences(name):
     plain = lb.OrdunaLourenco(MU, slip=joint.slip)
     for Q in states(10):
         flow = plain.flow_directions(interface, Q, dilatancy=MU)
-        gradient = np.array(
-            [(functions(Q + h) - functions(Q - h)) / (2 * step) for step, h in zip(*_steps(), strict=True)]
-        ).T
+        gradient = finite_differences(functions, Q)
         for row in gradient:  # the active one of each mode is among the rows, up to its length
             parallel = flow @ row / np.linalg.norm(flow, axis=1) / np.linalg.norm(row)
             assert parallel.max() == pytest.approx(1, abs=1e-9)
 
 
-def _steps():
-    step = np.array([1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5])
-    return step, np.diag(step)
+def finite_differences(functions, Q):
+    """Central differences (k, 6) of functions with k values."""
+    steps = np.array([1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5])
+    central = [functions(Q + h) - functions(Q - h) for h in np.diag(steps)]
+    return (np.array(central) / (2 * steps[:, None])).T
 
 
 def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
@@ -297,9 +292,7 @@ def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
 
     for Q in states(10):
         flow = joint.flow_directions(interface, Q)[-4:]
-        gradient = np.array(
-            [(eq_39(Q + h) - eq_39(Q - h)) / (2 * s) for s, h in zip(*_steps(), strict=True)]
-        ).T
+        gradient = finite_differences(eq_39, Q)
         np.testing.assert_allclose(flow, gradient, atol=1e-6)
         np.testing.assert_allclose(flow[:, 2], 1 + 2 * Q[2] / (AREA * f), rtol=1e-12)
         np.testing.assert_allclose(joint.flow_directions(interface, Q, MU)[-4:], flow, rtol=1e-12)
@@ -414,7 +407,7 @@ def test_cohesion_and_tension():
     # the stress block: compression on the depth that balances N, tension on the rest
     depth = (ft * AREA - N) / (f + ft) / (2 * L1)
     moment = (f + ft) * 2 * L1 * depth * (L2 - depth / 2)
-    assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(M, rel=1e-12)
+    assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(moment, rel=1e-12)
     dry = lb.OrdunaLourenco(MU, tensile_strength=ft)  # friction alone allows no tension
     assert dry.strength(interface, (0, 0, 1, 0, 0, 0)) == 0
     sticky = lb.OrdunaLourenco(0.0, cohesion=c)
