@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from dataclasses import dataclass
 from itertools import product
 from typing import Literal
@@ -19,7 +20,13 @@ from limitblocks.joints.base import (
     checked_stress,
 )
 from limitblocks.joints.interaction import effective_areas
-from limitblocks.joints.limit_surface import inner_polytope, outer_polytope, unique_shapes
+from limitblocks.joints.limit_surface import (
+    directions,
+    dissipation,
+    inner_polytope,
+    outer_polytope,
+    unique_shapes,
+)
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinge_gradients, hinging, stacked
@@ -40,7 +47,8 @@ class ExactTorsion(Queries):
 
     - side="inner" is safe: the convex hull of points of the limit surface. `discretisation_error` is how
       much stronger the exact surface can be, 6 to 8 % by default, falling as 1 / fineness^2;
-    - side="outer" is unsafe: tangent planes of the limit surface, too strong by no more than the same error;
+    - side="outer" is unsafe: tangent planes of the limit surface, too strong by no more than the same error
+      (and exact in pure shear along the axes and in pure torsion);
     - under bending the effective rectangle's T is convex in each quadrant of the eccentricities, so the set
       is *not* convex and cannot be refined. Inner: its tangent plane at the centre, exact without
       bending and below it at a hinge. Outer: its convex hull, Eq. (30) and the plane through T0 and Table 4's
@@ -110,21 +118,30 @@ class ExactTorsion(Queries):
     def _frictional_rows(self, polygons: Array, half_sides: Array) -> list[Rows]:
         """Planes of the limit surface and of torsion under bending, computed once for each shape."""
         first, shape_of = unique_shapes(polygons)
-        polytope = inner_polytope if self.side == "inner" else outer_polytope
-        surfaces, bendings = [], []
+        tables: dict[str, list[Array]] = defaultdict(list)
         for polygon, levers in zip(polygons[first], half_sides[first], strict=True):
-            found = polytope(polygon, self.fineness)
-            surface = np.zeros((len(found.offsets), 6))
-            surface[:, [0, 1, 5]], surface[:, 2] = found.normals, self.friction * found.offsets
+            for mode, (normals, offsets) in self._surfaces(polygon).items():
+                surface = np.zeros((len(offsets), 6))
+                surface[:, [0, 1, 5]], surface[:, 2] = normals, self.friction * offsets
+                tables[mode].append(surface)
             planes = self.friction * bending_planes(polygon, self.side)
             twist = np.repeat(SIGNS, len(planes))
             bending = np.column_stack([np.zeros((len(twist), 2)), np.tile(planes, (2, 1)), twist])
-            surfaces.append(surface)
-            bendings.append(bending / levers.sum())
+            tables["moment-twist"].append(bending / levers.sum())
         return [
-            frictional(mode, -_of_one_length(found)[shape_of], np.zeros(1))
-            for mode, found in (("slip-twist", surfaces), ("moment-twist", bendings))
+            frictional(mode, -_of_one_length(found)[shape_of], np.zeros(1)) for mode, found in tables.items()
         ]
+
+    def _surfaces(self, polygon: Array) -> dict[str, tuple[Array, Array]]:
+        """Normals (k, 3) and offsets (k,) of the planes of the limit surface by failure mode."""
+        if self.side == "inner":
+            hull = inner_polytope(polygon, self.fineness)
+            return {"slip-twist": (hull.normals, hull.offsets)}
+        around = outer_polytope(polygon, self.fineness)
+        axes = directions(1)  # with these tangent planes pure shear along the axes and pure torsion are exact
+        pure = {"slip": axes[axes[:, 2] == 0], "twist": axes[axes[:, 2] != 0] / torsion_constant(polygon)}
+        tangents = {mode: (normals, dissipation(polygon, normals)) for mode, normals in pure.items()}
+        return tangents | {"slip-twist": (around.normals, around.offsets)}
 
 
 def _of_one_length(tables: list[Array]) -> Array:

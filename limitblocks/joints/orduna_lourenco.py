@@ -42,7 +42,8 @@ class OrdunaLourenco(Queries):
     - Eqs (27)-(29) neglect the aspect ratio of the interface: against uniform pressure on a rectangle they
       overestimate torsion near pure shear (by 0.3 T0 at V0) and may underestimate it in between, by up to
       0.18 T0;
-    - Eq. (30) overestimates torsion under bending except when a hinge forms, by up to 30 % on a square;
+    - Eqs (23) and (30) overestimate torsion under bending except when a hinge forms, by up to 31 % of the
+      effective rectangle's strength or 0.23 T0;
     - shear and bending reduce torsion independently of each other;
     - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
       exact stress block for bending about one axis of a rectangle, and an approximation for other shapes and

@@ -34,7 +34,8 @@ class Rows:
 def frictional(mode: str, F: Array, g: Array, size: int = 0) -> Rows:
     """Rows whose flow is F without its components dn, dth1, dth2 (zero dilatancy, Tables 3 and 5).
 
-    Rows with bending moments turn about the point of action (e1, e2), Table 5.
+    Table 3 as we have it is shifted in its rows V-T; they are the gradients of Eqs (27)-(29). Rows with
+    bending moments turn about the point of action (e1, e2), Table 5.
     """
     G = F.copy()
     G[..., 2:5] = 0.0

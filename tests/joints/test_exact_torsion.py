@@ -94,6 +94,21 @@ def test_rectangle_planes_touch_the_exact_surface():
             assert joint.strength(interface, T, Q) == pytest.approx(exact, abs=1e-9)
 
 
+def test_pure_strengths_are_exact_on_both_sides():
+    """Shear along the axes and torsion; the outer planes that give them bear the names of pure modes."""
+    interface = lb.interface(RECTANGLE, None)
+    for d, mode, expected in (
+        ((1, 0, 0, 0, 0, 0), "slip", -MU * N),
+        ((0, -1, 0, 0, 0, 0), "slip", -MU * N),
+        ((0, 0, 0, 0, 0, 1), "twist", -MU * N * rectangle_torsion_constant(L1, L2)),
+    ):
+        for joint in sides(fineness=3):
+            strength = joint.strength(interface, d, COMPRESSION)
+            assert strength == pytest.approx(expected, rel=1e-12)
+            modes = joint.active_modes(interface, COMPRESSION + strength * np.array(d))
+            assert ("slip-twist" if joint.side == "inner" else mode) in modes
+
+
 def test_effective_rectangle_is_not_convex_and_its_hull_is_outer():
     """Between A and C the exact torsion sags below the chord; the outer planes are on the chord."""
     A, C = np.array([-L2 * N, 0.0]), np.array([0.0, -L1 * N])
