@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from difflib import get_close_matches
 from functools import cache, partial
 from pathlib import Path
-from reprlib import repr as _value
-from textwrap import shorten
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import strict_json
+from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.joints import Joint
@@ -24,8 +21,6 @@ from limitblocks.model import Model
 
 if TYPE_CHECKING:
     from limitblocks.io.documents import BlockDocument, InterfaceDocument, ModelDocument, TermDocument
-
-_LONGEST_LINE = 500
 
 
 def read(file: str | Path) -> Model:
@@ -40,12 +35,8 @@ def read(file: str | Path) -> Model:
         file and the place in it.
     """
     path = Path(file)
-    try:
-        with np.errstate(all="ignore"):  # numbers out of all proportion end as a fault, not as a warning
-            return _model(_document(strict_json.read_text(path)))
-    except ModelError as error:
-        lines = (shorten(f"{path}: {fault}", _LONGEST_LINE, placeholder=" ...") for fault in error.problems)
-        raise ModelError(*lines) from None
+    with faults.named(path):
+        return _model(_document(strict_json.read_text(path)))
 
 
 @cache
@@ -57,65 +48,9 @@ def model_schema() -> dict[str, Any]:
 
 
 def _document(text: str) -> ModelDocument:
-    from pydantic import ValidationError  # here, to keep `import limitblocks` quick
+    from limitblocks.io.documents import ModelDocument  # here, to keep `import limitblocks` quick
 
-    from limitblocks.io.documents import ModelDocument
-
-    data = strict_json.parse(text)
-    try:
-        return ModelDocument.model_validate_json(text)
-    except ValidationError as error:
-        faults = error.errors(include_url=False)
-    raise ModelError(*(f"{_place(fault['loc'], data)}{_said(fault)}" for fault in faults))
-
-
-def _place(steps: tuple[int | str, ...], data: Any) -> str:
-    """Path to a fault as the user would write it; pydantic's own steps into unions are not in `data`."""
-    path = ""
-    for step in steps:
-        if isinstance(data, list) and isinstance(step, int):
-            path += f"[{step}]"
-            data = data[step] if step < len(data) else None
-        elif isinstance(data, dict) and (step in data or step == steps[-1]):
-            path += f".{step}"
-            data = data.get(step)
-    return f"{path.lstrip('.')}: " if path else ""
-
-
-def _said(fault: Any) -> str:
-    """What pydantic found, in a sentence for the user."""
-    context = fault.get("ctx", {})
-    match fault["type"]:
-        case "missing":
-            return "is missing"
-        case "extra_forbidden":
-            near = get_close_matches(str(fault["loc"][-1]), _keys(), 1)
-            return "unknown key" + (f"; did you mean {near[0]!r}?" if near else "")
-        case "union_tag_not_found":
-            return "type is missing"
-        case "union_tag_invalid":
-            return f"type {_value(context['tag'])} is unknown; expected {context['expected_tags']}"
-        case "json_invalid":
-            return f"not JSON: {context['error']}"
-        case "value_error":
-            return str(context["error"])
-        case "less_than" | "greater_than":
-            return f"expected a number less than 1e30 in size, not {_value(fault['input'])}"
-        case "tuple_type" | "list_type":
-            return f"expected a list [...], not {_value(fault['input'])}"
-        case "model_type" | "model_attributes_type" | "dict_type":
-            return f"expected an object {{...}}, not {_value(fault['input'])}"
-        case _:
-            said = fault["msg"].replace("Input should be", "expected").replace(" valid", "")
-            return f"{said}, not {_value(fault['input'])}"
-
-
-@cache
-def _keys() -> frozenset[str]:
-    schema = model_schema()
-    return frozenset(
-        key for part in (schema, *schema["$defs"].values()) for key in part.get("properties", ())
-    )
+    return faults.validated(ModelDocument, text, strict_json.parse(text))
 
 
 class _Faults(list[str]):
@@ -135,20 +70,20 @@ class _Faults(list[str]):
 
 def _model(document: ModelDocument) -> Model:
     """The model of a document of the right form; raises ModelError with all its faults."""
-    faults = _Faults(_unknown_names(document))
-    blocks = faults.all_made("blocks", _block, document.blocks)
-    joints = {name: faults.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
-    dead = faults.all_made("dead", _load, document.dead)
-    live = faults.all_made("live", _load, document.live)
+    wrong = _Faults(_unknown_names(document))
+    blocks = wrong.all_made("blocks", _block, document.blocks)
+    joints = {name: wrong.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
+    dead = wrong.all_made("dead", _load, document.dead)
+    live = wrong.all_made("live", _load, document.live)
     if isinstance(document.interfaces, list):
-        interfaces = faults.all_made("interfaces", _interface, document.interfaces, joints)
-    elif not faults:
+        interfaces = wrong.all_made("interfaces", _interface, document.interfaces, joints)
+    elif not wrong:
         settings = document.interfaces.find
         options = {"gap": settings.gap, "angle": settings.angle}
         find = partial(find_interfaces, blocks, joints[settings.joint], **options)
-        interfaces = faults.made("interfaces.find", find)
-    if faults:
-        raise ModelError(*faults)
+        interfaces = wrong.made("interfaces.find", find)
+    if wrong:
+        raise ModelError(*wrong)
     return Model(blocks, document.supports, interfaces, sum(dead, Load()), sum(live, Load()), document.name)
 
 
@@ -166,13 +101,11 @@ def _unknown_names(document: ModelDocument) -> list[str]:
             used.append((f"interfaces[{k}].joint", one.joint, joints, "joint"))
     else:
         used.append(("interfaces.find.joint", document.interfaces.find.joint, joints, "joint"))
-    faults = []
+    wrong = []
     for place, name, known, word in used:
         if name not in known:
-            near = get_close_matches(name, known, 1)
-            hint = f"; did you mean {near[0]!r}?" if near else ""
-            faults.append(f"{place}: {name!r} is not a {word} of the model{hint}")
-    return faults
+            wrong.append(f"{place}: {name!r} is not a {word} of the model{faults.near(name, known)}")
+    return wrong
 
 
 def _block(document: BlockDocument) -> Block:

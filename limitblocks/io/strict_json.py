@@ -1,14 +1,15 @@
-"""JSON text from a file the user names, with one clean line for every way it can be wrong."""
+"""JSON text in, with one clean line for every way it can be wrong, and out, as every program reads it."""
 
 from __future__ import annotations
 
 import json
+from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn
 
 from limitblocks.errors import ModelError
 
-#: Largest model file accepted, bytes.
+#: Largest file accepted, bytes.
 LARGEST_FILE = 100_000_000
 
 
@@ -22,7 +23,7 @@ def read_text(path: Path) -> str:
     """
     try:
         if path.exists() and not path.is_file():  # reading a pipe or a device may never end
-            raise ModelError("is not a file; name a model file (JSON)")
+            raise ModelError("is not a file; name a file of JSON")
         with path.open("rb") as stream:
             data = stream.read(LARGEST_FILE + 1)
     except OSError as error:
@@ -36,7 +37,7 @@ def read_text(path: Path) -> str:
     except UnicodeDecodeError as error:
         raise ModelError(f"is not UTF-8 text: byte {error.start} cannot be decoded") from None
     if not text.strip():
-        raise ModelError("is empty; expected a model as JSON")
+        raise ModelError("is empty; expected JSON")
     return text
 
 
@@ -53,9 +54,26 @@ def parse(text: str) -> Any:
     except json.JSONDecodeError as error:
         raise ModelError(f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}") from None
     except RecursionError:
-        raise ModelError("not a model: the JSON nests too deeply") from None
+        raise ModelError("not as expected: the JSON nests too deeply") from None
     except ValueError as error:  # a whole number of thousands of digits
         raise ModelError(f"not JSON: {error}") from None
+
+
+def text(value: Any) -> str:
+    """Return `value` as JSON text; a dictionary with a line a key. NaN and infinities become null."""
+    value = _finite(value)
+    if not isinstance(value, dict):
+        return json.dumps(value, allow_nan=False)
+    lines = (f" {json.dumps(key)}: {json.dumps(part, allow_nan=False)}" for key, part in value.items())
+    return "{\n" + ",\n".join(lines) + "\n}"
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {key: _finite(part) for key, part in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(part) for part in value]
+    return None if isinstance(value, float) and not isfinite(value) else value
 
 
 def _refuse_constant(word: str) -> NoReturn:

@@ -33,7 +33,7 @@ class YieldRows:
     pivot : Array, shape (m, r)
         Normal rotation rate per unit multiplier that a row turns about (e1, e2); zero for other rows.
     reach : Array, shape (m, 2)
-        Largest |e1|, |e2| for the pivot: the half sides of the interface.
+        Largest |e1|, |e2| for the pivot: the half sides of a rectangle.
     resultants : Array, shape (m, 6, s)
         Q = resultants x.
     linear : int

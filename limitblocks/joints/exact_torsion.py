@@ -96,7 +96,7 @@ class ExactTorsion(Queries):
         groups = [hinging(polygons, self.compressive_strength, stress_unit=stress_unit)]
         if self.friction > 0.0:
             groups = self._frictional_rows(polygons, half_sides) + groups
-        return stacked(groups, half_sides, self.friction, self.friction > 0.0)
+        return stacked(groups, np.abs(polygons).max(axis=1), self.friction, self.friction > 0.0)
 
     def discretisation_error(self, interface: Interface) -> float:
         """Gap of the (V1, V2, T) polytopes: inner >= exact / (1 + gap), outer <= exact (1 + gap)."""

@@ -100,7 +100,7 @@ class OrdunaLourenco(Queries):
         shear = self.friction > 0.0 or self.cohesion > 0.0
         if shear:
             groups = self._frictional_rows(polygons, half_sides, stress_unit) + groups
-        return stacked(groups, half_sides, self.friction, shear)
+        return stacked(groups, np.abs(polygons).max(axis=1), self.friction, shear)
 
     def _frictional_rows(self, polygons: Array, half_sides: Array, stress_unit: float) -> list[Rows]:
         """Eqs (23)-(30) with the flow of Tables 3 and 5."""

@@ -12,6 +12,7 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface
+from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
 from limitblocks.mechanics.problem import Cones, LimitProblem, Scales
@@ -84,6 +85,7 @@ def limit_problem(
         pivot=read_only(pivot),
         reach=read_only(reach),
         resultants=resultants,
+        compliance=read_only(_compliance(resultants, interfaces, scales)),
         row_interface=row_interface,
         row_mode=tuple(row_mode),
         friction=read_only(friction),
@@ -165,3 +167,19 @@ def _compatibility(
     axes = np.stack([interface.axes for interface in interfaces])
     at_i, at_j = (at - centroids[block_i]) / scales.length, (at - centroids[block_j]) / scales.length
     return compatibility_matrix(axes, at_i, at_j, block_i, block_j, len(free))
+
+
+def _compliance(resultants: sparse.csr_array, interfaces: Sequence[Interface], scales: Scales) -> Array:
+    """Strain per generalised stress at unit stiffness per area; forces of n points share the area."""
+    inertia = np.ones((len(interfaces), 6))
+    for n in {len(interface.polygon) for interface in interfaces}:
+        these = [k for k, interface in enumerate(interfaces) if len(interface.polygon) == n]
+        polygons = np.stack([interfaces[k].polygon for k in these]) / scales.length
+        second = second_moments(polygons)
+        inertia[these, :3] = areas(polygons)[:, None]
+        inertia[these, 3:] = np.stack([second[:, 1], second[:, 0], second[:, 0] + second[:, 1]], axis=1)
+    squares = resultants.multiply(resultants).tocsr()
+    share = squares.sum(axis=1) / inertia.ravel()
+    is_force = np.tile([True, True, True, False, False, False], len(interfaces))
+    forces, moments = squares.T @ (share * is_force), squares.T @ (share * ~is_force)
+    return np.asarray(np.where(forces > 0.0, forces, moments))

@@ -46,6 +46,18 @@ class Cones:
     second_order: tuple[tuple[int, int], ...] = ()
 
     @property
+    def degree(self) -> int:
+        """Number of linear rows and cones."""
+        return self.linear + sum(count for count, _ in self.second_order)
+
+    @property
+    def identity(self) -> Array:
+        """The centre of the cone: 1 for linear rows, (1, 0, ...) for second-order cones."""
+        parts = [np.ones(self.linear)]
+        parts += [np.tile(np.eye(1, size)[0], count) for count, size in self.second_order]
+        return np.concatenate(parts)
+
+    @property
     def blocks(self) -> tuple[tuple[int, int, int], ...]:
         """(first row, count, size) of each group of second-order cones."""
         first, found = self.linear, []
@@ -88,6 +100,9 @@ class LimitProblem:
         Rows that turn about (e1, e2), Table 5, and the half sides that limit |e1|, |e2|.
     resultants : csr_array, shape (6 m, s)
         Stress resultants Q = resultants x.
+    compliance : Array, shape (s,)
+        Strain per generalised stress of joints of unit stiffness: 1/area for forces, 1/second moment of
+        area for moments; the metric in which stresses are compared.
     row_interface : Indices, shape (R,)
         Interface of each row.
     row_mode : tuple of str
@@ -110,6 +125,7 @@ class LimitProblem:
     pivot: Array
     reach: Array
     resultants: sparse.csr_array
+    compliance: Array
     row_interface: Indices
     row_mode: tuple[str, ...]
     friction: Array

@@ -1,0 +1,180 @@
+"""Results of the non-associated analysis and of the load path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from limitblocks.analysis.residuals import Residuals
+from limitblocks.arrays import Array
+
+
+class Status(Enum):
+    """How an analysis ended; the text is for the user."""
+
+    CONVERGED = "converged: every residual is within the tolerance"
+    STALLED = "not converged: the steps became too small; the state shown is the best one reached"
+    OUT_OF_STEPS = "not converged: the number of steps was used up; the state shown is the last one"
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """One step of the outer loop: load factor, step size, largest residual and its name, inner iterations."""
+
+    load_factor: float
+    step_size: float
+    residuals: dict[str, float]
+    inner: int
+
+
+@dataclass(frozen=True, eq=False)
+class Nonassociated:
+    """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
+
+    A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
+    permanent loads. Every solution lies between `frictionless` and `associated`.
+
+    Attributes
+    ----------
+    load_factor : float
+        Load factor at collapse.
+    frictionless, associated : float
+        Associated load factors without friction and with it: the bracket (Drucker 1954). NaN where the
+        frictionless structure does not stand, infinite where the associated load is unlimited.
+    stress_resultants : Array, shape (m, 6)
+        (V1, V2, N, M1, M2, T) of each interface, local axes, N and N m; N <= 0 in compression.
+    generalised_stresses : Array, shape (s,)
+        What the joints' rows act on, N and N m.
+    displacement_rates : Array, shape (n, 6)
+        Mechanism: rates of each block of the model at its centroid, global axes, m and rad, such that the
+        live load does the work 1 N m, Eq. (55); zero for supports.
+    flow_multipliers : Array, shape (R,)
+        Flow multiplier of each row of the limit problem, m.
+    residuals : Residuals
+        Of Eqs (54)-(59), recomputed by the checker.
+    status : Status
+        Whether it converged.
+    history : tuple of Iteration
+        The outer loop.
+    dilatancy : float
+        Tangent of the dilatancy angle.
+    tolerance : float
+        Largest residual of a converged solution.
+    digest : str
+        SHA-256 of the model.
+    """
+
+    load_factor: float
+    frictionless: float
+    associated: float
+    stress_resultants: Array
+    generalised_stresses: Array
+    displacement_rates: Array
+    flow_multipliers: Array
+    residuals: Residuals
+    status: Status
+    history: tuple[Iteration, ...] = field(repr=False)
+    dilatancy: float
+    tolerance: float
+    digest: str
+
+    @property
+    def converged(self) -> bool:
+        """True if every residual is within the tolerance."""
+        return self.status is Status.CONVERGED
+
+    def __str__(self) -> str:
+        worst = self.residuals.worst
+        word = "" if self.converged else f" ({self.status.value})"
+        return (
+            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} (frictionless) "
+            f"and {self.associated:.6g} (associated), worst residual {worst.value:.1e} ({worst.name}){word}"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers, lists and text."""
+        return {
+            "analysis": "nonassociated",
+            "load_factor": self.load_factor,
+            "frictionless": self.frictionless,
+            "associated": self.associated,
+            "status": self.status.value,
+            "dilatancy": self.dilatancy,
+            "residuals": self.residuals.to_dict(),
+            "tolerance": self.tolerance,
+            "history": [vars(iteration) for iteration in self.history],
+            "stress_resultants": self.stress_resultants.tolist(),
+            "generalised_stresses": self.generalised_stresses.tolist(),
+            "displacement_rates": self.displacement_rates.tolist(),
+            "flow_multipliers": self.flow_multipliers.tolist(),
+            "model_digest": self.digest,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class PathStep:
+    """One state of the load path, in equilibrium and within the yield set.
+
+    Attributes
+    ----------
+    load_factor : float
+        Load factor.
+    stress_resultants : Array, shape (m, 6)
+        (V1, V2, N, M1, M2, T) of each interface, N and N m.
+    displacements : Array, shape (n, 6)
+        Of each block since the permanent loads, m and rad; their size is relative to the joints' compliance.
+    active : tuple of tuple
+        (interface, mode) pairs that flow in this step and did not in the one before.
+    residuals : dict
+        Equilibrium and yield violation, in mean block weights.
+    """
+
+    load_factor: float
+    stress_resultants: Array
+    displacements: Array
+    active: tuple[tuple[str, str], ...]
+    residuals: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class LoadPath:
+    """States from the permanent loads to collapse; the last one is `collapse`, a solution of Eqs (54)-(59)."""
+
+    steps: tuple[PathStep, ...]
+    collapse: Nonassociated
+
+    @property
+    def load_factor(self) -> float:
+        """Load factor at collapse."""
+        return self.collapse.load_factor
+
+    @property
+    def peak(self) -> float:
+        """Largest load factor along the path."""
+        return max(step.load_factor for step in self.steps)
+
+    def curve(self, block: int, component: int) -> tuple[Array, Array]:
+        """Return displacements of one block (position in the model, component 0 to 5) and load factors."""
+        import numpy as np
+
+        moved = np.array([step.displacements[block, component] for step in self.steps])
+        return moved, np.array([step.load_factor for step in self.steps])
+
+    def table(self) -> list[dict[str, Any]]:
+        """One row a step: load factor, residuals and what began to flow."""
+        return [
+            {"step": k, "load_factor": step.load_factor, **step.residuals, "newly_active": list(step.active)}
+            for k, step in enumerate(self.steps)
+        ]
+
+    def __str__(self) -> str:
+        return f"load path of {len(self.steps)} steps: {self.collapse}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the path as plain numbers, lists and text."""
+        steps = [
+            row | {"displacements": step.displacements.tolist(), "stress_resultants": step.stress_resultants.tolist()}
+            for row, step in zip(self.table(), self.steps, strict=True)
+        ]
+        return {"analysis": "path", "steps": steps, "collapse": self.collapse.to_dict()}

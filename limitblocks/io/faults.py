@@ -1,0 +1,103 @@
+"""Faults of a file as lines for the user, each with its place; the same for every kind of file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+from reprlib import repr as _value
+from textwrap import shorten
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+
+from limitblocks.errors import ModelError
+
+if TYPE_CHECKING:
+    from limitblocks.io.documents import Document
+
+_LONGEST_LINE = 500
+D = TypeVar("D", bound="Document")
+
+
+@contextmanager
+def named(path: Path) -> Iterator[None]:
+    """Put the name of the file before each fault found within."""
+    try:
+        with np.errstate(all="ignore"):  # numbers out of all proportion end as a fault, not as a warning
+            yield
+    except ModelError as error:
+        lines = (shorten(f"{path}: {fault}", _LONGEST_LINE, placeholder=" ...") for fault in error.problems)
+        raise ModelError(*lines) from None
+
+
+def validated(form: type[D], text: str, data: Any) -> D:
+    """Return the document of the given form in JSON `text`, which parses to `data`.
+
+    Raises
+    ------
+    ModelError
+        With every fault in keys and types, and its place.
+    """
+    from pydantic import ValidationError  # here, to keep `import limitblocks` quick
+
+    try:
+        return form.model_validate_json(text)
+    except ValidationError as error:
+        faults = error.errors(include_url=False)
+    raise ModelError(*(f"{_place(fault['loc'], data)}{_said(fault, form)}" for fault in faults))
+
+
+def near(name: str, known: Any) -> str:
+    """Return '; did you mean ...?', or nothing where no known name is like `name`."""
+    found = get_close_matches(name, known, 1)
+    return f"; did you mean {found[0]!r}?" if found else ""
+
+
+def _place(steps: tuple[int | str, ...], data: Any) -> str:
+    """Path to a fault as the user would write it; pydantic's own steps into unions are not in `data`."""
+    path = ""
+    for step in steps:
+        if isinstance(data, list) and isinstance(step, int):
+            path += f"[{step}]"
+            data = data[step] if step < len(data) else None
+        elif isinstance(data, dict) and (step in data or step == steps[-1]):
+            path += f".{step}"
+            data = data.get(step)
+    return f"{path.lstrip('.')}: " if path else ""
+
+
+def _said(fault: Any, form: type[Document]) -> str:
+    """What pydantic found, in a sentence for the user."""
+    context = fault.get("ctx", {})
+    match fault["type"]:
+        case "missing":
+            return "is missing"
+        case "extra_forbidden":
+            return "unknown key" + near(str(fault["loc"][-1]), _keys(form))
+        case "union_tag_not_found":
+            return "type is missing"
+        case "union_tag_invalid":
+            return f"type {_value(context['tag'])} is unknown; expected {context['expected_tags']}"
+        case "json_invalid":
+            return f"not JSON: {context['error']}"
+        case "value_error":
+            return str(context["error"])
+        case "less_than" | "greater_than":
+            return f"expected a number less than 1e30 in size, not {_value(fault['input'])}"
+        case "tuple_type" | "list_type":
+            return f"expected a list [...], not {_value(fault['input'])}"
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return f"expected an object {{...}}, not {_value(fault['input'])}"
+        case _:
+            said = fault["msg"].replace("Input should be", "expected").replace(" valid", "")
+            return f"{said}, not {_value(fault['input'])}"
+
+
+@cache
+def _keys(form: type[Document]) -> frozenset[str]:
+    schema = form.model_json_schema()
+    parts = (schema, *schema.get("$defs", {}).values())
+    return frozenset(key for part in parts for key in part.get("properties", ()))

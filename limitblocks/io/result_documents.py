@@ -1,0 +1,60 @@
+"""The result file as pydantic classes: what a claimed solution needs, and what is kept beside it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Discriminator, Field, Tag
+
+from limitblocks.io.documents import Document, Number
+
+Six = tuple[Number, Number, Number, Number, Number, Number]
+
+
+def _form(rows: Any) -> str:
+    return "by name" if isinstance(rows, dict) else "in order"
+
+
+Rows = Annotated[
+    Annotated[list[Six], Tag("in order")] | Annotated[dict[str, Six], Tag("by name")], Discriminator(_form)
+]
+
+
+class ResultDocument(Document):
+    """A claimed solution of Eqs (54)-(59). SI units: m, rad, N."""
+
+    schema_version: Literal[1] = 1
+    """Version of this file format."""
+    analysis: Literal["nonassociated"] = "nonassociated"
+    model_digest: str = ""
+    """SHA-256 of the model."""
+    load_factor: Number
+    """Load factor."""
+    stress_resultants: Rows
+    """(V1, V2, N, M1, M2, T) of each interface."""
+    generalised_stresses: list[Number] | None = None
+    """What the rows of the joints act on."""
+    displacement_rates: Rows | None = None
+    """(du, dv, dw, dwX, dwY, dwZ) of each block."""
+    flow_multipliers: list[Number] | None = None
+    """Of each row of the limit problem."""
+    dilatancy: Annotated[float, Field(ge=0.0, lt=1e30)] = 0.0
+    """Tangent of the dilatancy angle."""
+    # kept for the reader; no check believes a word of it
+    frictionless: float | None = None
+    associated: float | None = None
+    status: str = ""
+    residuals: dict[str, float | None] = {}
+    tolerance: float | None = None
+    history: list[dict[str, Any]] = []
+    versions: dict[str, str] = {}
+
+
+class PathDocument(Document):
+    """A load path; its collapse is the claimed solution."""
+
+    schema_version: Literal[1] = 1
+    analysis: Literal["path"]
+    steps: list[dict[str, Any]] = []
+    collapse: ResultDocument
+    versions: dict[str, str] = {}

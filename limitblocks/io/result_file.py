@@ -1,0 +1,146 @@
+"""The result file: what an analysis found, as JSON that anybody's program can write and check."""
+
+from __future__ import annotations
+
+from collections import Counter
+from importlib import metadata
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
+
+from limitblocks.analysis.mcp import Claim
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.io import faults, strict_json
+from limitblocks.model import Model
+
+if TYPE_CHECKING:
+    from limitblocks.io.result_documents import ResultDocument
+
+RESULT_SCHEMA_VERSION = 1
+_STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
+_STILL = (0.0,) * 6
+_NO_CLAIM = {
+    "bounds": "holds bounds for associated flow, two load factors with a state each, which their own residuals "
+    "prove; expected the result of nonassociated or path",
+    "check": "holds a check, not a result; expected the result of nonassociated or path",
+}
+
+
+class Result(Protocol):
+    """What every analysis returns has at least this."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers, lists and text."""
+
+
+def read_result(file: str | Path, model: Model | None = None) -> Claim:
+    """Return the claimed solution in `file`, a JSON document as described in docs/result-file.md.
+
+    Nothing in the file is believed: :func:`limitblocks.check_mcp` says whether it is a solution.
+
+    Parameters
+    ----------
+    file : str or Path
+        Name of the file: a result of limitblocks, written by hand, or by another program.
+    model : Model, optional
+        The model it is a result of; needed where the file gives stress resultants by interface name.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, what it says is wrong, or it belongs to another model; `problems` has one
+        line per fault, each with the file and the place in it.
+    """
+    path = Path(file)
+    with faults.named(path):
+        return _claim(_document(strict_json.read_text(path)), model)
+
+
+def write_result(result: Result, file: str | Path, *, overwrite: bool = False) -> Path:
+    """Write the result of an analysis to a JSON file and return its path.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the file exists and `overwrite` is false, or it cannot be written.
+    """
+    path, text = Path(file), result_text(result)
+    try:
+        with path.open("w" if overwrite else "x", encoding="utf-8") as stream:
+            stream.write(text + "\n")
+    except FileExistsError:
+        raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
+    except OSError as error:
+        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
+    return path
+
+
+def result_text(result: Result) -> str:
+    """Return the text of the result file; undefined and infinite numbers are null."""
+    head = {"schema_version": RESULT_SCHEMA_VERSION, "versions": versions()}
+    return strict_json.text(head | result.to_dict())
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of limitblocks and of the packages its numbers come from."""
+    return {name: metadata.version(name) for name in _STATED}
+
+
+def _document(text: str) -> ResultDocument:
+    from limitblocks.io.result_documents import PathDocument, ResultDocument
+
+    data = strict_json.parse(text)
+    kind = data.get("analysis") if isinstance(data, dict) else None
+    if isinstance(kind, str) and kind in _NO_CLAIM:
+        raise ModelError(_NO_CLAIM[kind])
+    if kind == "path":
+        return faults.validated(PathDocument, text, data).collapse
+    return faults.validated(ResultDocument, text, data)
+
+
+def _claim(document: ResultDocument, model: Model | None) -> Claim:
+    digest = document.model_digest
+    if model and digest and digest != model.digest:
+        raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    interfaces = [interface.name for interface in model.interfaces] if model else None
+    blocks = [block.name for block in model.blocks] if model else None
+    wrong: list[str] = []
+    resultants = _rows("stress_resultants", document.stress_resultants, interfaces, (), wrong)
+    still = model.supports if model else ()
+    rates = _rows("displacement_rates", document.displacement_rates, blocks, still, wrong)
+    if wrong:
+        raise ModelError(*wrong)
+    assert resultants is not None
+    return Claim(
+        load_factor=document.load_factor,
+        stress_resultants=resultants,
+        displacement_rates=rates,
+        flow_multipliers=_array(document.flow_multipliers),
+        generalised_stresses=_array(document.generalised_stresses),
+        dilatancy=document.dilatancy,
+        digest=digest,
+    )
+
+
+def _array(numbers: list[float] | None) -> Array | None:
+    return None if numbers is None else read_only(numbers)
+
+
+def _rows(
+    key: str, given: Any, names: list[str] | None, still: tuple[str, ...] | Any, wrong: list[str]
+) -> Array | None:
+    """Rows of six in the order of `names`, those of `still` zero if left out; faults go to `wrong`."""
+    if given is None:
+        return None
+    if isinstance(given, dict):
+        if names is None:
+            wrong.append(f"{key}: is given by name, which takes the model to put in order; give the model too")
+            return None
+        twice = [name for name, count in Counter(names).items() if count > 1]
+        wrong += [f"{key}: two are named {name!r} in the model; give a list in its order" for name in twice]
+        wrong += [
+            f"{key}.{name}: no such name in the model{faults.near(name, names)}" for name in given.keys() - names
+        ]
+        wrong += [f"{key}.{name}: is missing" for name in names if name not in given and name not in still]
+        given = [given.get(name, _STILL) for name in names]
+    return read_only(given).reshape(-1, 6)
