@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
@@ -48,6 +48,21 @@ def validated(form: type[D], text: str, data: Any) -> D:
     except ValidationError as error:
         faults = error.errors(include_url=False)
     raise ModelError(*(f"{_place(fault['loc'], data)}{_said(fault, form)}" for fault in faults))
+
+
+class Faults(list[str]):
+    """Faults with their places, gathered from parts that are made one by one."""
+
+    def made(self, place: str, make: Callable[..., Any], *arguments: Any) -> Any:
+        """Return what `make` gives, or None and note why not."""
+        try:
+            return make(*arguments)
+        except ModelError as error:
+            self.extend(f"{place}: {fault}" for fault in error.problems)
+
+    def all_made(self, key: str, make: Callable[..., Any], parts: Iterable[Any], *more: Any) -> list[Any]:
+        """Return what `make` gives for each part."""
+        return [self.made(f"{key}[{k}]", make, part, *more) for k, part in enumerate(parts)]
 
 
 def near(name: str, known: Any) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -53,24 +52,9 @@ def _document(text: str) -> ModelDocument:
     return faults.validated(ModelDocument, text, strict_json.parse(text))
 
 
-class _Faults(list[str]):
-    """Faults with their places, gathered from parts that are made one by one."""
-
-    def made(self, place: str, make: Callable[..., Any], *arguments: Any) -> Any:
-        """Return what `make` gives, or None and note why not."""
-        try:
-            return make(*arguments)
-        except ModelError as error:
-            self.extend(f"{place}: {fault}" for fault in error.problems)
-
-    def all_made(self, key: str, make: Callable[..., Any], parts: Iterable[Any], *more: Any) -> list[Any]:
-        """Return what `make` gives for each part."""
-        return [self.made(f"{key}[{k}]", make, part, *more) for k, part in enumerate(parts)]
-
-
 def _model(document: ModelDocument) -> Model:
     """The model of a document of the right form; raises ModelError with all its faults."""
-    wrong = _Faults(_unknown_names(document))
+    wrong = faults.Faults(_unknown_names(document))
     blocks = wrong.all_made("blocks", _block, document.blocks)
     joints = {name: wrong.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
     dead = wrong.all_made("dead", _load, document.dead)

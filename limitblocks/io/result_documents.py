@@ -41,13 +41,13 @@ class ResultDocument(Document):
     dilatancy: Annotated[float, Field(ge=0.0, lt=1e30)] = 0.0
     """Tangent of the dilatancy angle."""
     # kept for the reader; no check believes a word of it
-    frictionless: float | None = None
-    associated: float | None = None
-    status: str = ""
-    residuals: dict[str, float | None] = {}
-    tolerance: float | None = None
-    history: list[dict[str, Any]] = []
-    versions: dict[str, str] = {}
+    frictionless: Any = None
+    associated: Any = None
+    status: Any = None
+    residuals: Any = None
+    tolerance: Any = None
+    history: Any = None
+    versions: Any = None
 
 
 class PathDocument(Document):
@@ -55,6 +55,6 @@ class PathDocument(Document):
 
     schema_version: Literal[1] = 1
     analysis: Literal["path"]
-    steps: list[dict[str, Any]] = []
+    steps: Any = None
     collapse: ResultDocument
-    versions: dict[str, str] = {}
+    versions: Any = None

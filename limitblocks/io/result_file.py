@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -20,8 +21,8 @@ RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
-    "bounds": "holds bounds for associated flow, two load factors with a state each, which their own residuals "
-    "prove; expected the result of nonassociated or path",
+    "bounds": "holds bounds, which are two load factors and prove themselves by their gap; expected the result "
+    "of nonassociated or path",
     "check": "holds a check, not a result; expected the result of nonassociated or path",
 }
 
@@ -102,15 +103,14 @@ def _claim(document: ResultDocument, model: Model | None) -> Claim:
     digest = document.model_digest
     if model and digest and digest != model.digest:
         raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    wrong = faults.Faults()
     interfaces = [interface.name for interface in model.interfaces] if model else None
+    resultants = wrong.made("stress_resultants", _rows, document.stress_resultants, interfaces)
     blocks = [block.name for block in model.blocks] if model else None
-    wrong: list[str] = []
-    resultants = _rows("stress_resultants", document.stress_resultants, interfaces, (), wrong)
     still = model.supports if model else ()
-    rates = _rows("displacement_rates", document.displacement_rates, blocks, still, wrong)
+    rates = wrong.made("displacement_rates", _rows, document.displacement_rates, blocks, still)
     if wrong:
         raise ModelError(*wrong)
-    assert resultants is not None
     return Claim(
         load_factor=document.load_factor,
         stress_resultants=resultants,
@@ -126,21 +126,21 @@ def _array(numbers: list[float] | None) -> Array | None:
     return None if numbers is None else read_only(numbers)
 
 
-def _rows(
-    key: str, given: Any, names: list[str] | None, still: tuple[str, ...] | Any, wrong: list[str]
-) -> Array | None:
-    """Rows of six in the order of `names`, those of `still` zero if left out; faults go to `wrong`."""
+def _rows(given: Any, names: list[str] | None, still: Sequence[str] = ()) -> Array | None:
+    """Rows of six in the order of `names`; those of `still` may be left out and are zero."""
     if given is None:
         return None
     if isinstance(given, dict):
         if names is None:
-            wrong.append(f"{key}: is given by name, which takes the model to put in order; give the model too")
-            return None
+            raise ModelError("is given by name, which takes the model to put in order; give the model too")
         twice = [name for name, count in Counter(names).items() if count > 1]
-        wrong += [f"{key}: two are named {name!r} in the model; give a list in its order" for name in twice]
+        wrong = [f"two are named {name!r} in the model; give a list in its order" for name in twice]
+        known = set(names)
         wrong += [
-            f"{key}.{name}: no such name in the model{faults.near(name, names)}" for name in given.keys() - names
+            f"no {name!r} in the model{faults.near(name, known)}" for name in given if name not in known
         ]
-        wrong += [f"{key}.{name}: is missing" for name in names if name not in given and name not in still]
+        wrong += [f"{name!r} is missing" for name in names if name not in given and name not in still]
+        if wrong:
+            raise ModelError(*wrong)
         given = [given.get(name, _STILL) for name in names]
     return read_only(given).reshape(-1, 6)
