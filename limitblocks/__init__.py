@@ -15,7 +15,7 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import model_schema, read
+from limitblocks.io import model_schema, read, read_result, write_result
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -62,7 +62,9 @@ __all__ = [
     "model_schema",
     "moment",
     "read",
+    "read_result",
     "report",
     "self_weight",
     "structures",
+    "write_result",
 ]

@@ -6,19 +6,25 @@ Exit codes: 0 done, 1 a check failed, 2 the model (or the usage) is wrong, 3 no 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
-from rich.table import Table
 
-from limitblocks.errors import CheckFailed, LimitBlocksError, ModelError, SolveError
+from limitblocks.errors import (
+    CheckFailed,
+    LimitBlocksError,
+    ModelError,
+    NotConverged,
+    SolveError,
+    UnlimitedLoad,
+)
 
 if TYPE_CHECKING:
-    from limitblocks.analysis.bounds import Bounds
+    from limitblocks.analysis.results import LoadPath, Nonassociated
     from limitblocks.model import Model
 
 
@@ -37,6 +43,7 @@ app = typer.Typer(
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
     Path | None,
@@ -46,6 +53,9 @@ ReportFile = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="FILE", help="HTML file [default: beside the model]."),
 ]
+ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
+WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]
+WithPath = Annotated[bool, typer.Option("--path", help="Also the load path.")]
 Version = Annotated[bool, typer.Option("--version", help="Print the version and leave.")]
 DEFAULT_TOLERANCE = 1e-6
 
@@ -74,14 +84,66 @@ def bounds(
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with _clean_errors():
+        from limitblocks.analysis.bounds import bounds as solve
+
         _refuse_existing(output, force, model)
-        read, result = _solved(model, tolerance)
-        if output:
-            _write(output, json.dumps(result.to_dict(), indent=1), force)
+        _answer(model, partial(solve, tolerance=tolerance), as_json, output, force)
+
+
+@app.command()
+def nonassociated(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print a load factor for joints that slide without lifting, and its proof."""
+    with _clean_errors():
+        _refuse_existing(output, force, model)
+        _answer(model, partial(_nonassociated, dilatancy, tolerance), as_json, output, force)
+
+
+@app.command()
+def path(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the steps from the permanent loads to collapse."""
+    with _clean_errors():
+        _refuse_existing(output, force, model)
+        _answer(model, partial(_path, dilatancy, tolerance), as_json, output, force)
+
+
+@app.command()
+def check(
+    model: ModelFile,
+    result: ClaimFile,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    as_json: AsJson = False,
+) -> None:
+    """Check a result file against Eqs (54)-(59) of its model; exit code 1 if a residual fails."""
+    with _clean_errors():
+        from limitblocks.analysis.mcp import check_mcp
+        from limitblocks.io import read, read_result
+        from limitblocks.io.result_file import result_text
+        from limitblocks.report.terminal import print_result
+
+        structure = read(model)
+        claim = read_result(result, structure)
+        found = check_mcp(structure, claim, tolerance=tolerance)
+        if not claim.digest:
+            typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
         if as_json:
-            typer.echo(json.dumps(result.to_dict()))
+            typer.echo(result_text(found))
         else:
-            _print_bounds(read, result)
+            print_result(structure, found)
+        found.require()
 
 
 @app.command()
@@ -90,14 +152,15 @@ def info(model: ModelFile, as_json: AsJson = False) -> None:
     with _clean_errors():
         from limitblocks.io import read
         from limitblocks.report.facts import fact_rows, facts
+        from limitblocks.report.terminal import print_table, print_warnings
 
         known = facts(read(model))
         if as_json:
             typer.echo(json.dumps(known))
             return
         rows = (*fact_rows(known), ("SHA-256", known["digest"]))
-        _print_table(known["name"] or str(model), (), rows)
-        _print_warnings(known["warnings"])
+        print_table(known["name"] or str(model), (), rows)
+        print_warnings(known["warnings"])
 
 
 @app.command()
@@ -106,15 +169,24 @@ def report(
     output: ReportFile = None,
     force: Force = False,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    dilatancy: Dilatancy = 0.0,
+    with_nonassociated: WithNonassociated = False,
+    with_path: WithPath = False,
 ) -> None:
     """Analyse a model and write an HTML report."""
     with _clean_errors():
+        from limitblocks.io import read
         from limitblocks.report import report
 
         file = output or model.with_suffix(_SUFFIX)
         _refuse_existing(file, force, model)
-        read, result = _solved(model, tolerance)
-        typer.echo(str(report(read, result).save(file, overwrite=force)))
+        structure = read(model)
+        results = _bounds_if_any(structure, tolerance, needed=not (with_nonassociated or with_path))
+        if with_nonassociated:
+            results.append(_nonassociated(dilatancy, tolerance, structure))
+        if with_path:
+            results.append(_path(dilatancy, tolerance, structure))
+        typer.echo(str(report(structure, *results).save(file, overwrite=force)))
 
 
 @app.command()
@@ -125,12 +197,57 @@ def schema() -> None:
     typer.echo(json.dumps(model_schema(), indent=1))
 
 
-def _solved(file: Path, tolerance: float) -> tuple[Model, Bounds]:
+def _nonassociated(dilatancy: float, tolerance: float, model: Model) -> Nonassociated:
+    from limitblocks.analysis.nonassociated import nonassociated
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress() as show:
+        return nonassociated(model, dilatancy=dilatancy, tolerance=tolerance, progress=show)
+
+
+def _path(dilatancy: float, tolerance: float, model: Model) -> LoadPath:
+    from limitblocks.analysis.load_path import load_path
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress() as show:
+        return load_path(model, dilatancy=dilatancy, tolerance=tolerance, progress=show)
+
+
+def _bounds_if_any(model: Model, tolerance: float, needed: bool) -> list[Any]:
+    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
     from limitblocks.analysis.bounds import bounds
-    from limitblocks.io import read
+
+    try:
+        return [bounds(model, tolerance=tolerance)]
+    except UnlimitedLoad as error:
+        if needed:
+            raise
+        typer.echo(f"warning: no bounds: {error}", err=True)
+        return []
+
+
+def _answer(
+    file: Path, solve: Callable[[Model], Any], as_json: bool, output: Path | None, force: bool
+) -> None:
+    """Solve the model in `file`; write and print the result, or write the best state there is."""
+    from limitblocks.io import read, write_result
+    from limitblocks.io.result_file import result_text
+    from limitblocks.report.terminal import print_result
 
     model = read(file)
-    return model, bounds(model, tolerance=tolerance)
+    try:
+        result = solve(model)
+    except NotConverged as error:
+        if output and error.result is not None:
+            write_result(error.result, output, overwrite=force)
+            typer.echo(f"not converged; the best state found is in {output}", err=True)
+        raise
+    if output:
+        write_result(result, output, overwrite=force)
+    if as_json:
+        typer.echo(result_text(result))
+    else:
+        print_result(model, result)
 
 
 @contextmanager
@@ -159,52 +276,3 @@ def _refuse_existing(file: Path | None, force: bool, model: Path) -> None:
         raise LimitBlocksError(f"{file} is the model; name another file with --output")
     if file and not force and file.exists():
         raise LimitBlocksError(f"{file} exists; name another file with --output or replace it with --force")
-
-
-def _write(file: Path, text: str, force: bool) -> None:
-    try:
-        with file.open("w" if force else "x", encoding="utf-8") as stream:
-            stream.write(text)
-    except OSError as error:
-        raise LimitBlocksError(f"cannot write {file}: {error.strerror}") from None
-
-
-def _print_bounds(model: Model, result: Bounds) -> None:
-    from limitblocks.report.sections import section
-
-    said = section(model, result)
-    console = Console()
-    console.print(f"\n  load factor  [bold]{said.headline}[/bold]  (associated)\n", highlight=False)
-    _print_table("", ("Quantity", "Value", "From"), said.values)
-    checks = [
-        (name, f"{value:.1e}", meaning, "pass" if passed else "fail")
-        for name, value, meaning, passed in said.checks
-    ]
-    title = f"\nResiduals, each at most {said.tolerance:.1e}"
-    _print_table(title, ("Residual", "Value", "Meaning", "Check"), checks)
-    _print_warnings(said.warnings)
-
-
-def _print_warnings(warnings: Iterable[str]) -> None:
-    for warning in warnings:
-        Console(soft_wrap=True).print(f"warning: {warning}", style="yellow", markup=False, highlight=False)
-
-
-def _print_table(title: str, heads: tuple[str, ...], rows: Any) -> None:
-    from rich.text import Text
-
-    table = Table(
-        title=Text(title) if title else None,
-        title_justify="left",
-        show_header=bool(heads),
-        box=None,
-        pad_edge=False,
-    )
-    for head in heads:
-        table.add_column(head, justify="right" if head == "Value" else "left", overflow="fold")
-    if not heads:
-        table.add_column(no_wrap=True)
-        table.add_column(overflow="fold")
-    for row in rows:
-        table.add_row(*(Text(cell) for cell in row))  # Text: a name in brackets is not markup
-    Console().print(table)

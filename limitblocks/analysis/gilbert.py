@@ -36,7 +36,9 @@ class Frozen:
     slack: float
 
 
-def frozen_step(problem: LimitProblem, x: Array, weights: Array, rho: float, dilatancy: float) -> Frozen | None:
+def frozen_step(
+    problem: LimitProblem, x: Array, weights: Array, rho: float, dilatancy: float
+) -> Frozen | None:
     """Solve the program frozen at the stresses `x`; None if the solver gives nothing.
 
     Its objective is the load factor less rho/2 (x - x_k)^T W (x - x_k), W the compliance of the joints:

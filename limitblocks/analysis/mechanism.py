@@ -28,6 +28,8 @@ def find_mechanism(
     """
     n, R = problem.C.shape[1], problem.F.shape[0]
     rows = problem.F @ stresses + problem.g
+    if not np.isfinite(rows).all() or (rates is not None and not np.isfinite(rates).all()):
+        return np.full(n, np.nan) if rates is None else rates, np.full(R, np.nan)
     columns = _flow_columns(problem, rows)
     flow = (plastic_potential(problem, stresses, dilatancy).T @ columns).tocsr()
     worst = sparse.csr_array(np.ones((problem.C.shape[0], 1)))

@@ -174,7 +174,11 @@ class LoadPath:
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""
         steps = [
-            row | {"displacements": step.displacements.tolist(), "stress_resultants": step.stress_resultants.tolist()}
+            row
+            | {
+                "displacements": step.displacements.tolist(),
+                "stress_resultants": step.stress_resultants.tolist(),
+            }
             for row, step in zip(self.table(), self.steps, strict=True)
         ]
         return {"analysis": "path", "steps": steps, "collapse": self.collapse.to_dict()}

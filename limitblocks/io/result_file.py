@@ -21,7 +21,7 @@ RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
-    "bounds": "holds bounds, which are two load factors and prove themselves by their gap; expected the result "
+    "bounds": "holds bounds, two load factors that prove themselves by their gap; expected the result "
     "of nonassociated or path",
     "check": "holds a check, not a result; expected the result of nonassociated or path",
 }

@@ -4,24 +4,27 @@ from __future__ import annotations
 
 import base64
 import hashlib
-import json
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from limitblocks.analysis.bounds import Bounds
+from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.errors import LimitBlocksError
+from limitblocks.io import strict_json
+from limitblocks.io.result_file import versions
 from limitblocks.model import Model
+from limitblocks.report.comparison import NOT_UNIQUE, comparison
 from limitblocks.report.facts import assumptions, fact_rows, facts
-from limitblocks.report.picture import mechanism_picture
+from limitblocks.report.picture import Picture, mechanism_picture
 from limitblocks.report.sections import Section, section
 
 _FOLDER = Path(__file__).parent
 _MARK = '<meta name="generator" content="limitblocks '
 _MARK_WITHIN = 4096  # bytes from the start of the file
-_STATED = ("numpy", "scipy", "cvxpy", "clarabel")
+_DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,13 +58,14 @@ class Report:
             "versions": versions(),
             "model": facts(self.model),
             "assumptions": assumptions(self.model),
+            "comparison": [list(row) for row in comparison(self.results)],
             "results": [result.to_dict() for result in self.results],
         }
 
     @property
     def json(self) -> str:
         """The content as JSON text."""
-        return json.dumps(self.to_dict(), indent=1)
+        return strict_json.text(self.to_dict())
 
     @property
     def title(self) -> str:
@@ -85,7 +89,9 @@ class Report:
         return environment.get_template("report.html").render(
             title=self.title,
             date=self.date,
-            sections=[(one, mechanism_picture(self.model, one.rates)) for one in self.sections],
+            sections=[(one, self._picture(one)) for one in self.sections],
+            comparison=comparison(self.results),
+            not_unique=NOT_UNIQUE,
             warnings=[warning for one in self.sections for warning in one.warnings] + known["warnings"],
             model=fact_rows(known),
             assumptions=assumptions(self.model),
@@ -94,6 +100,12 @@ class Report:
             style=style,
             style_hash=base64.b64encode(hashlib.sha256(style.encode()).digest()).decode(),
         )
+
+    def _picture(self, one: Section) -> Picture | None:
+        """The drawing of a section's mechanism, if this report draws that one."""
+        kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
+        drawn = next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
+        return mechanism_picture(self.model, one.rates) if one is drawn and one.rates is not None else None
 
     def save(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
         """Write the report as HTML and return its path.
@@ -143,13 +155,6 @@ def report(model: Model, *results: Any) -> Report:
     made = Report(model, results)
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
     return made
-
-
-def versions() -> dict[str, str]:
-    """Return the versions of limitblocks and of the packages its numbers come from."""
-    import limitblocks
-
-    return {"limitblocks": limitblocks.__version__} | {name: metadata.version(name) for name in _STATED}
 
 
 def _ours(path: Path) -> bool:

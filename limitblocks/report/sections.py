@@ -4,12 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, NamedTuple
 
+from limitblocks.analysis import mcp
 from limitblocks.analysis.bounds import TOLERANCE, Bounds
+from limitblocks.analysis.residuals import Residuals
+from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
+from limitblocks.report.curve import Curve, path_curve
+
+_ACTIVE_SHOWN = 4
 
 
 class Check(NamedTuple):
@@ -21,6 +28,14 @@ class Check(NamedTuple):
     passed: bool
 
 
+class Table(NamedTuple):
+    """Rows of text under a caption."""
+
+    caption: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Section:
     """A result as a report shows it.
@@ -29,18 +44,22 @@ class Section:
     ----------
     title, meaning : str
         Kind of result, and what it says, in a sentence.
-    headline : str
-        The load factor, large.
+    headline, quantity : str
+        What counts, large, and what it is; mostly the load factor.
     values : tuple of (str, str, str)
         Quantity, value, and where it comes from.
     checks : tuple of Check
         Residuals.
     tolerance : float
         Largest residual accepted.
-    rates : Array, shape (n, 6)
+    rates : Array, shape (n, 6), optional
         Displacement rates of the mechanism to draw.
     warnings : tuple of str
         What is no error but may not be meant.
+    steps : Table, optional
+        One row a step.
+    curve : Curve, optional
+        A plot to draw.
     """
 
     title: str
@@ -49,8 +68,11 @@ class Section:
     values: tuple[tuple[str, str, str], ...]
     checks: tuple[Check, ...]
     tolerance: float
-    rates: Array
+    rates: Array | None = None
     warnings: tuple[str, ...] = ()
+    quantity: str = "load factor α"
+    steps: Table | None = None
+    curve: Curve | None = None
 
 
 def section(model: Model, result: Any) -> Section:
@@ -65,15 +87,27 @@ def section(model: Model, result: Any) -> Section:
     if make is None:
         known = ", ".join(sorted(kind.__name__ for kind in _SECTIONS))
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
-    if result.digest != model.digest:
+    if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
         kind = type(result).__name__
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
-    return make(result)
+    return make(model, result)
 
 
-def _bounds(bounds: Bounds) -> Section:
+def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
+    """Return name, value and meaning of the load factors that no solution is below and above."""
+    lower, upper = result.frictionless, result.associated
+    return (
+        ("Frictionless", f"{lower:#.7g}", "joints carry no shear: no solution is lower")
+        if isfinite(lower)
+        else ("Frictionless", "none", "without friction the dead loads do not stand: nothing is known below"),
+        ("Associated", f"{upper:#.7g}", "joints dilate by the friction angle: no solution is higher")
+        if isfinite(upper)
+        else ("Associated", "unlimited", "dilating joints jam under this load: nothing is known above"),
+    )
+
+
+def _bounds(_model: Model, bounds: Bounds) -> Section:
     static, kinematic = bounds.solvers
-    loose = f"the tolerance {bounds.tolerance:.1e} is looser than the usual {TOLERANCE:.1e}"
     return Section(
         title="Associated bounds",
         meaning=(
@@ -89,14 +123,110 @@ def _bounds(bounds: Bounds) -> Section:
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the larger of the two"),
         ),
-        checks=tuple(
-            Check(entry.name, entry.value, entry.meaning, entry.value <= bounds.tolerance)
-            for entry in bounds.residuals.entries
-        ),
+        checks=_checks(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
-        warnings=(loose,) if bounds.tolerance > TOLERANCE else (),
+        warnings=_loose(bounds.tolerance),
     )
 
 
-_SECTIONS: dict[type, Callable[[Any], Section]] = {Bounds: _bounds}
+def _nonassociated(_model: Model, result: Nonassociated) -> Section:
+    flow = "do not lift" if result.dilatancy == 0.0 else f"lift by {result.dilatancy:g} of what they slide"
+    proven = "together satisfy" if result.converged else "do not yet satisfy"
+    return Section(
+        title="Non-associated solution" if result.converged else "Non-associated state, not converged",
+        meaning=(
+            f"Joints that slide or twist {flow}. Stresses, mechanism and multipliers {proven} equilibrium, "
+            "yield, flow rule and complementarity, Eqs (54)-(59), at this load factor."
+        ),
+        headline=f"{result.load_factor:#.4g}",
+        values=(
+            ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, between the next two"),
+            *limits(result),
+            ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
+            ("Outer iterations", str(len(result.history)), "convex programs solved one after the other"),
+        ),
+        checks=_checks(result.residuals, result.tolerance),
+        tolerance=result.tolerance,
+        rates=result.displacement_rates,
+        warnings=(() if result.converged else (result.status.value,)) + _loose(result.tolerance),
+    )
+
+
+def _path(model: Model, path: LoadPath) -> Section:
+    end = _nonassociated(model, path.collapse)
+    last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
+    return Section(
+        title="Load path",
+        meaning=(
+            "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
+            f"step is in equilibrium and within the yield surface, and the last {last}, Eqs (54)-(59). "
+            "Displacements before collapse are relative to the compliance of the joints."
+        ),
+        headline=end.headline,
+        values=(
+            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
+            ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
+            *end.values[1:4],
+        ),
+        checks=end.checks,
+        tolerance=end.tolerance,
+        rates=end.rates,
+        warnings=end.warnings,
+        steps=_steps(path),
+        curve=path_curve(model, path),
+    )
+
+
+def _steps(path: LoadPath) -> Table:
+    names = tuple(dict.fromkeys(name for step in path.steps for name in step.residuals))
+    rows = tuple(
+        (
+            str(k),
+            f"{step.load_factor:#.6g}",
+            *(f"{step.residuals.get(name, float('nan')):.1e}" for name in names),
+            _some([f"{interface} {mode}" for interface, mode in step.active]),
+        )
+        for k, step in enumerate(path.steps)
+    )
+    return Table("Steps of the load path", ("Step", "Load factor", *names, "Begins to flow"), rows)
+
+
+def _check(_model: Model, check: mcp.Check) -> Section:
+    source = "found by the checker, from the stresses alone" if check.mechanism_found else "as claimed"
+    return Section(
+        title="Check",
+        meaning=(
+            "A claimed solution put into Eqs (54)-(59) of the model, without a word from any solver. It is a "
+            "solution if every residual is within the tolerance; that does not make it the only one."
+        ),
+        headline="passed" if check.passed else "failed",
+        quantity=f"worst residual {check.worst.value:.1e} ({check.worst.name})",
+        values=(("Mechanism and multipliers", source, "by which the flow rule was checked"),),
+        checks=_checks(check.residuals, check.tolerance),
+        tolerance=check.tolerance,
+        warnings=_loose(check.tolerance),
+    )
+
+
+def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
+    entries = residuals.entries
+    return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
+
+
+def _loose(tolerance: float) -> tuple[str, ...]:
+    said = f"the tolerance {tolerance:.1e} is looser than the usual {TOLERANCE:.1e}"
+    return (said,) if tolerance > TOLERANCE else ()
+
+
+def _some(words: list[str]) -> str:
+    more = len(words) - _ACTIVE_SHOWN
+    return ", ".join(words[:_ACTIVE_SHOWN]) + (f" and {more} more" if more > 0 else "")
+
+
+_SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
+    Bounds: _bounds,
+    Nonassociated: _nonassociated,
+    LoadPath: _path,
+    mcp.Check: _check,
+}
