@@ -2,6 +2,11 @@
 
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.load_path import load_path
+from limitblocks.analysis.loading import Settings
+from limitblocks.analysis.mcp import Check, Claim, check_mcp
+from limitblocks.analysis.nonassociated import nonassociated
+from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.errors import (
     CheckFailed,
     GeometryError,
@@ -34,33 +39,44 @@ __version__ = "0.1.0"
 __all__ = [
     "Block",
     "Bounds",
+    "Check",
     "CheckFailed",
+    "Claim",
     "ExactTorsion",
     "GeometryError",
     "Interface",
+    "Iteration",
     "Joint",
     "LimitBlocksError",
     "Load",
+    "LoadPath",
     "MissingDependency",
     "Model",
     "ModelError",
     "NoEquilibrium",
+    "Nonassociated",
     "NotConverged",
     "OrdunaLourenco",
+    "PathStep",
     "PointContact",
     "Report",
+    "Settings",
     "SolveError",
     "SolverFailure",
+    "Status",
     "UnlimitedLoad",
     "YieldRows",
     "bounds",
+    "check_mcp",
     "effective_strength",
     "find_interfaces",
     "force",
     "interface",
+    "load_path",
     "mass_proportional",
     "model_schema",
     "moment",
+    "nonassociated",
     "read",
     "read_result",
     "report",

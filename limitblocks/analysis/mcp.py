@@ -69,6 +69,7 @@ class Check:
     residuals: Residuals
     tolerance: float
     mechanism_found: bool
+    digest: str
 
     @property
     def passed(self) -> bool:
@@ -135,7 +136,8 @@ def check_mcp(model: Model, result: Claimed, *, tolerance: float = TOLERANCE) ->
         u, y = find_mechanism(problem, x, claim.dilatancy, rates=u)
     assert u is not None
     assert y is not None
-    return Check(mcp_residuals(problem, load_factor, x, u, y, claim.dilatancy), tolerance, found)
+    residuals = mcp_residuals(problem, load_factor, x, u, y, claim.dilatancy)
+    return Check(residuals, tolerance, found, model.digest)
 
 
 def mcp_residuals(

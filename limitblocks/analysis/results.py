@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from enum import Enum
 from typing import Any
+
+import numpy as np
 
 from limitblocks.analysis.residuals import Residuals
 from limitblocks.arrays import Array
@@ -14,18 +16,33 @@ class Status(Enum):
     """How an analysis ended; the text is for the user."""
 
     CONVERGED = "converged: every residual is within the tolerance"
-    STALLED = "not converged: the steps became too small; the state shown is the best one reached"
-    OUT_OF_STEPS = "not converged: the number of steps was used up; the state shown is the last one"
+    OUT_OF_STEPS = "not converged: the steps were used up; the state shown is the best one reached"
 
 
 @dataclass(frozen=True)
 class Iteration:
-    """One step of the outer loop: load factor, step size, largest residual and its name, inner iterations."""
+    """One stage of the outer loop.
+
+    Attributes
+    ----------
+    load_factor : float
+        Load factor.
+    kind : str
+        "step" (quasi-static), "jump" (across a snap, with viscosity) or "fixed point".
+    step_size : float
+        Dimensionless; the work of the live load.
+    residuals : dict
+        All residuals of Eqs (54)-(59).
+    inner, failures : int
+        Newton iterations or rounds, and attempts that failed before.
+    """
 
     load_factor: float
+    kind: str
     step_size: float
     residuals: dict[str, float]
     inner: int
+    failures: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,8 +105,9 @@ class Nonassociated:
         worst = self.residuals.worst
         word = "" if self.converged else f" ({self.status.value})"
         return (
-            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} (frictionless) "
-            f"and {self.associated:.6g} (associated), worst residual {worst.value:.1e} ({worst.name}){word}"
+            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} "
+            f"(frictionless) and {self.associated:.6g} (associated), "
+            f"worst residual {worst.value:.1e} ({worst.name}){word}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -103,7 +121,7 @@ class Nonassociated:
             "dilatancy": self.dilatancy,
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
-            "history": [vars(iteration) for iteration in self.history],
+            "history": [asdict(iteration) for iteration in self.history],
             "stress_resultants": self.stress_resultants.tolist(),
             "generalised_stresses": self.generalised_stresses.tolist(),
             "displacement_rates": self.displacement_rates.tolist(),
@@ -128,6 +146,8 @@ class PathStep:
         (interface, mode) pairs that flow in this step and did not in the one before.
     residuals : dict
         Equilibrium and yield violation, in mean block weights.
+    kind : str
+        "permanent loads", "step" (quasi-static), "jump" (across a snap) or "fixed point" (collapse).
     """
 
     load_factor: float
@@ -135,11 +155,12 @@ class PathStep:
     displacements: Array
     active: tuple[tuple[str, str], ...]
     residuals: dict[str, float]
+    kind: str
 
 
 @dataclass(frozen=True, eq=False)
 class LoadPath:
-    """States from the permanent loads to collapse; the last one is `collapse`, a solution of Eqs (54)-(59)."""
+    """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59)."""
 
     steps: tuple[PathStep, ...]
     collapse: Nonassociated
@@ -156,15 +177,15 @@ class LoadPath:
 
     def curve(self, block: int, component: int) -> tuple[Array, Array]:
         """Return displacements of one block (position in the model, component 0 to 5) and load factors."""
-        import numpy as np
-
         moved = np.array([step.displacements[block, component] for step in self.steps])
         return moved, np.array([step.load_factor for step in self.steps])
 
     def table(self) -> list[dict[str, Any]]:
         """One row a step: load factor, residuals and what began to flow."""
         return [
-            {"step": k, "load_factor": step.load_factor, **step.residuals, "newly_active": list(step.active)}
+            {"step": k, "kind": step.kind, "load_factor": step.load_factor}
+            | step.residuals
+            | {"newly_active": list(step.active)}
             for k, step in enumerate(self.steps)
         ]
 

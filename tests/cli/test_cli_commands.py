@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import cli
+from limitblocks.cli.errors import exit_code
 
 ROOT = Path(__file__).parents[2]
 BLOCKS = [
@@ -127,9 +128,9 @@ def test_no_solution_is_code_3_and_one_line(file, change):
 
 
 def test_failed_check_is_code_1():
-    assert cli._exit_code(lb.CheckFailed("no")) == 1
-    assert cli._exit_code(lb.NotConverged("no", None)) == 3
-    assert cli._exit_code(lb.MissingDependency("no")) == 2
+    assert exit_code(lb.CheckFailed("no")) == 1
+    assert exit_code(lb.NotConverged("no", None)) == 3
+    assert exit_code(lb.MissingDependency("no")) == 2
 
 
 @pytest.mark.parametrize(
@@ -151,4 +152,7 @@ def test_wrong_usage_is_code_2_without_traceback(arguments):
 def test_help_names_every_verb():
     result = run("--help")
     assert result.exit_code == 0
-    assert all(verb in result.stdout for verb in ("bounds", "info", "report", "schema", "--version"))
+    assert all(
+        verb in result.stdout
+        for verb in ("bounds", "nonassociated", "path", "check", "info", "report", "schema", "--version")
+    )

@@ -1,0 +1,163 @@
+"""The load path: states from the permanent loads to collapse, each in equilibrium and within yield."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from limitblocks.analysis.bounds import TOLERANCE
+from limitblocks.analysis.loading import Settings, Stage, stages
+from limitblocks.analysis.nonassociated import finished, iteration, start_stresses
+from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep
+from limitblocks.analysis.states import State
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError, SolveError
+from limitblocks.joints.base import Joint, joint_of
+from limitblocks.mechanics import LimitProblem
+from limitblocks.mechanics.flow import dilatancy_share
+from limitblocks.model import Model
+
+FLOWING = 1e-6  # of the largest displacement rate: less counts as no flow
+# Small steps, halved where one fails; viscosity only where the structure snaps at every size.
+STEPS = Settings(
+    rho=1.0,
+    growth=2.0,
+    retries=((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2)),
+    budget=3000,
+)
+
+Stiffness = tuple[float, float]
+
+
+def load_path(
+    model: Model,
+    *,
+    dilatancy: float = 0.0,
+    tolerance: float = TOLERANCE,
+    start: Nonassociated | None = None,
+    stiffness: Stiffness | Mapping[Joint, Stiffness] | None = None,
+    settings: Settings = STEPS,
+    progress: Callable[[Iteration], None] | None = None,
+    throw: bool = True,
+) -> LoadPath:
+    """Return the states through which the structure goes from the permanent loads to collapse.
+
+    The blocks are rigid and the joints slightly compliant. The first state is that of the permanent loads
+    of least elastic energy; each implicit step pushes the blocks on by a prescribed work of the live load.
+    At collapse the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold.
+    What is unique: every step, for the compliance given, but where the structure snaps (a step of kind
+    "jump"). What is not: the permanent-load state without the compliance, and the collapse load itself.
+
+    Parameters
+    ----------
+    model, dilatancy, tolerance, settings, progress, throw
+        As for :func:`limitblocks.nonassociated`.
+    start : Nonassociated, optional
+        State to start from, in place of that of the permanent loads.
+    stiffness : (float, float) or mapping from joints to (float, float), optional
+        Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
+        only the displacements. Without it both are one mean block weight per block length cubed, and
+        displacements are relative.
+
+    Raises
+    ------
+    ModelError
+        If a stiffness is not positive or a joint has none, the dilatancy is out of range, or `start` belongs
+        to another model.
+    NoEquilibrium
+        If the dead loads alone cannot stand.
+    NotConverged
+        If the path ends above the tolerance; carries the collapse state.
+    """
+    problem = model.problem
+    dilatancy_share(problem, dilatancy)
+    weights = _compliance(model, stiffness)
+    x0 = start_stresses(model, weights, start)
+    history: list[Iteration] = []
+
+    def record(stage: Stage) -> None:
+        history.append(iteration(problem, stage))
+        if progress is not None:
+            progress(history[-1])
+
+    found = stages(problem, x0, weights, dilatancy, tolerance, settings, record)
+    if not found:
+        raise SolveError("the first step from the permanent loads failed with every step size")
+    collapse = finished(model, found[-1], tuple(history), dilatancy, tolerance, throw)
+    return LoadPath(_steps(model, x0, found), collapse)
+
+
+def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] | None) -> Array:
+    """Dimensionless compliance of each generalised stress."""
+    problem = model.problem
+    if stiffness is None:
+        return problem.compliance
+    table = (
+        stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}
+    )
+    pairs = []
+    for interface in model.interfaces:
+        pair = table.get(joint_of(interface))
+        if pair is None or not all(np.isfinite(k) and k > 0.0 for k in pair):
+            raise ModelError(
+                f"stiffness of {interface.joint!r} is {pair!r}, "
+                "expected (normal, shear) in N/m3, both positive"
+            )
+        pairs.append(pair)
+    unit = problem.scales.force / problem.scales.length**3
+    normal, shear = np.array(pairs).T / unit
+    per_resultant = np.stack([shear, shear, normal, normal, normal, shear], axis=1).ravel()
+    B = abs(problem.resultants).tocoo()
+    rows, columns = B.coords
+    own = np.full(B.shape[1], -1)
+    order = np.argsort(rows, kind="stable")[::-1]
+    own[columns[order]] = rows[order]  # the first resultant that a stress feeds tells normal from shear
+    return np.asarray(problem.compliance / per_resultant[own])
+
+
+def _steps(model: Model, x0: Array, found: list[Stage]) -> tuple[PathStep, ...]:
+    """The permanent-load state and every stage, with displacements added up."""
+    problem = model.problem
+    free = {block.name: k for k, block in enumerate(model.blocks)}
+    places = [free[name] for name in problem.blocks]
+    moved = np.zeros((len(model.blocks), 6))
+    first = {"equilibrium": 0.0, "yield": 0.0}
+    steps = [_step(problem, 0.0, x0, moved, (), first, "permanent loads")]
+    before: frozenset[tuple[str, str]] = frozenset()
+    for stage in found:
+        if stage.kind != "fixed point":  # it changes the stresses at collapse, not the way to it
+            unit = np.repeat([problem.scales.length, 1.0], 3)
+            moved = moved.copy()
+            moved[places] += (stage.state.u / stage.rho).reshape(-1, 6) * unit
+        flowing = _flowing(problem, stage.state)
+        state, residuals = stage.state, {name: stage.residuals[name] for name in first}
+        new = tuple(sorted(flowing - before))
+        steps.append(_step(problem, state.load_factor, state.x, moved, new, residuals, stage.kind))
+        before = flowing
+    return tuple(steps)
+
+
+def _step(
+    problem: LimitProblem,
+    load_factor: float,
+    x: Array,
+    moved: Array,
+    active: tuple[tuple[str, str], ...],
+    residuals: dict[str, float],
+    kind: str,
+) -> PathStep:
+    return PathStep(
+        load_factor=load_factor * problem.scales.load_factor,
+        stress_resultants=read_only((problem.resultants @ x).reshape(-1, 6) * problem.scales.resultants),
+        displacements=read_only(moved),
+        active=active,
+        residuals=residuals,
+        kind=kind,
+    )
+
+
+def _flowing(problem: LimitProblem, state: State) -> frozenset[tuple[str, str]]:
+    """(interface, mode) of every row with a multiplier."""
+    rows = np.flatnonzero(np.abs(state.y) > FLOWING * np.abs(state.u).max())
+    return frozenset((problem.interfaces[problem.row_interface[r]], problem.row_mode[r]) for r in rows)

@@ -1,0 +1,22 @@
+"""Arguments and options that the verbs share."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
+Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
+Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
+ResultFile = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")
+]
+ReportFile = Annotated[
+    Path | None, typer.Option("--output", "-o", metavar="FILE", help="HTML file [default: beside the model].")
+]
+ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
+WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]
+WithPath = Annotated[bool, typer.Option("--path", help="Also the load path.")]
+Version = Annotated[bool, typer.Option("--version", help="Print the version and leave.")]

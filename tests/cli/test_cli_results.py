@@ -1,0 +1,261 @@
+import json
+import sys
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.cli import app
+
+JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
+PORTAL = {
+    "schema_version": 1,
+    "name": "Portal",
+    "blocks": [
+        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
+        {"name": "left", "box": {"size": [0.5, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "right", "box": {"size": [0.5, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.2]}, "unit_weight": 24e3},
+    ],
+    "supports": ["ground"],
+    "joints": {"dry": {"type": "PointContact", "friction": 0.2}},
+    "interfaces": {"find": {"joint": "dry"}},
+    "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
+}
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def solved(model, *, dilatancy=0.2, tolerance=1e-6, progress=None, status=Status.CONVERGED):
+    """The associated solution: it satisfies Eqs (54)-(59) where the dilatancy is the friction."""
+    bounds = lb.bounds(model)
+    iteration = Iteration(bounds.lower, "step", 0.0, {"flow": 1e-9}, 1, 0)
+    if progress:
+        progress(iteration)
+    names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+    return Nonassociated(
+        load_factor=bounds.upper,
+        frictionless=np.nan,
+        associated=bounds.upper,
+        residuals=bounds.residuals,
+        status=status,
+        history=(iteration,),
+        dilatancy=dilatancy,
+        tolerance=tolerance,
+        digest=model.digest,
+        **{name: getattr(bounds, name) for name in names},
+    )
+
+
+def walked(model, **settings):
+    end = solved(model, **settings)
+    first = PathStep(0.0, end.stress_resultants, 0.0 * end.displacement_rates, (), {"yield": 0.0}, "step")
+    moved = 1e3 * end.displacement_rates
+    return LoadPath(
+        (first, replace(first, load_factor=0.2, displacements=moved, active=(("[b]|left", "sliding"),))), end
+    )
+
+
+def stopped(model, **settings):
+    best = solved(model, status=Status.OUT_OF_STEPS, **settings)
+    raise lb.NotConverged("not converged: flow residual 1e-3", replace(best, load_factor=0.21))
+
+
+@pytest.fixture
+def solver(monkeypatch):
+    """Puts analyses of known outcome in place of the real ones."""
+
+    def put(nonassociated=solved, load_path=walked):
+        fakes = {"nonassociated": nonassociated, "load_path": load_path}
+        for name, fake in fakes.items():
+            monkeypatch.setitem(sys.modules, f"limitblocks.analysis.{name}", SimpleNamespace(**{name: fake}))
+
+    put()
+    return put
+
+
+@pytest.fixture
+def file(tmp_path):
+    path = tmp_path / "portal.json"
+    path.write_text(json.dumps(PORTAL))
+    return path
+
+
+@pytest.fixture
+def result(file, tmp_path):
+    return lb.write_result(solved(lb.read(file)), tmp_path / "result.json")
+
+
+def changed(file, **changes):
+    document = json.loads(file.read_text())
+    for key, change in changes.items():
+        document[key] = change(document[key])
+    file.write_text(json.dumps(document))
+
+
+@pytest.mark.usefixtures("solver")
+def test_nonassociated_prints_its_bracket_and_residuals(file, tmp_path):
+    output = tmp_path / "out.json"
+    done = run("nonassociated", file, "--dilatancy", 0.2, "--output", output)
+    assert (done.exit_code, done.stderr) == (0, "")
+    for part in ("0.2000", "Frictionless", "none", "Associated", "others may solve too", "equilibrium"):
+        assert part in done.stdout
+    assert run("check", file, output).exit_code == 0
+    printed = run("nonassociated", file, "--dilatancy", 0.2, "--json")
+    assert json.loads(printed.stdout) == json.loads(output.read_text())
+    assert run("nonassociated", file, "--output", output).exit_code == 2
+    assert run("nonassociated", file, "--output", file, "--force").exit_code == 2
+
+
+@pytest.mark.usefixtures("solver")
+def test_path_prints_its_steps(file, tmp_path):
+    output = tmp_path / "out.json"
+    done = run("path", file, "--dilatancy", 0.2, "-o", output)
+    assert (done.exit_code, done.stderr) == (0, "")
+    for part in ("Steps of the load path", "Begins to flow", "[b]|left sliding", "Peak"):
+        assert part in done.stdout
+    assert run("check", file, output).exit_code == 0
+    assert len(json.loads(run("path", file, "--json").stdout)["steps"]) == 2
+
+
+def test_stopping_early_is_code_3_and_the_best_state_is_kept(solver, file, tmp_path):
+    solver(stopped, stopped)
+    output = tmp_path / "best.json"
+    for verb in ("nonassociated", "path"):
+        done = run(verb, file, "--dilatancy", 0.2, "--output", output, "--force")
+        assert (done.exit_code, done.stdout) == (3, "")
+        assert f"the best state found, not a solution, is in {output}" in done.stderr
+        assert "error: not converged: flow residual 1e-3" in done.stderr
+        assert run("check", file, output).exit_code == 1
+    assert run("nonassociated", file).exit_code == 3
+    assert run("report", file, "--nonassociated").exit_code == 3
+    assert not file.with_suffix(".html").exists()
+
+
+def test_check_of_an_honest_result_passes(file, result):
+    done = run("check", file, result)
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert all(part in done.stdout for part in ("passed", "complementarity", "Eq. (59)", "as claimed"))
+    found = json.loads(run("check", file, result, "--json").stdout)
+    assert (found["analysis"], found["passed"], found["mechanism_found"]) == ("check", True, False)
+    assert run("check", file, result, "--tolerance", 1e-16).exit_code == 1
+
+
+def times(factor):
+    return lambda numbers: (factor * np.array(numbers)).tolist()
+
+
+MUTILATIONS = {
+    "load factor": ({"load_factor": times(1.01)}, "equilibrium"),
+    "forces": ({"stress_resultants": times(1.01), "generalised_stresses": times(1.01)}, "equilibrium"),
+    "mechanism flipped": ({"displacement_rates": times(-1.0)}, "normalisation"),
+    "multiplier signs": ({"flow_multipliers": times(-1.0)}, "multipliers"),
+    "multipliers": ({"flow_multipliers": times(1.01)}, "flow"),
+    "dilatancy": ({"dilatancy": lambda _: 0.0}, "flow"),
+}
+
+
+@pytest.mark.parametrize(("changes", "residual"), MUTILATIONS.values(), ids=MUTILATIONS)
+def test_check_names_the_residual_of_every_mutilation(changes, residual, file, result):
+    changed(result, **changes)
+    done = run("check", file, result)
+    assert done.exit_code == 1
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("error: above 1e-06:")
+    assert f"{residual} " in line
+    found = run("check", file, result, "--json")
+    assert found.exit_code == 1
+    assert json.loads(found.stdout)["passed"] is False
+
+
+def test_yield_violation_is_named(file, result):
+    """A friction one percent lower makes the same state violate yield, and is another model."""
+    weaker = file.with_name("weaker.json")
+    weaker.write_text(json.dumps(PORTAL | {"joints": {"dry": {"type": "PointContact", "friction": 0.198}}}))
+    done = run("check", weaker, result)
+    assert (done.exit_code, done.stdout) == (2, "")
+    for path in (file, weaker):
+        assert lb.read(path).digest[:12] in done.stderr
+    changed(result, model_digest=lambda _: "", dilatancy=lambda _: 0.198)
+    done = run("check", weaker, result)
+    assert done.exit_code == 1
+    assert "does not say which model it belongs to" in done.stderr
+    assert "yield " in done.stderr
+
+
+@pytest.mark.parametrize("document", ["{", {"load_factor": 1}, {"analysis": "bounds"}, PORTAL])
+def test_wrong_result_file_is_code_2_and_a_line_a_fault(document, file, tmp_path):
+    path = tmp_path / "wrong.json"
+    path.write_text(document if isinstance(document, str) else json.dumps(document))
+    done = run("check", file, path)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert all(line.startswith(f"error: {path}: ") for line in done.stderr.splitlines())
+    assert run("check", file, tmp_path / "none.json").exit_code == 2
+
+
+@pytest.mark.usefixtures("solver")
+def test_report_takes_the_analyses_asked_for(file):
+    page = file.with_suffix(".html")
+    assert run("report", file).exit_code == 0
+    assert "Load path" not in page.read_text(encoding="utf-8")
+    done = run("report", file, "--nonassociated", "--path", "--dilatancy", 0.2, "--force")
+    assert (done.exit_code, done.stderr) == (0, "")
+    html = page.read_text(encoding="utf-8")
+    assert all(part in html for part in ("Side by side", "Non-associated solution", "Steps of the load path"))
+
+
+def test_report_does_without_bounds_where_dilating_joints_jam(solver, file):
+    free = lb.read(file)
+    file.write_text(json.dumps(PORTAL | JAMMED))
+    jammed = lb.read(file)
+    solver(
+        lambda model, **settings: replace(solved(free, **settings), associated=np.inf, digest=model.digest)
+    )
+    assert jammed.digest != free.digest
+    assert run("report", file).exit_code == 3
+    done = run("report", file, "--nonassociated", "--dilatancy", 0.2)
+    assert done.exit_code == 0
+    assert "warning: no bounds: the live load can grow without limit" in done.stderr
+    assert "unlimited" in file.with_suffix(".html").read_text(encoding="utf-8")
+
+
+@pytest.mark.usefixtures("solver")
+def test_progress_is_silent_without_a_terminal_and_shown_on_one(file, monkeypatch, capsys):
+    from limitblocks.report.terminal import shown_progress
+
+    assert run("nonassociated", file, "--json").stderr == ""
+    with shown_progress() as show:
+        assert show is None
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    with shown_progress() as show:
+        show(Iteration(0.25, "step", 1.0, {"flow": 1e-3, "yield": 1e-9}, 3, 0))
+    captured = capsys.readouterr()
+    assert "load factor 0.25, largest residual 1.0e-03" in captured.err
+    assert captured.out == ""
+
+
+@pytest.mark.parametrize("arguments", [["nonassociated", "--dilatancy", "0"], ["path", "--dilatancy", "0.2"]])
+def test_the_real_analyses_pass_the_check(arguments, file, tmp_path):
+    module = {"nonassociated": "nonassociated", "path": "load_path"}[arguments[0]]
+    pytest.importorskip(f"limitblocks.analysis.{module}")
+    output = tmp_path / "out.json"
+    done = run(*arguments, file, "--output", output)
+    assert done.exit_code == 0, done.stderr
+    assert run("check", file, output).exit_code == 0
+
+
+@pytest.mark.parametrize(
+    "arguments", [["nonassociated", "--dilatancy", "0.9"], ["path", "--dilatancy", "0.9"]]
+)
+def test_dilatancy_above_friction_is_code_2(arguments, file):
+    module = {"nonassociated": "nonassociated", "path": "load_path"}[arguments[0]]
+    pytest.importorskip(f"limitblocks.analysis.{module}")
+    done = run(*arguments, file)
+    assert done.exit_code == 2
+    assert "dilatancy is 0.9" in done.stderr

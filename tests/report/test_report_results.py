@@ -1,0 +1,161 @@
+import json
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.report import curve
+from limitblocks.report.comparison import comparison
+
+
+def portal(name="lintel"):
+    blocks = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("left <leg>", (0.5, 1, 2), (-1, 0, 1), 20e3),
+        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
+        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+MODEL = portal()
+BOUNDS = lb.bounds(MODEL)
+STATE = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers", "residuals")
+RESULT = Nonassociated(
+    load_factor=0.2412345678,
+    frictionless=0.125,
+    associated=0.25,
+    status=Status.CONVERGED,
+    history=(Iteration(0.25, "step", 1.0, {"flow": 1e-9}, 1, 0),),
+    dilatancy=0.0,
+    tolerance=1e-6,
+    digest=MODEL.digest,
+    **{name: getattr(BOUNDS, name) for name in STATE},
+)
+
+
+def load_path(loads=(0.0, 0.1, 0.26, 0.2412345678), scale=1.0, end=RESULT):
+    rates = 1e3 * scale * end.displacement_rates
+    steps = [
+        PathStep(load, end.stress_resultants, k * rates, (), {"equilibrium": 1e-9, "yield": 2e-9}, "step")
+        for k, load in enumerate(loads)
+    ]
+    active = tuple((f"a{k}|b", "hinging") for k in range(6))
+    steps[-1] = replace(steps[-1], active=active)
+    return LoadPath(tuple(steps), end)
+
+
+PATH = load_path()
+CHECK = lb.check_mcp(MODEL, RESULT)
+
+
+def words(html):
+    return " ".join(re.sub(r"<[^>]+>", " ", html).split())
+
+
+def test_every_result_has_its_section_and_one_mechanism_is_drawn():
+    html = lb.report(MODEL, BOUNDS, RESULT, PATH, CHECK).html
+    text = words(html)
+    for part in (
+        "Associated bounds",
+        "Non-associated solution",
+        "Load path",
+        "Check",
+        "0.2412346",
+        "Peak 0.2600000",
+        "do not lift",
+        "a3|b hinging and 2 more",
+        "worst residual",
+        "is not unique",
+        "Displacements before collapse are relative to the compliance of the joints",
+    ):
+        assert part in text, part
+    assert html.count('class="moving"><title>') > 0
+    assert len(re.findall(r'aria-labelledby="picture-', html)) == 1
+    assert (
+        html.index("Non-associated solution")
+        < html.index('aria-labelledby="picture-')
+        < html.index("Steps of")
+    )
+    assert html.count("<svg") == 2
+    assert not re.search(r"\b(src|href|style)=|@import|url\(|<script|<link|\bon\w+=", html)
+    assert "left <leg>" not in html
+
+
+def test_answers_stand_side_by_side_with_what_they_mean():
+    rows = comparison((BOUNDS, RESULT, PATH, CHECK))
+    values = {name: value for name, value, _ in rows}
+    assert values == {
+        "Frictionless": "0.1250000",
+        "Non-associated": "0.2412346",
+        "Load path": "0.2412346",
+        "Associated": f"{BOUNDS.lower:#.7g}",
+    }
+    assert list(values) == ["Frictionless", "Non-associated", "Load path", "Associated"]
+    assert comparison((BOUNDS, CHECK)) == ()
+    assert "Side by side" not in lb.report(MODEL, BOUNDS).html
+    content = json.loads(lb.report(MODEL, RESULT).json)
+    assert [row[0] for row in content["comparison"]] == ["Frictionless", "Non-associated", "Associated"]
+
+
+def test_missing_limits_are_said_in_words():
+    result = replace(RESULT, frictionless=np.nan, associated=np.inf)
+    report = lb.report(MODEL, result)
+    text = words(report.html)
+    assert "Frictionless none without friction the dead loads do not stand" in text
+    assert "Associated unlimited dilating joints jam" in text
+    content = json.loads(report.json, parse_constant=pytest.fail)
+    assert content["results"][0]["associated"] is None
+
+
+def test_what_did_not_converge_is_not_sold_as_a_solution():
+    stalled = replace(RESULT, status=Status.OUT_OF_STEPS, tolerance=1e-12)
+    for made in (stalled, load_path(end=stalled)):
+        text = words(lb.report(MODEL, made).html)
+        assert "not converged, so not proven" in text
+        assert Status.OUT_OF_STEPS.value in text
+        assert "do not yet satisfy" in text or "is not yet a collapse" in text
+
+
+def test_failed_check_is_told_apart():
+    failed = lb.check_mcp(MODEL, replace(RESULT, load_factor=0.26))
+    html = lb.report(MODEL, failed).html
+    assert '<span class="number">failed</span>' in html
+    assert "✗ fail" in html
+
+
+def test_results_of_other_models_are_refused():
+    for result in (RESULT, PATH):
+        with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+            lb.report(portal("beam"), result)
+    with pytest.raises(
+        lb.LimitBlocksError, match="expected a result: Bounds, Check, LoadPath, Nonassociated"
+    ):
+        lb.report(MODEL, "result")
+
+
+def test_curve_goes_through_every_step():
+    drawn = curve.path_curve(MODEL, PATH)
+    assert "along X, m" in drawn.x_label
+    assert len(drawn.dots) == len(PATH.steps)
+    y = np.array([dot[1] for dot in drawn.dots])
+    loads = np.array([step.load_factor for step in PATH.steps])
+    assert np.allclose(np.diff(y), -np.diff(loads) / 0.26 * 280.0, atol=0.2)  # 280 units high
+    assert drawn.dots[0][:2] == (110.0, 300.0)
+    for ticks in (drawn.x_ticks, drawn.y_ticks):
+        assert 3 <= len(ticks) <= 11
+    assert [tick.text for tick in drawn.y_ticks][:3] == ["0", "0.05", "0.1"]
+
+
+def test_curve_falls_back_on_steps_and_needs_two():
+    assert curve.path_curve(MODEL, load_path(scale=0.0)).x_label == "step"
+    assert curve.path_curve(MODEL, load_path((0.0,))) is None
+    flat = curve.path_curve(MODEL, load_path((0.0, 0.0)))
+    assert all(np.isfinite(dot[:2]).all() for dot in flat.dots)
+    back = curve.path_curve(MODEL, load_path(scale=-1.0))
+    assert {tick.text for tick in back.x_ticks} >= {"0"}
+    assert "<svg" in lb.report(MODEL, load_path((0.0,))).html
