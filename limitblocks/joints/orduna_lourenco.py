@@ -44,6 +44,8 @@ class OrdunaLourenco(Queries):
       0.18 T0;
     - Eqs (23) and (30) overestimate torsion under bending except when a hinge forms, by up to 31 % of the
       effective rectangle's strength or 0.23 T0;
+    - off rectangles, Eq. (30) as printed cuts the corners of the hinging polygon, where Eq. (36) is exact:
+      the moments are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
     - shear and bending reduce torsion independently of each other;
     - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
       exact stress block for bending about one axis of a rectangle, and an approximation for other shapes and
@@ -107,6 +109,8 @@ class OrdunaLourenco(Queries):
         cohesion = self.cohesion / stress_unit * areas(polygons)
         per_torsion = 1.0 / _paper_torsion_constants(polygons, half_sides)
         per_moment = 1.0 / half_sides.sum(axis=1)
+        # off rectangles corners lie outside |x1| + |x2| = l1 + l2, where Eq. (30) would forbid hinging
+        per_corner = 1.0 / np.abs(polygons).sum(axis=2).max(axis=1)
 
         def rows(
             mode: str, table: Array, share: Any, moment: Any = 0.0, torsion: Any = 0.0, size: int = 0
@@ -121,7 +125,7 @@ class OrdunaLourenco(Queries):
             rows("twist", TWIST, 1.0, torsion=per_torsion),
             rows("slip", slip, 1.0, size=size),
             rows("slip-twist", slip_twist, SLIP_FORCE, torsion=per_torsion, size=size),
-            rows("moment-twist", MOMENT_TWIST, 0.5, self.friction / 2 * per_moment, per_moment),
+            rows("moment-twist", MOMENT_TWIST, 0.5, self.friction / 2 * per_corner, per_moment),
         ]
 
 
