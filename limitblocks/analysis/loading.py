@@ -126,9 +126,10 @@ def _closed(
     loading: Loading, stage: Stage, z: Point, tolerance: float, settings: Settings
 ) -> tuple[Stage, float] | None:
     """The solution that the fixed point finds near a state, and how far the load factor drifts to it."""
-    if stage.residuals["flow"] >= settings.near or stage.residuals.worst.value <= tolerance:
-        return None
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
+    near = _evidence(problem, start, loading.dilatancy)["flow"] < settings.near
+    if not near or stage.residuals.worst.value <= tolerance:
+        return None
     state, rounds = fixed_point(
         problem, start, loading.weights, loading.dilatancy, tolerance, settings.rounds
     )

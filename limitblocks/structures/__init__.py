@@ -1,9 +1,27 @@
 """Parametric structures, each a model ready to analyse. Lengths in m, unit weights in N/m3."""
 
-from limitblocks.structures.arches import arch
+from limitblocks.structures.arches import arch, arch_on_piers
 from limitblocks.structures.bond import Opening
 from limitblocks.structures.ferris_tin_loi import ferris_tin_loi_wall
+from limitblocks.structures.lintels import eccentric_lintel, portal
 from limitblocks.structures.stacks import block, column, overhang
-from limitblocks.structures.walls import facade, wall
+from limitblocks.structures.stairs import stair
+from limitblocks.structures.vaults import barrel_vault
+from limitblocks.structures.walls import corner, facade, wall
 
-__all__ = ["Opening", "arch", "block", "column", "facade", "ferris_tin_loi_wall", "overhang", "wall"]
+__all__ = [
+    "Opening",
+    "arch",
+    "arch_on_piers",
+    "barrel_vault",
+    "block",
+    "column",
+    "corner",
+    "eccentric_lintel",
+    "facade",
+    "ferris_tin_loi_wall",
+    "overhang",
+    "portal",
+    "stair",
+    "wall",
+]

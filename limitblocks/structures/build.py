@@ -32,12 +32,14 @@ def model_of(
     )
 
 
-def prism(name: str, outline: npt.ArrayLike, depth: float, unit_weight: float | None = None) -> Block:
-    """Prism along Y about y = 0 of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
+def prism(
+    name: str, outline: npt.ArrayLike, depth: float, unit_weight: float | None = None, at: float = 0.0
+) -> Block:
+    """Prism along Y about y = `at` of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
     points = np.asarray(outline, dtype=float)
     n = len(points)
     x, z = np.tile(points, (2, 1)).T
-    y = np.repeat([-depth / 2, depth / 2], n)
+    y = np.repeat([at - depth / 2, at + depth / 2], n)
     sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
     faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
     return Block(name, np.column_stack([x, y, z]), faces, unit_weight)
@@ -49,6 +51,15 @@ def span_box(
     """Box between two values of each coordinate, m."""
     low, high = np.column_stack([x, y, z])
     return Block.box(name, size=high - low, at=(low + high) / 2, unit_weight=unit_weight)
+
+
+def pier(
+    name: str, x: Sequence[float], y: Sequence[float], count: int, height: float, unit_weight: float
+) -> list[Block]:
+    """Single blocks on top of one another from z = 0, each of `height`, m."""
+    return [
+        span_box(f"{name} {k + 1}", x, y, (k * height, (k + 1) * height), unit_weight) for k in range(count)
+    ]
 
 
 def base(x: Sequence[float], y: Sequence[float], depth: float, name: str = "base") -> Block:

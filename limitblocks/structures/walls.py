@@ -118,6 +118,55 @@ def facade(
     return model_of(blocks, [ground], joint, direction, "facade")
 
 
+def corner(
+    joint: Joint,
+    *,
+    length: float,
+    return_length: float,
+    courses: int,
+    block_length: float = 0.8,
+    block_height: float = 0.4,
+    unit_weight: float = UNIT_WEIGHT,
+    direction: Sequence[float] = HORIZONTAL,
+) -> Model:
+    """Return two walls along X and Y that interlock at the origin, on a base.
+
+    Both are half a block thick; the quoins belong to either wall in turn, as in :func:`facade`.
+
+    Parameters
+    ----------
+    joint : Joint
+        Joint of all interfaces, the base included.
+    length, return_length : float
+        Outer dimensions along X and Y, m; multiples of half the block length.
+    courses : int
+        Number of courses.
+    block_length, block_height : float
+        Dimensions of a block, m; the walls are block_length / 2 thick.
+    unit_weight : float
+        N/m3.
+    direction : sequence of float
+        Direction of the live load, which is the weight.
+    """
+    _refuse_dimensions(
+        courses, block_length, length=length, return_length=return_length, block_height=block_height
+    )
+    t = block_length / 2
+    if min(length, return_length) < block_length:
+        refuse([f"length {length:g} m and return length {return_length:g} m leave no room for the corner"])
+    bond = Bond(block_length, block_height, courses)
+    blocks = [
+        span_box(p.name, (p.start, p.end), (0.0, t), _heights(p, block_height), unit_weight)
+        for p in bond.pieces("front", [(0.0, length), (t, length)], 1)
+    ]
+    blocks += [
+        span_box(p.name, (0.0, t), (p.start, p.end), _heights(p, block_height), unit_weight)
+        for p in bond.pieces("side", [(t, return_length), (0.0, return_length)], 0)
+    ]
+    ground = base((0.0, length), (0.0, return_length), block_height)
+    return model_of(blocks, [ground], joint, direction, "corner")
+
+
 def _heights(piece: Piece, course_height: float) -> tuple[float, float]:
     return piece.course * course_height, (piece.course + 1) * course_height
 
