@@ -35,8 +35,8 @@ class Settings:
     retries : tuple of (float, float)
         (factor on rho, viscosity of the multipliers) tried in turn; the first is the plain quasi-static
         step, a factor above one a smaller step, a viscosity a jump across a snap.
-    near : float
-        Flow residual below which the fixed point is tried.
+    near, close : float
+        Flow residual below which the fixed point is tried, where steps fail and where they do not.
     drift : float
         Change of the load factor, relative, up to which the fixed point belongs to the state it started
         from; farther solutions are kept in case the steps find nothing better.
@@ -52,6 +52,7 @@ class Settings:
     last: float = 1e-5
     retries: tuple[tuple[float, float], ...] = ((1.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2))
     near: float = 0.1
+    close: float = 1e-4
     drift: float = 1e-3
     rounds: int = 10
     iterations: int = 60
@@ -127,8 +128,9 @@ def _closed(
 ) -> tuple[Stage, float] | None:
     """The solution that the fixed point finds near a state, and how far the load factor drifts to it."""
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
-    near = _evidence(problem, start, loading.dilatancy)["flow"] < settings.near
-    if not near or stage.residuals.worst.value <= tolerance:
+    flow = _evidence(problem, start, loading.dilatancy)["flow"]
+    smooth = stage.kind == "step" and not stage.failures  # the next step is cheaper than a round
+    if flow >= (settings.close if smooth else settings.near) or stage.residuals.worst.value <= tolerance:
         return None
     state, rounds = fixed_point(
         problem, start, loading.weights, loading.dilatancy, tolerance, settings.rounds
