@@ -105,7 +105,10 @@ class Newton:
         self.flexibility = step.blocks.inverse(H)
         K = p.C.T @ (self.flexibility @ p.C) + 1e-13 * sparse.eye_array(p.C.shape[1])
         live = sparse.csr_array(p.live[:, None])
-        self.lu = linalg.splu(sparse.csc_array(sparse.block_array([[-K, live], [live.T, None]])))
+        matrix = sparse.csc_array(sparse.block_array([[-K, live], [live.T, None]]))
+        self.lu = linalg.splu(
+            matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.001, options={"SymmetricMode": True}
+        )
 
     def direction(self, target: Array) -> Point:
         """Direction to s o y = target, refined on the full equations, else accuracy is lost at small mu."""
