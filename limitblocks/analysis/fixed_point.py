@@ -21,8 +21,8 @@ from limitblocks.arrays import Array
 from limitblocks.mechanics import LimitProblem
 from limitblocks.mechanics.flow import plastic_potential
 
-PENALTY = 1e3  # of a remaining gap against the change of stresses
-PROGRESS = 0.6  # a round must bring the worst residual below this part of the best
+PENALTY = 1e5  # of a remaining gap against the change of stresses
+PROGRESS = 0.5  # a round must bring the worst residual below this part of the best
 SETTINGS = {
     "tol_gap_abs": 1e-10,
     "tol_gap_rel": 1e-10,

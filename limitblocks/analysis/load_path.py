@@ -8,7 +8,13 @@ import numpy as np
 
 from limitblocks.analysis.bounds import TOLERANCE
 from limitblocks.analysis.loading import Settings, Stage, stages
-from limitblocks.analysis.nonassociated import finished, iteration, start_stresses
+from limitblocks.analysis.nonassociated import (
+    bracket,
+    finished,
+    iteration,
+    load_scale,
+    start_stresses,
+)
 from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep
 from limitblocks.analysis.states import State
 from limitblocks.arrays import Array, read_only
@@ -21,7 +27,7 @@ from limitblocks.model import Model
 FLOWING = 1e-6  # of the largest displacement rate: less counts as no flow
 # Small steps, halved where one fails; viscosity only where the structure snaps at every size.
 STEPS = Settings(
-    rho=1.0,
+    first=0.05,
     growth=2.0,
     retries=((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2)),
     budget=3000,
@@ -72,8 +78,12 @@ def load_path(
     """
     problem = model.problem
     dilatancy_share(problem, dilatancy)
-    weights = _compliance(model, stiffness)
+    compliance = _compliance(model, stiffness)
+    softness = float(np.mean(compliance) / np.mean(problem.compliance))
+    weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     x0 = start_stresses(model, weights, start)
+    enclosing = bracket(model)
+    scale = load_scale(problem, enclosing[1])
     history: list[Iteration] = []
 
     def record(stage: Stage) -> None:
@@ -81,11 +91,11 @@ def load_path(
         if progress is not None:
             progress(history[-1])
 
-    found = stages(problem, x0, weights, dilatancy, tolerance, settings, record)
+    found = stages(problem, x0, weights, dilatancy, tolerance, settings, scale, record)
     if not found:
         raise SolveError("the first step from the permanent loads failed with every step size")
-    collapse = finished(model, found[-1], tuple(history), dilatancy, tolerance, throw)
-    return LoadPath(_steps(model, x0, found), collapse)
+    collapse = finished(model, found[-1], enclosing, tuple(history), dilatancy, tolerance, throw)
+    return LoadPath(_steps(model, x0, found, softness), collapse)
 
 
 def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] | None) -> Array:
@@ -99,7 +109,7 @@ def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] |
     pairs = []
     for interface in model.interfaces:
         pair = table.get(joint_of(interface))
-        if pair is None or not all(np.isfinite(k) and k > 0.0 for k in pair):
+        if pair is None or np.shape(pair) != (2,) or not all(np.isfinite(k) and k > 0.0 for k in pair):
             raise ModelError(
                 f"stiffness of {interface.joint!r} is {pair!r}, "
                 "expected (normal, shear) in N/m3, both positive"
@@ -116,8 +126,8 @@ def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] |
     return np.asarray(problem.compliance / per_resultant[own])
 
 
-def _steps(model: Model, x0: Array, found: list[Stage]) -> tuple[PathStep, ...]:
-    """The permanent-load state and every stage, with displacements added up."""
+def _steps(model: Model, x0: Array, found: list[Stage], softness: float) -> tuple[PathStep, ...]:
+    """The permanent-load state and every stage, with displacements added up, `softness` times as large."""
     problem = model.problem
     free = {block.name: k for k, block in enumerate(model.blocks)}
     places = [free[name] for name in problem.blocks]
@@ -129,7 +139,7 @@ def _steps(model: Model, x0: Array, found: list[Stage]) -> tuple[PathStep, ...]:
         if stage.kind != "fixed point":  # it changes the stresses at collapse, not the way to it
             unit = np.repeat([problem.scales.length, 1.0], 3)
             moved = moved.copy()
-            moved[places] += (stage.state.u / stage.rho).reshape(-1, 6) * unit
+            moved[places] += softness * (stage.state.u / stage.rho).reshape(-1, 6) * unit
         flowing = _flowing(problem, stage.state)
         state, residuals = stage.state, {name: stage.residuals[name] for name in first}
         new = tuple(sorted(flowing - before))

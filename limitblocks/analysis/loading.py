@@ -7,6 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
 
 from limitblocks.analysis.fixed_point import fixed_point, nearest_stresses
 from limitblocks.analysis.implicit_step import Loading, Point, StepResult, implicit_step
@@ -26,15 +28,15 @@ class Settings:
 
     Attributes
     ----------
-    rho : float
-        One over the first step size.
+    first : float
+        First step, as the load factor it would add to elastic joints over the associated load factor.
     growth : float
         Steps grow by this factor after a success, and shrink by it where every retry failed.
-    least, last : float
-        Least rho until the flow residual is 1e-3, and after that.
+    longest, last : float
+        Longest step until the flow residual is 1e-3, and after that.
     retries : tuple of (float, float)
-        (factor on rho, viscosity of the multipliers) tried in turn; the first is the plain quasi-static
-        step, a factor above one a smaller step, a viscosity a jump across a snap.
+        (divisor of the step, viscosity of the multipliers) tried in turn; the first is the plain
+        quasi-static step, a divisor above one a smaller step, a viscosity a jump across a snap.
     near, close : float
         Flow residual below which the fixed point is tried, where steps fail and where they do not.
     drift : float
@@ -46,13 +48,13 @@ class Settings:
         Newton iterations of one step, of all together, and after the first solution kept.
     """
 
-    rho: float = 0.1
+    first: float = 0.4
     growth: float = 3.0
-    least: float = 3e-3
-    last: float = 1e-5
+    longest: float = 15.0
+    last: float = 5e3
     retries: tuple[tuple[float, float], ...] = ((1.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2))
     near: float = 0.1
-    close: float = 1e-4
+    close: float = 1e-2
     drift: float = 1e-3
     rounds: int = 10
     iterations: int = 60
@@ -86,14 +88,19 @@ def stages(
     dilatancy: float,
     tolerance: float,
     settings: Settings,
+    scale: float,
     progress: Progress | None = None,
 ) -> list[Stage]:
-    """Accepted states from the stresses `x0` on; the last is within `tolerance` if the loop converged."""
+    """Accepted states from the stresses `x0` on; the last is within `tolerance` if the loop converged.
+
+    `scale` is the load factor that steps are measured by, the associated one.
+    """
+    unit = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
     blocks = InterfaceBlocks(problem)
     x, y = x0, np.zeros(len(problem.g))
     found: list[Stage] = []
     kept: tuple[Stage, float] | None = None
-    rho, level, failures, used, budget = settings.rho, 0, 0, 0, settings.budget
+    rho, level, failures, used, budget = unit / settings.first, 0, 0, 0, settings.budget
     while used < budget:
         factor, viscosity = settings.retries[level]
         size = factor * rho
@@ -117,10 +124,18 @@ def stages(
             kept = closed
         x, y, rho = result.point.x, result.point.y, size
         if not failures:
-            least = settings.last if stage.residuals["flow"] < 1e-3 else settings.least
-            rho = max(rho / settings.growth, least)
+            longest = settings.last if stage.residuals["flow"] < 1e-3 else settings.longest
+            rho = max(rho / settings.growth, unit / longest)
         level, failures = max(0, level - 1) if viscosity else 0, 0
     return [*found, kept[0]] if kept else found
+
+
+def elastic_work(problem: LimitProblem, weights: Array) -> float:
+    """Work of the live load at load factor one on elastic joints of compliance `weights`."""
+    K = problem.C.T @ sparse.diags_array(1.0 / weights) @ problem.C + 1e-12 * sparse.eye_array(
+        len(problem.live)
+    )
+    return float(problem.live @ linalg.spsolve(sparse.csc_array(K), problem.live))
 
 
 def _closed(
@@ -132,14 +147,15 @@ def _closed(
     smooth = stage.kind == "step" and not stage.failures  # the next step is cheaper than a round
     if flow >= (settings.close if smooth else settings.near) or stage.residuals.worst.value <= tolerance:
         return None
-    state, rounds = fixed_point(
-        problem, start, loading.weights, loading.dilatancy, tolerance, settings.rounds
-    )
-    if state is None:
-        return None
-    drift = abs(state.load_factor - start.load_factor) / max(abs(start.load_factor), SMALL_LOAD)
-    evidence = _evidence(problem, state, loading.dilatancy)
-    return Stage(state, evidence, loading.rho, "fixed point", rounds, 0), drift
+    for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
+        state, rounds = fixed_point(
+            problem, from_state, loading.weights, loading.dilatancy, tolerance, settings.rounds
+        )
+        if state is not None:
+            drift = abs(state.load_factor - start.load_factor) / max(abs(start.load_factor), SMALL_LOAD)
+            evidence = _evidence(problem, state, loading.dilatancy)
+            return Stage(state, evidence, loading.rho, "fixed point", rounds, 0), drift
+    return None
 
 
 def _stage(loading: Loading, result: StepResult, kind: str, failures: int) -> Stage:

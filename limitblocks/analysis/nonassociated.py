@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.analysis.bounds import TOLERANCE, bounds, in_model_order, refuse_falling
 from limitblocks.analysis.fixed_point import permanent_state
 from limitblocks.analysis.loading import Settings, Stage, stages
-from limitblocks.analysis.residuals import Residuals, static_residuals
+from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
 from limitblocks.analysis.results import Iteration, Nonassociated, Status
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, NoEquilibrium, NotConverged, SolveError, UnlimitedLoad
@@ -19,7 +19,7 @@ from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
 
 # A snap that jams one step size is crossed by another.
-ATTEMPTS = (Settings(), Settings(rho=0.3), Settings(growth=2.0))
+ATTEMPTS = (Settings(), Settings(first=0.13), Settings(growth=2.0))
 
 
 def nonassociated(
@@ -68,6 +68,8 @@ def nonassociated(
     problem = model.problem
     dilatancy_share(problem, dilatancy)
     x0 = start_stresses(model, problem.compliance, start)
+    enclosing = bracket(model)
+    scale = load_scale(problem, enclosing[1])
     history: list[Iteration] = []
 
     def record(stage: Stage) -> None:
@@ -77,7 +79,7 @@ def nonassociated(
 
     best: Stage | None = None
     for setting in [settings] if isinstance(settings, Settings) else settings:
-        found = stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, record)
+        found = stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, scale, record)
         for stage in found:
             if best is None or stage.residuals.worst.value <= best.residuals.worst.value:
                 best = stage
@@ -85,7 +87,7 @@ def nonassociated(
             break
     if best is None:
         raise SolveError("the first step from the permanent loads failed with every step size")
-    return finished(model, best, tuple(history), dilatancy, tolerance, throw)
+    return finished(model, best, enclosing, tuple(history), dilatancy, tolerance, throw)
 
 
 def start_stresses(model: Model, weights: Array, start: Nonassociated | None) -> Array:
@@ -104,6 +106,12 @@ def start_stresses(model: Model, weights: Array, start: Nonassociated | None) ->
     return x
 
 
+def load_scale(problem: LimitProblem, associated: float) -> float:
+    """Dimensionless load factor that steps are measured by; the dead load's where none limits the load."""
+    limit = associated / problem.scales.load_factor
+    return max(limit, SMALL_LOAD) if np.isfinite(limit) else float(len(problem.blocks))
+
+
 def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
     """What a stage tells the user."""
     return Iteration(
@@ -119,6 +127,7 @@ def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
 def finished(
     model: Model,
     stage: Stage,
+    enclosing: tuple[float, float],
     history: tuple[Iteration, ...],
     dilatancy: float,
     tolerance: float,
@@ -126,12 +135,11 @@ def finished(
 ) -> Nonassociated:
     """The result of a stage, raised as NotConverged where its residuals are above the tolerance."""
     problem, state = model.problem, stage.state
-    frictionless, associated = bracket(model)
     worst = stage.residuals.worst
     result = Nonassociated(
         load_factor=state.load_factor * problem.scales.load_factor,
-        frictionless=frictionless,
-        associated=associated,
+        frictionless=enclosing[0],
+        associated=enclosing[1],
         stress_resultants=read_only(
             (problem.resultants @ state.x).reshape(-1, 6) * problem.scales.resultants
         ),

@@ -156,7 +156,7 @@ class Ring(NamedTuple):
 def ring_blocks(ring: Ring, depth: float, unit_weight: float, height: float = 0.0) -> list[Block]:
     """Return the voussoirs of a ring whose centre is at z = `height`."""
     return [
-        prism(f"voussoir {k + 1}", outline + (0.0, height), depth, unit_weight)
+        prism(f"voussoir {k + 1}", np.add(outline, (0.0, height)), depth, unit_weight)
         for k, outline in enumerate(ring.voussoirs())
     ]
 

@@ -19,7 +19,7 @@ JOINTS = [
 every_joint = pytest.mark.parametrize("joint", JOINTS, ids=repr)
 
 
-@given(st.lists(st.floats(-5, 5), min_size=6, max_size=6))
+@given(st.lists(st.integers(-5000, 5000).map(lambda k: k / 1000), min_size=6, max_size=6))
 def test_reach_within_a_cone_against_bisection(numbers):
     a, z1, z2, b, w1, w2 = numbers
     value, slope = np.array([abs(a) + np.hypot(z1, z2), z1, z2]), np.array([b, w1, w2])

@@ -1,0 +1,107 @@
+"""Products of the cone K against dense definitions: Jordan algebra of one second-order cone at a time."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
+from limitblocks.mechanics import Cones
+
+CONES = Cones(2, ((2, 3), (1, 4)))
+PARTS = [slice(2, 5), slice(5, 8), slice(8, 12)]
+NUMBERS = st.integers(-40, 40).map(lambda k: k / 10)
+VECTORS = st.lists(NUMBERS, min_size=12, max_size=12).map(np.array)
+
+
+@st.composite
+def interior(draw):
+    """A vector inside K, at least 0.1 from its boundary."""
+    v = draw(VECTORS)
+    v[:2] = np.abs(v[:2]) + 0.1
+    for part in PARTS:
+        v[part.start] = np.linalg.norm(v[part][1:]) + 0.1 + abs(v[part.start])
+    return v
+
+
+def dense_arrow(w):
+    matrix = w[0] * np.eye(len(w))
+    matrix[0], matrix[:, 0] = w, w
+    return matrix
+
+
+def eigenvalues(v):
+    """Of each part: the row itself, or t +- ||z||."""
+    cone = [(v[p][0] - np.linalg.norm(v[p][1:]), v[p][0] + np.linalg.norm(v[p][1:])) for p in PARTS]
+    return np.concatenate([v[:2], *cone])
+
+
+@given(VECTORS, VECTORS)
+def test_product_and_arrow(a, b):
+    expected = a * b
+    for part in PARTS:
+        expected[part] = dense_arrow(a[part]) @ b[part]
+    np.testing.assert_allclose(product(CONES, a, b), expected, atol=1e-12)
+    np.testing.assert_allclose(arrow(CONES, a) @ b, expected, atol=1e-12)
+
+
+@given(VECTORS)
+def test_the_identity_of_the_product(a):
+    np.testing.assert_array_equal(product(CONES, CONES.identity, a), a)
+
+
+@given(interior())
+def test_inverse_arrow(a):
+    found = (inverse_arrow(CONES, a) @ arrow(CONES, a)).toarray()
+    condition = np.linalg.cond(arrow(CONES, a).toarray())
+    np.testing.assert_allclose(found, np.eye(12), atol=1e-13 * condition)
+
+
+@given(interior(), VECTORS)
+def test_longest_against_bisection(v, dv):
+    def inside(t):
+        return CONES.margin(v + t * dv).min() >= 0.0
+
+    t = longest(CONES, v, dv)
+    if np.isinf(t):
+        assert CONES.margin(v + 1e6 * dv).min() >= -1e-6
+        return
+    low, high = 0.0, 2 * t + 1.0
+    assert not inside(high)
+    for _ in range(80):
+        middle = (low + high) / 2
+        low, high = (middle, high) if inside(middle) else (low, middle)
+    assert t == pytest.approx(low, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("dv", "expected"),
+    [
+        ((-1, 0, 0), 1.0),
+        ((0, 1, 0), 1.0),
+        ((0, -1, 0), 3.0),
+        ((1, 1, 0), np.inf),  # parallel to the boundary
+        ((-1, 1, 0), 0.5),
+        ((0, 0, 0), np.inf),
+    ],
+)
+def test_longest_by_hand(dv, expected):
+    """From (2, 1, 0), which is 1 inside the boundary t = ||z||."""
+    start = np.array((2, 1, 0), float)
+    assert longest(Cones(0, ((1, 3),)), start, np.array(dv, float)) == pytest.approx(expected)
+
+
+@given(interior(), interior())
+def test_least_product_against_eigenvalues(a, b):
+    """Least eigenvalue of P(sqrt a) b with P(w) = 2 L(w)^2 - L(w o w); a sqrt has the roots' eigenvalues."""
+    scaled = a * b
+    for part in PARTS:
+        t, z = a[part][0], a[part][1:]
+        size = np.linalg.norm(z)
+        high, low = np.sqrt(t + size), np.sqrt(t - size)
+        unit = z / size if size > 0.0 else np.zeros_like(z)
+        root = np.concatenate([[(high + low) / 2], (high - low) / 2 * unit])
+        L = dense_arrow(root)
+        scaled[part] = (2 * L @ L - dense_arrow(a[part])) @ b[part]
+    expected = eigenvalues(scaled).min()
+    assert least_product(CONES, a, b) == pytest.approx(expected, rel=1e-7, abs=1e-9)

@@ -1,0 +1,183 @@
+"""Properties of the non-associated answer: bracket, associated limit, invariance, restart, honesty."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+
+MU = 0.65
+KINDS = [lb.OrdunaLourenco, lb.PointContact]
+NAMES = ["equilibrium", "yield", "flow", "normalisation", "multipliers", "complementarity"]
+
+
+def wall(kind, scale=1.0, unit_weight=20e3, direction=(1, 0, 0)):
+    return structures.wall(
+        kind(MU),
+        length=1.2 * scale,
+        courses=4,
+        block_length=0.4 * scale,
+        block_height=0.2 * scale,
+        thickness=0.2 * scale,
+        unit_weight=unit_weight,
+        direction=direction,
+    )
+
+
+@pytest.fixture(scope="module", params=KINDS, ids=lambda kind: kind.__name__)
+def kind(request):
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def reference(kind):
+    model = wall(kind)
+    return model, lb.nonassociated(model)
+
+
+def corner(kind):
+    """Two short walls that meet, pushed out of the plane of one: blocks slide, twist and rock."""
+    return structures.facade(
+        kind(MU), length=2.0, courses=2, return_length=0.8, openings=[], direction=(0, 1, 0)
+    )
+
+
+def test_the_answer_is_within_its_bracket(reference):
+    model, found = reference
+    bounds = lb.bounds(model)
+    assert found.frictionless - 1e-6 <= found.load_factor <= found.associated + 1e-6
+    assert found.associated == bounds.upper
+    assert found.frictionless == pytest.approx(0.0, abs=1e-9)
+    assert str(found).startswith("non-associated load factor ")
+    assert "(frictionless)" in str(found)
+
+
+@pytest.mark.parametrize("build", [wall, corner], ids=["wall", "corner"])
+def test_dilatancy_equal_to_friction_gives_the_associated_value(kind, build):
+    model = build(kind)
+    found, bounds = lb.nonassociated(model, dilatancy=MU), lb.bounds(model)
+    assert found.load_factor == pytest.approx(bounds.lower, abs=1e-6)
+    assert found.load_factor == pytest.approx(bounds.upper, abs=1e-6)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.3, 0.5, 0.7, 0.9])
+def test_every_dilatancy_gives_a_checked_answer_within_the_bracket(kind, share, reference):
+    """No theorem says that the answer grows with the dilatancy, but on this wall it does not fall."""
+    model, zero = reference
+    found = lb.nonassociated(model, dilatancy=share * MU)
+    assert found.dilatancy == share * MU
+    assert lb.check_mcp(model, found).worst.value <= 1e-6
+    assert zero.load_factor - 1e-4 <= found.load_factor <= found.associated + 1e-6
+
+
+@pytest.mark.parametrize("dilatancy", [-0.1, MU + 1e-6, np.nan])
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+def test_dilatancy_out_of_range_is_refused(reference, dilatancy, analysis):
+    with pytest.raises(lb.ModelError, match="dilatancy is"):
+        analysis(reference[0], dilatancy=dilatancy)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"scale": 1e-3},
+        {"scale": 1e3},
+        {"unit_weight": 20.0},
+        {"unit_weight": 20e9},
+        {"direction": (-1, 0, 0)},
+    ],
+    ids=str,
+)
+def test_units_and_mirror_change_nothing(kind, reference, change):
+    """The wall is its own mirror image. Rounding may end the iteration elsewhere in the tolerance: 1e-4."""
+    found = lb.nonassociated(wall(kind, **change))
+    assert found.load_factor == pytest.approx(reference[1].load_factor, abs=1e-4)
+
+
+def test_a_live_load_twice_as_large_has_half_the_load_factor(reference):
+    model, found = reference
+    twice = lb.nonassociated(replace(model, live=2.0 * model.live))
+    assert twice.load_factor == pytest.approx(found.load_factor / 2, abs=1e-4)
+
+
+def test_restart_converges_at_once(reference):
+    model, found = reference
+    again = lb.nonassociated(model, start=found)
+    assert len(again.history) == 1
+    assert again.load_factor == pytest.approx(found.load_factor, abs=1e-6)
+    assert again.residuals.worst.value <= 1e-6
+
+
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+def test_a_start_from_another_model_is_refused(kind, reference, analysis):
+    other = wall(kind, unit_weight=21e3)
+    with pytest.raises(lb.ModelError, match="start belongs to model"):
+        analysis(other, start=reference[1])
+
+
+def test_progress_and_history_have_every_residual(kind):
+    seen = []
+    found = lb.nonassociated(wall(kind), progress=seen.append)
+    assert tuple(seen) == found.history
+    assert all(isinstance(iteration, lb.Iteration) for iteration in seen)
+    for iteration in seen:
+        assert list(iteration.residuals) == NAMES
+        assert iteration.step_size > 0.0
+        assert iteration.kind in {"step", "jump", "fixed point"}
+        assert iteration.residuals["equilibrium"] <= 1e-6
+        assert iteration.residuals["yield"] <= 1e-6
+
+
+SHORT = lb.Settings(budget=1, rounds=0)
+
+
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lambda *a, **k: lb.load_path(*a, **k).collapse])
+def test_a_short_budget_returns_the_best_state_and_says_so(reference, analysis):
+    model, _ = reference
+    found = analysis(model, settings=SHORT, throw=False)
+    assert found.status is lb.Status.OUT_OF_STEPS
+    assert not found.converged
+    assert "not converged" in str(found)
+    assert found.residuals.worst.value > 1e-6
+    assert found.residuals["equilibrium"] <= 1e-6  # even so it is a statically admissible state
+    assert found.residuals["yield"] <= 1e-6
+    assert found.load_factor <= found.associated + 1e-6
+    assert not lb.check_mcp(model, found).passed
+
+
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+def test_not_converged_carries_the_best_result(reference, analysis):
+    model, _ = reference
+    with pytest.raises(lb.NotConverged, match=r"no solution within 1e-06: .* residual") as caught:
+        analysis(model, settings=SHORT)
+    result = caught.value.result
+    assert isinstance(result, lb.Nonassociated)
+    assert result.residuals.worst.name in str(caught.value)
+    assert result.residuals.worst.value > 1e-6
+    found = lb.nonassociated(model, start=result)  # and can be gone on from
+    assert found.converged
+
+
+def test_further_settings_are_tried_in_turn(reference):
+    model, _ = reference
+    found = lb.nonassociated(model, settings=(SHORT, lb.Settings()))
+    assert found.converged
+    assert len(found.history) > 1
+
+
+def test_dead_loads_that_fall_are_refused(kind):
+    falling = structures.overhang(kind(0.7), count=3, length=1.0, height=0.4, fraction=1.01)
+    with pytest.raises(lb.NoEquilibrium):
+        lb.nonassociated(falling)
+
+
+def test_the_mechanism_does_unit_work_and_supports_stand_still(reference):
+    model, found = reference
+    free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
+    work = np.sum(model.live.on(model.free_blocks) * found.displacement_rates[free])
+    assert work == pytest.approx(1.0, abs=1e-6)
+    assert not found.displacement_rates[[k for k in range(len(model.blocks)) if k not in free]].any()
+    with pytest.raises(ValueError, match="read-only"):
+        found.stress_resultants[0] = 0.0

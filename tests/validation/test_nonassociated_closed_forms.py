@@ -1,0 +1,160 @@
+"""Closed forms without dilatancy: equilibrium of one rigid body, stacks, leaves, and a jammed block."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+
+CLOSE = 1e-5  # residuals of 1e-6 allow the load factor an error a few times as large
+
+
+@pytest.fixture(params=[lb.OrdunaLourenco, lb.PointContact], ids=lambda kind: kind.__name__)
+def joint_type(request):
+    return request.param
+
+
+def assert_load_factor(model, expected, **options):
+    found = lb.nonassociated(model, **options)
+    assert found.load_factor == pytest.approx(expected, rel=CLOSE)
+    assert lb.check_mcp(model, found).worst.value <= 1e-6
+
+
+@pytest.mark.parametrize("friction", [0.2, 0.6])
+@pytest.mark.parametrize(("b", "h"), [(0.5, 1.0), (1.0, 0.4)])
+@pytest.mark.parametrize("direction", [(-1, 0, 0), (0, 1, 0)])
+def test_block_slides_or_rocks(joint_type, friction, b, h, direction):
+    model = structures.block(joint_type(friction), width=b, height=h, depth=b, direction=direction)
+    assert_load_factor(model, min(friction, b / h))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.7, 1.0])
+def test_a_block_slides_at_the_same_load_whatever_the_dilatancy(joint_type, share):
+    """With dilatancy d it does the work -W d ds lifting; the load factor is statics alone: mu."""
+    model = structures.block(joint_type(0.3), width=1.0, height=0.5)
+    found = lb.nonassociated(model, dilatancy=share * 0.3)
+    assert found.load_factor == pytest.approx(0.3, rel=CLOSE)
+    along, up = found.displacement_rates[1, [0, 2]]
+    assert up == pytest.approx(share * 0.3 * along, abs=1e-5 * along)
+
+
+@pytest.mark.parametrize("angle", [0.3, 0.7])
+def test_a_block_pushed_obliquely(angle):
+    """Coulomb cones: mu in every direction. Octagon around the circle: mu / cos(angle to its contact)."""
+    direction = (np.cos(angle), np.sin(angle), 0)
+    cone = structures.block(lb.PointContact(0.3), width=1.0, height=0.5, direction=direction)
+    assert_load_factor(cone, 0.3)
+    octagon = structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=0.5, direction=direction)
+    contact = np.pi / 4 * round(angle / (np.pi / 4))
+    assert_load_factor(octagon, 0.3 / np.cos(angle - contact))
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.6])
+@pytest.mark.parametrize("count", [2, 5])
+def test_column_rocks_as_a_whole_or_slides(joint_type, friction, count):
+    b, h = 0.6, 0.25
+    model = structures.column(joint_type(friction), count=count, width=b, height=h)
+    assert_load_factor(model, min(friction, b / (count * h)))
+
+
+@pytest.mark.parametrize("z", [0.1, 0.9])
+def test_force_at_a_height(joint_type, z):
+    friction, b = 0.4, 0.5
+    model = structures.block(joint_type(friction), width=b, height=1.0)
+    weight = model.free_blocks[0].weight
+    pushed = replace(model, live=lb.force("block 1", (1, 0, 0), at=(0, 0, z)))
+    assert_load_factor(pushed, min(friction, b / (2 * z)) * weight)
+
+
+def leaves(joint, between, b=0.12, height=2.4):
+    """Two leaves side by side in Y, their common joint `between` or none."""
+    blocks = [
+        lb.Block.box("base", (1.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("inner", (1.0, b, height), (0, -b / 2, height / 2), 20e3),
+        lb.Block.box("outer", (1.0, b, height), (0, b / 2, height / 2), 20e3),
+    ]
+    found = lb.find_interfaces(blocks, joint)
+    vertical = {"inner", "outer"}
+    kept = [i for i in found if {i.block_i, i.block_j} != vertical]
+    if between is not None:
+        kept += [replace(i, joint=between) for i in found if {i.block_i, i.block_j} == vertical]
+    return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+
+
+@pytest.mark.parametrize("smooth", [False, True])
+def test_two_leaves_without_connection_rock_one_by_one(joint_type, smooth):
+    b, height = 0.12, 2.4
+    between = joint_type(0.0) if smooth else None
+    assert_load_factor(leaves(joint_type(0.6), between, b, height), b / height)
+
+
+def test_two_leaves_with_a_rough_joint_rock_between_the_two(joint_type):
+    """At least one by one, b / H; at most the associated value, itself below the monolithic 2 b / H."""
+    b, height = 0.12, 2.4
+    model = leaves(joint_type(0.6), joint_type(0.6), b, height)
+    found = lb.nonassociated(model)
+    assert b / height * (1 - CLOSE) <= found.load_factor <= found.associated < 2 * b / height
+    assert lb.check_mcp(model, found).passed
+
+
+def jammed(joint):
+    blocks = [
+        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    return lb.Model(
+        blocks,
+        ["floor", "ceiling"],
+        lb.find_interfaces(blocks, joint),
+        lb.self_weight(),
+        lb.mass_proportional((1, 0, 0)),
+    )
+
+
+@pytest.mark.parametrize("friction", [0.3, 0.6])
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lambda model: lb.load_path(model).collapse])
+def test_a_jammed_block_gets_one_checked_answer_of_infinitely_many(joint_type, friction, analysis):
+    """Every value >= mu is a solution; the path takes one, and the bracket says that nothing bounds it."""
+    model = jammed(joint_type(friction))
+    found = analysis(model)
+    assert friction * (1 - CLOSE) <= found.load_factor < np.inf
+    assert found.associated == np.inf
+    assert lb.check_mcp(model, found).worst.value <= 1e-6
+
+
+def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):
+    """It would have to lift as it slides: no solution exists, and none is claimed."""
+    model = jammed(joint_type(0.3))
+    with pytest.raises(lb.NotConverged, match="no solution within") as caught:
+        lb.nonassociated(model, dilatancy=0.15, settings=lb.Settings(budget=40))
+    assert caught.value.result.residuals["flow"] > 1e-3
+    assert caught.value.result.associated == np.inf
+
+
+@pytest.mark.parametrize("ceiling_force", [0.0, 2.0])
+def test_the_solutions_of_the_jammed_block_are_many(ceiling_force):
+    """By hand: a ceiling force P (over W) leaves W + P below; the block slides at mu (1 + 2 P)."""
+    mu, joint = 0.3, lb.OrdunaLourenco(0.3)
+    model = jammed(joint)
+    weight = model.free_blocks[0].weight
+    load_factor = mu * (1 + 2 * ceiling_force)
+    Q = []
+    for interface in model.interfaces:
+        below = "floor" in (interface.block_i, interface.block_j)
+        pressure = (1 + ceiling_force if below else ceiling_force) * weight
+        friction = mu * pressure
+        at = interface.centroid - model.free_blocks[0].centroid
+        force = np.array([-friction, 0.0, pressure if below else -pressure])  # on the block
+        sign = 1.0 if interface.block_i == "block" else -1.0  # +Q acts on block i
+        # the centroid of pressure is free: put the moment that balances the push into the floor joint
+        unbalanced = -0.5 * mu * weight if below else 0.0
+        own = np.array([0.0, unbalanced, 0.0])
+        Q.append(np.concatenate([interface.axes @ (sign * force), interface.axes @ (sign * own)]))
+        assert at[2] == pytest.approx(-0.5 if below else 0.5)
+    rates = np.zeros((3, 6))
+    rates[[b.name for b in model.blocks].index("block"), 0] = 1.0 / weight
+    claim = lb.Claim(load_factor, np.array(Q), displacement_rates=rates)
+    assert lb.check_mcp(model, claim).worst.value <= 1e-9

@@ -1,0 +1,63 @@
+"""Ferris & Tin-Loi (2001), Int. J. Mech. Sci. 43, 209-224: walls 1-4 without dilatancy, friction 0.65."""
+
+import pytest
+
+import limitblocks as lb
+
+JOINTS = [lb.OrdunaLourenco(0.65), lb.PointContact(0.65)]
+NONASSOCIATED = {1: 0.640, 2: 0.563, 3: 0.356, 4: 0.264}  # the source's complementarity solutions
+ASSOCIATED = {1: 0.64286, 2: 0.58000, 3: 0.40369, 4: 0.33195}
+
+every_wall = pytest.mark.parametrize("number", NONASSOCIATED)
+both_joints = pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)
+
+
+def assert_published(model, found, number):
+    """Not unique: 1 % of the reference, at most the associated value, and every residual of the MCP."""
+    assert found.load_factor == pytest.approx(NONASSOCIATED[number], rel=0.01)
+    assert found.load_factor <= ASSOCIATED[number] + 1e-5
+    assert found.associated == pytest.approx(ASSOCIATED[number], abs=1e-5)
+    assert found.frictionless == pytest.approx(0.0, abs=1e-9)  # the base resists no push
+    check = lb.check_mcp(model, found)
+    assert check.worst.value <= 1e-6
+    assert not check.mechanism_found
+
+
+@both_joints
+@every_wall
+def test_nonassociated_load_factor(number, joint):
+    wall = lb.structures.ferris_tin_loi_wall(number, joint)
+    assert_published(wall, lb.nonassociated(wall), number)
+
+
+@both_joints
+@every_wall
+def test_load_path_ends_at_the_nonassociated_load_factor(number, joint):
+    wall = lb.structures.ferris_tin_loi_wall(number, joint)
+    path = lb.load_path(wall)
+    assert_published(wall, path.collapse, number)
+    assert path.steps[0].load_factor == 0.0
+    assert max(max(step.residuals.values()) for step in path.steps) <= 1e-6
+    assert path.peak <= ASSOCIATED[number] + 1e-5  # statically admissible states: the static theorem
+
+
+def test_a_wall_checked_again_from_its_result_file(tmp_path):
+    wall = lb.structures.ferris_tin_loi_wall(3, JOINTS[0])
+    found = lb.nonassociated(wall)
+    again = lb.read_result(lb.write_result(found, tmp_path / "wall.json"))
+    check = lb.check_mcp(wall, again)
+    assert check.worst.value <= 1e-6
+    assert not check.mechanism_found
+    assert again.load_factor == found.load_factor
+    with pytest.raises(lb.ModelError, match="belongs to model"):
+        lb.check_mcp(lb.structures.ferris_tin_loi_wall(3, JOINTS[1]), again)
+
+
+@both_joints
+@pytest.mark.parametrize("thickness", [0.2, 0.4])
+def test_plain_wall_pushed_out_of_plane_rocks_as_a_whole(joint, thickness):
+    """Six courses of 0.175 m: no joint slides, so that thickness / height holds for any flow rule."""
+    wall = lb.structures.ferris_tin_loi_wall(1, joint, thickness=thickness, direction=(0, 1, 0))
+    found = lb.nonassociated(wall)
+    assert found.load_factor == pytest.approx(thickness / (6 * 0.175), rel=1e-5)
+    assert lb.check_mcp(wall, found).passed
