@@ -102,14 +102,14 @@ def test_a_path_with_a_jump_keeps_to_equilibrium_and_yield():
     model = structures.facade(
         lb.OrdunaLourenco(MU), length=2.0, courses=3, return_length=0.8, openings=[], direction=(0, 1, 0)
     )
-    cautious = lb.Settings(first=0.05, retries=((1.0, 1e-3),), growth=2.0)  # every step with viscosity
+    cautious = lb.Settings(retries=((1.0, 1e-3),), budget=100)  # every step with viscosity
     for path in (lb.load_path(model), lb.load_path(model, settings=cautious, throw=False)):
         assert max(max(step.residuals.values()) for step in path.steps) <= 1e-6
     assert {step.kind for step in path.steps[1:]} <= {"jump", "fixed point"}
     assert "jump" in {step.kind for step in path.steps}
 
 
-@pytest.mark.parametrize("ratio", [0.1, 1.0, 10.0])
+@pytest.mark.parametrize("ratio", [0.1, 10.0])
 def test_the_size_of_the_stiffness_scales_the_displacements_only(joint, ratio):
     model = structures.wall(joint, length=0.8, courses=3)
     soft = lb.load_path(model, stiffness=(1e9, ratio * 1e9))

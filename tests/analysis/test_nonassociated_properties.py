@@ -62,7 +62,7 @@ def test_dilatancy_equal_to_friction_gives_the_associated_value(kind, build):
     assert found.load_factor == pytest.approx(bounds.upper, abs=1e-6)
 
 
-@pytest.mark.parametrize("share", [0.0, 0.1, 0.3, 0.5, 0.7, 0.9])
+@pytest.mark.parametrize("share", [0.0, 0.1, 0.5, 0.9])
 def test_every_dilatancy_gives_a_checked_answer_within_the_bracket(kind, share, reference):
     """No theorem says that the answer grows with the dilatancy, but on this wall it does not fall."""
     model, zero = reference
