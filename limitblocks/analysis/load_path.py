@@ -11,14 +11,16 @@ from limitblocks.analysis.loading import Settings, Stage, stages
 from limitblocks.analysis.nonassociated import (
     bracket,
     finished,
+    initial,
     iteration,
     load_scale,
+    refuse_unlimited,
     start_stresses,
 )
 from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep
 from limitblocks.analysis.states import State
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, SolveError
+from limitblocks.errors import ModelError
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.mechanics import LimitProblem
 from limitblocks.mechanics.flow import dilatancy_share
@@ -83,6 +85,7 @@ def load_path(
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     x0 = start_stresses(model, weights, start)
     enclosing = bracket(model)
+    refuse_unlimited(problem, enclosing[1], dilatancy)
     scale = load_scale(problem, enclosing[1])
     history: list[Iteration] = []
 
@@ -92,9 +95,8 @@ def load_path(
             progress(history[-1])
 
     found = stages(problem, x0, weights, dilatancy, tolerance, settings, scale, record)
-    if not found:
-        raise SolveError("the first step from the permanent loads failed with every step size")
-    collapse = finished(model, found[-1], enclosing, tuple(history), dilatancy, tolerance, throw)
+    last = found[-1] if found else initial(problem, x0, dilatancy)
+    collapse = finished(model, last, enclosing, tuple(history), dilatancy, tolerance, throw)
     return LoadPath(_steps(model, x0, found, softness), collapse)
 
 

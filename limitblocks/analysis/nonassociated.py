@@ -10,8 +10,10 @@ import numpy as np
 from limitblocks.analysis.bounds import TOLERANCE, bounds, in_model_order, refuse_falling
 from limitblocks.analysis.fixed_point import permanent_state
 from limitblocks.analysis.loading import Settings, Stage, stages
+from limitblocks.analysis.mcp import mcp_residuals
 from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
 from limitblocks.analysis.results import Iteration, Nonassociated, Status
+from limitblocks.analysis.states import State
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, NoEquilibrium, NotConverged, SolveError, UnlimitedLoad
 from limitblocks.mechanics import LimitProblem
@@ -62,6 +64,8 @@ def nonassociated(
         If the dilatancy is out of range, or `start` belongs to another model.
     NoEquilibrium
         If the dead loads alone cannot stand.
+    UnlimitedLoad
+        If the flow is associated everywhere and the live load can grow without limit.
     NotConverged
         If no attempt ends within the tolerance.
     """
@@ -69,6 +73,7 @@ def nonassociated(
     dilatancy_share(problem, dilatancy)
     x0 = start_stresses(model, problem.compliance, start)
     enclosing = bracket(model)
+    refuse_unlimited(problem, enclosing[1], dilatancy)
     scale = load_scale(problem, enclosing[1])
     history: list[Iteration] = []
 
@@ -85,9 +90,21 @@ def nonassociated(
                 best = stage
         if best is not None and best.residuals.worst.value <= tolerance:
             break
-    if best is None:
-        raise SolveError("the first step from the permanent loads failed with every step size")
+    best = best or initial(problem, x0, dilatancy)
     return finished(model, best, enclosing, tuple(history), dilatancy, tolerance, throw)
+
+
+def initial(problem: LimitProblem, x0: Array, dilatancy: float) -> Stage:
+    """The permanent-load state as a stage: what is left to show where no step succeeds."""
+    u, y = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    evidence = mcp_residuals(problem, 0.0, x0, u, y, dilatancy)
+    return Stage(State(0.0, x0, u, y), evidence, np.inf, "step", 0, 0)
+
+
+def refuse_unlimited(problem: LimitProblem, associated: float, dilatancy: float) -> None:
+    """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
+    if np.isinf(associated) and bool((dilatancy_share(problem, dilatancy) == 1.0).all()):
+        raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
 
 
 def start_stresses(model: Model, weights: Array, start: Nonassociated | None) -> Array:
