@@ -50,7 +50,7 @@ class Settings:
 
     first: float = 0.4
     growth: float = 3.0
-    longest: float = 15.0
+    longest: float = 50.0
     last: float = 5e3
     retries: tuple[tuple[float, float], ...] = ((1.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2))
     near: float = 0.1

@@ -21,7 +21,12 @@ from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
 
 # A snap that jams one step size is crossed by another.
-ATTEMPTS = (Settings(), Settings(first=0.13), Settings(growth=2.0))
+ATTEMPTS = (
+    Settings(),
+    Settings(longest=5e3),
+    Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
+)
+COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one
 
 
 def nonassociated(
@@ -82,16 +87,31 @@ def nonassociated(
         if progress is not None:
             progress(history[-1])
 
-    best: Stage | None = None
+    met: list[Stage] = []
     for setting in [settings] if isinstance(settings, Settings) else settings:
         found = stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, scale, record)
-        for stage in found:
-            if best is None or stage.residuals.worst.value <= best.residuals.worst.value:
-                best = stage
-        if best is not None and best.residuals.worst.value <= tolerance:
+        met += found
+        if found and found[-1].residuals.worst.value <= tolerance:
             break
-    best = best or initial(problem, x0, dilatancy)
-    return finished(model, best, enclosing, tuple(history), dilatancy, tolerance, throw)
+    return finished(
+        model,
+        best_of(met) or initial(problem, x0, dilatancy),
+        enclosing,
+        tuple(history),
+        dilatancy,
+        tolerance,
+        throw,
+    )
+
+
+def best_of(met: list[Stage]) -> Stage | None:
+    """The last stage if it converged, else that of least residual among those close to collapse."""
+    if not met or met[-1].kind == "fixed point":
+        return met[-1] if met else None
+    largest = max(stage.state.load_factor for stage in met)
+    least = largest - (1.0 - COLLAPSING) * abs(largest)
+    near = [stage for stage in met if stage.state.load_factor >= least]
+    return min(near, key=lambda stage: stage.residuals.worst.value)
 
 
 def initial(problem: LimitProblem, x0: Array, dilatancy: float) -> Stage:
