@@ -26,6 +26,7 @@ ATTEMPTS = (
     Settings(longest=5e3),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
 )
+NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one
 
 
@@ -205,7 +206,9 @@ def bracket(model: Model) -> tuple[float, float]:
     NaN where the structure does not stand without friction or has a joint that cannot do without;
     infinite where the load is unlimited.
     """
-    return _lower(model), _associated(model, upper=True)
+    lower, upper = _lower(model), _associated(model, upper=True)
+    noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
+    return (0.0 if noise else lower), upper
 
 
 def _lower(model: Model) -> float:

@@ -144,7 +144,11 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, between the next two"),
             *limits(result),
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
-            ("Outer iterations", str(len(result.history)), "convex programs solved one after the other"),
+            (
+                "Outer iterations",
+                str(len(result.history)),
+                "stages from the permanent loads on: implicit steps, then a fixed point",
+            ),
         ),
         checks=_checks(result.residuals, result.tolerance),
         tolerance=result.tolerance,
