@@ -24,6 +24,7 @@ from limitblocks.model import Model
 ATTEMPTS = (
     Settings(),
     Settings(longest=5e3),
+    Settings(first=1.0, longest=15.0),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
 )
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
