@@ -15,7 +15,14 @@ from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residua
 from limitblocks.analysis.results import Iteration, Nonassociated, Status
 from limitblocks.analysis.states import State
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, NoEquilibrium, NotConverged, SolveError, UnlimitedLoad
+from limitblocks.errors import (
+    ModelError,
+    NoEquilibrium,
+    NotConverged,
+    SolveError,
+    SolverFailure,
+    UnlimitedLoad,
+)
 from limitblocks.mechanics import LimitProblem
 from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
@@ -97,7 +104,7 @@ def nonassociated(
             break
     return finished(
         model,
-        best_of(met) or initial(problem, x0, dilatancy),
+        best_of(met, tolerance) or initial(problem, x0, dilatancy),
         enclosing,
         tuple(history),
         dilatancy,
@@ -106,9 +113,9 @@ def nonassociated(
     )
 
 
-def best_of(met: list[Stage]) -> Stage | None:
+def best_of(met: list[Stage], tolerance: float) -> Stage | None:
     """The last stage if it converged, else that of least residual among those close to collapse."""
-    if not met or met[-1].kind == "fixed point":
+    if not met or met[-1].residuals.worst.value <= tolerance:
         return met[-1] if met else None
     largest = max(stage.state.load_factor for stage in met)
     least = largest - (1.0 - COLLAPSING) * abs(largest)
@@ -204,7 +211,7 @@ def finished(
 def bracket(model: Model) -> tuple[float, float]:
     """Associated load factors without and with friction, which enclose every solution (Drucker 1954).
 
-    NaN where the structure does not stand without friction or has a joint that cannot do without;
+    NaN where the structure does not stand without friction, or the frictionless value is not to be had;
     infinite where the load is unlimited.
     """
     lower, upper = _lower(model), _associated(model, upper=True)
@@ -219,7 +226,7 @@ def _lower(model: Model) -> float:
     interfaces = [replace(i, joint=smooth[i.joint]) for i in model.interfaces]
     try:
         return _associated(replace(model, interfaces=interfaces), upper=False)
-    except NoEquilibrium:
+    except (NoEquilibrium, SolverFailure):  # the lower end says little; its failure must not cost the answer
         return np.nan
 
 
