@@ -3,10 +3,10 @@
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.analysis.load_path import load_path
-from limitblocks.analysis.loading import Settings
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
 from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.analysis.settings import Settings
 from limitblocks.errors import (
     CheckFailed,
     GeometryError,

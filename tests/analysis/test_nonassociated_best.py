@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from limitblocks.analysis.loading import Stage
+from limitblocks.analysis.states import Stage
 from limitblocks.analysis.nonassociated import best_of
 from limitblocks.analysis.residuals import Residual, Residuals
 from limitblocks.analysis.states import State
