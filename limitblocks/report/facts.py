@@ -123,9 +123,9 @@ def _some(names: list[str]) -> str:
 
 
 def _plain(value: Any) -> str:
-    return (
-        "(" + ", ".join(f"{number:g}" for number in value) + ")" if isinstance(value, tuple) else str(value)
-    )
+    if not isinstance(value, tuple):
+        return str(value)
+    return "(" + ", ".join(f"{part:g}" if isinstance(part, float) else str(part) for part in value) + ")"
 
 
 def _times(counts: dict[str, int]) -> str:

@@ -1,0 +1,56 @@
+"""The part of a face that no other block covers, seen from above."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+import shapely
+from shapely.geometry.polygon import orient
+
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block
+
+_CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not cover it
+
+
+def open_to_the_sky(corners: Array, block: Block, face: int, blocks: Sequence[Block]) -> Iterator[Array]:
+    """Yield rings (n, 3) on an upward face, outer ones counter-clockwise from above, holes clockwise.
+
+    Parameters
+    ----------
+    corners : Array, shape (k, 3)
+        Convex part of the face to look at.
+    block, face
+        The block and the number of its face.
+    blocks : sequence of Block
+        What may cover it: the part of each that lies above the plane of the face.
+    """
+    if len(corners) < 3:
+        return
+    normal, offset = block.normals[face], float(block.offsets[face])
+    left = shapely.Polygon(corners[:, :2])
+    low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
+    for other in blocks:
+        points = other.vertices
+        beside = (points[:, :2].max(axis=0) <= low).any() or (points[:, :2].min(axis=0) >= high).any()
+        if other is not block and not beside:
+            left = left.difference(_shadow(other, points @ normal - offset))
+    for part in shapely.get_parts(left):
+        if part.geom_type == "Polygon" and not part.is_empty:
+            ccw = orient(part)
+            for ring in (ccw.exterior, *ccw.interiors):
+                plan = shapely.get_coordinates(ring)[:-1]
+                yield np.column_stack([plan, (offset - plan @ normal[:2]) / normal[2]])
+
+
+def _shadow(block: Block, above: Array) -> shapely.Geometry:
+    """Plan of the part of `block` above a plane; `above` are the distances of its vertices from the plane."""
+    least = _CLEAR * block.size
+    start, end = block.mesh.start, block.mesh.end
+    a, b = above[start] - least, above[end] - least
+    cut = a * b < 0.0
+    share = (a[cut] / (a[cut] - b[cut]))[:, None]
+    crossings = block.vertices[start[cut]] * (1.0 - share) + block.vertices[end[cut]] * share
+    points = np.concatenate([block.vertices[above > least], crossings])
+    return shapely.convex_hull(shapely.multipoints(points[:, :2])) if len(points) else shapely.Polygon()
