@@ -13,7 +13,7 @@ m = 1.0
 mm = 1e-3
 cm = 1e-2
 inch = 0.0254
-ft = 12 * inch
+ft = 0.3048
 
 # mass, kg
 kg = 1.0

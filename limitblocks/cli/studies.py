@@ -122,10 +122,10 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
         typer.echo(result_text(study))
     else:
         rows = study.rows()
-        errors = [f"row {k + 1}: {row.pop('error')}" for k, row in enumerate(rows) if study.errors[k]]
-        heads = tuple(key.replace("_", " ").capitalize() for key in rows[0] if key != "error")
-        print_table("", heads, [[_cell(row[key]) for key in row if key != "error"] for row in rows])
-        print_warnings(errors)
+        errors = [row.pop("error") for row in rows]
+        heads = tuple(key.replace("_", " ").capitalize() for key in rows[0])
+        print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
+        print_warnings(f"row {k + 1}: {error}" for k, error in enumerate(errors) if error)
         typer.echo(f"\n{study}")
     if all(study.errors) and not (study.load_factors == float("inf")).any():
         raise SolveError(f"no analysis gave a load factor: {study.errors[0]}")

@@ -12,6 +12,7 @@ from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 
 _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not cover it
+_IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
 def open_to_the_sky(corners: Array, block: Block, face: int, blocks: Sequence[Block]) -> Iterator[Array]:
@@ -46,11 +47,13 @@ def open_to_the_sky(corners: Array, block: Block, face: int, blocks: Sequence[Bl
 
 def _shadow(block: Block, above: Array) -> shapely.Geometry:
     """Plan of the part of `block` above a plane; `above` are the distances of its vertices from the plane."""
-    least = _CLEAR * block.size
+    if above.max() <= _CLEAR * block.size:
+        return shapely.Polygon()
+    above = above + _IN_PLANE * block.size
     start, end = block.mesh.start, block.mesh.end
-    a, b = above[start] - least, above[end] - least
+    a, b = above[start], above[end]
     cut = a * b < 0.0
     share = (a[cut] / (a[cut] - b[cut]))[:, None]
     crossings = block.vertices[start[cut]] * (1.0 - share) + block.vertices[end[cut]] * share
-    points = np.concatenate([block.vertices[above > least], crossings])
-    return shapely.convex_hull(shapely.multipoints(points[:, :2])) if len(points) else shapely.Polygon()
+    points = np.concatenate([block.vertices[above >= 0.0], crossings])
+    return shapely.convex_hull(shapely.multipoints(points[:, :2]))

@@ -10,8 +10,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 
-_WIDEST = np.cos(np.pi / 4)  # a face farther off than 45 degrees is not meant
 _TIE = 1e-6
+_WIDEST = np.cos(np.pi / 4) - _TIE  # a face farther off than 45 degrees is not meant
 _NEAR = 1e-4  # of the block's size: how far a point may be off its face
 
 
