@@ -84,10 +84,13 @@ def _numbers(value: Any, key: str, metre: Fraction, newton: Fraction) -> Any:
     if key not in DIMENSIONS:
         raise ModelError(f"units: the unit of {key!r} is not known; write the file in m and N")
     force, length = DIMENSIONS[key]
-    return _scaled(value, newton**force * metre**length) if force or length else value
+    return _scaled(value, key, newton**force * metre**length) if force or length else value
 
 
-def _scaled(value: Any, factor: Fraction) -> Any:
+def _scaled(value: Any, key: str, factor: Fraction) -> Any:
     if isinstance(value, list | tuple):
-        return type(value)(_scaled(part, factor) for part in value)
-    return float(Fraction(value) * factor)
+        return type(value)(_scaled(part, key, factor) for part in value)
+    found = float(Fraction(value) * factor)
+    if abs(found) < 1e30:
+        return found
+    raise ModelError(f"units: {key} is {value:g}, in SI {found:g}; expected a number less than 1e30 in size")

@@ -70,13 +70,7 @@ class Study:
 
     def table(self) -> str:
         """Return the rows as lines of text in columns."""
-        rows = self.rows()
-        cells = [list(rows[0])] + [[_short(value) for value in row.values()] for row in rows]
-        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-        return "\n".join(
-            "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
-            for line in cells
-        )
+        return in_columns(self.rows())
 
     def __str__(self) -> str:
         failures = sum(map(bool, self.errors))
@@ -157,6 +151,14 @@ class Sweep(Study):
         value = self.values[k]
         value = value.item() if isinstance(value, np.generic) else value
         return {self.parameter: value if isinstance(value, str | int | float) else str(value)}
+
+
+def in_columns(rows: list[dict[str, Any]]) -> str:
+    """Return rows of the same keys as lines of text, the keys first."""
+    cells = [list(rows[0])] + [[_short(value) for value in row.values()] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
+    return "\n".join("  ".join(line).rstrip() for line in lines)
 
 
 def write_rows(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool) -> Path:

@@ -14,7 +14,7 @@ from limitblocks.analysis.bounds import TOLERANCE
 from limitblocks.analysis.margin import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.model import Model
-from limitblocks.studies.results import write_rows
+from limitblocks.studies.results import in_columns, write_rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
 RELATIVE = 1e-6
@@ -72,6 +72,10 @@ class Threshold:
             {self.parameter: value, "margin": margin, "stands": margin >= -TOLERANCE}
             for value, margin in sorted(self.trials)
         ]
+
+    def table(self) -> str:
+        """Return the rows as lines of text in columns."""
+        return in_columns(self.rows())
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text; :func:`limitblocks.write_result` writes it."""

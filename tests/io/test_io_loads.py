@@ -5,6 +5,8 @@ from typing import get_args
 
 import jsonschema
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import limitblocks as lb
 from limitblocks.mechanics.loads import LoadTerm
@@ -110,3 +112,44 @@ def test_fault_is_one_line_with_its_place(term, said, tmp_path):
         lb.read(file)
     (line,) = caught.value.problems
     assert all(part in line for part in said), line
+
+
+EVERY = document(sum(TERMS.values(), lb.Load())) | {"units": {"length": "ft", "force": "kip"}}
+PLACES = [(k, key) for k, term in enumerate(EVERY["live"]) for key in term]
+VALUES = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from([0.0, -1.0, 1e-300, 1e29, -1e29, [], [[]], "", "left", "ground", "Fill"]),
+    st.lists(st.floats(-3, 3), min_size=2, max_size=3),
+    st.lists(st.sampled_from(["left", "right", "lintel", "ground"]), max_size=3),
+)
+
+
+@given(st.sampled_from(PLACES), VALUES)
+def test_only_our_errors_come_out_of_wrong_terms(tmp_path_factory, place, value):
+    k, key = place
+    changed = EVERY | {"live": [*EVERY["live"][:k], EVERY["live"][k] | {key: value}, *EVERY["live"][k + 1 :]]}
+    file = tmp_path_factory.mktemp("fuzz") / "model.json"
+    file.write_text(json.dumps(changed))
+    found = outcome(file)
+    if isinstance(found, lb.LimitBlocksError):
+        assert all(str(file) in problem for problem in found.problems)
+        assert "\n" not in str(found)
+    else:
+        assert lb.read(found.save(file, overwrite=True)).digest == found.digest
+
+
+def outcome(file):
+    """The model in `file`, or our error; any other exception fails the test."""
+    try:
+        return lb.read(file)
+    except lb.LimitBlocksError as error:
+        return error
+
+
+def test_the_document_changed_above_is_sound(tmp_path):
+    file = tmp_path / "model.json"
+    file.write_text(json.dumps(EVERY))
+    assert lb.bounds(lb.read(file)).lower > 0.0

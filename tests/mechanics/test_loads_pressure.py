@@ -139,6 +139,7 @@ def test_pressure_that_grows_upwards_is_a_difference():
         (lambda: lb.pressure("wall", 1.0), "direction"),
         (lambda: lb.pressure("wall", 1.0, facing=(1, 0, 0), at=(0, 0, 1)), "either"),
         (lambda: lb.pressure(["wall", "wedge"], 1.0, at=(0, 0, 1)), "one point"),
+        (lambda: lb.pressure(["wall", "wall"], 1.0, facing=(1, 0, 0)), "twice"),
         (lambda: lb.pressure([], 1.0, facing=(1, 0, 0)), "no block"),
         (lambda: lb.pressure("wall", facing=(1, 0, 0)), "zero"),
         (lambda: lb.pressure("wall", facing=(1, 0, 0), unit_weight=1.0), "without a level"),

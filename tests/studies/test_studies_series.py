@@ -25,7 +25,7 @@ def block(joint=None, live=None, width=B1, dead=None):
 
 
 def slab(overhang=1.5, half=1.0):
-    """A slab on a narrower base: a force P at x beyond its edge has the load factor W half / (P (x - half))."""
+    """A slab on a narrower base: a force P at x > half has the load factor W half / (P (x - half))."""
     blocks = [
         lb.Block.box("ground", (2 * half, 1, 1), (0, 0, -0.5)),
         lb.Block.box("slab", (2 * (half + overhang), 1, 0.2), (0, 0, 0.1), 20e3),

@@ -111,6 +111,7 @@ def test_numbers_and_csv(tmp_path):
     rows = found.rows()
     stands = [row["stands"] for row in rows]
     assert stands == sorted(stands)
+    assert len(found.table().splitlines()) == 1 + len(rows)
     assert found.write_csv(tmp_path / "a.csv").read_text().splitlines()[0] == "width,margin,stands"
     written = json.loads(lb.write_result(found, tmp_path / "a.json").read_text())
     assert written["bracket"] == list(found.bracket)

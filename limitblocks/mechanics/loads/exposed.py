@@ -15,7 +15,15 @@ _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not 
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
-def open_to_the_sky(corners: Array, block: Block, face: int, blocks: Sequence[Block]) -> Iterator[Array]:
+def boxes(blocks: Sequence[Block]) -> tuple[Array, Array]:
+    """Return the lowest and the highest coordinates of each block, shapes (n, 3)."""
+    points = [block.vertices for block in blocks]
+    return np.array([p.min(axis=0) for p in points]), np.array([p.max(axis=0) for p in points])
+
+
+def open_to_the_sky(
+    corners: Array, block: Block, face: int, blocks: Sequence[Block], bounds: tuple[Array, Array]
+) -> Iterator[Array]:
     """Yield rings (n, 3) on an upward face, outer ones counter-clockwise from above, holes clockwise.
 
     Parameters
@@ -26,17 +34,18 @@ def open_to_the_sky(corners: Array, block: Block, face: int, blocks: Sequence[Bl
         The block and the number of its face.
     blocks : sequence of Block
         What may cover it: the part of each that lies above the plane of the face.
+    bounds : tuple of Array
+        :func:`boxes` of these blocks.
     """
     if len(corners) < 3:
         return
     normal, offset = block.normals[face], float(block.offsets[face])
     left = shapely.Polygon(corners[:, :2])
-    low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
-    for other in blocks:
-        points = other.vertices
-        beside = (points[:, :2].max(axis=0) <= low).any() or (points[:, :2].min(axis=0) >= high).any()
-        if other is not block and not beside:
-            left = left.difference(_shadow(other, points @ normal - offset))
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    over = (bounds[1] > low).all(axis=1) & (bounds[0][:, :2] < high[:2]).all(axis=1)
+    for other in (blocks[k] for k in np.flatnonzero(over).tolist()):
+        if other is not block and not left.is_empty:
+            left = left.difference(_shadow(other, other.vertices @ normal - offset))
     for part in shapely.get_parts(left):
         if part.geom_type == "Polygon" and not part.is_empty:
             ccw = orient(part)

@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.mechanics.loads.exposed import open_to_the_sky
+from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
 from limitblocks.mechanics.loads.faces import face_through, face_towards, integrals, part_where
 from limitblocks.mechanics.loads.load import Load, Vector, number, of, position, unit_vector, vector
 
@@ -40,6 +40,8 @@ class Pressure:
         )
         if not self.blocks:
             raise ModelError("pressure names no block, expected at least one")
+        if len(set(self.blocks)) < len(self.blocks):
+            raise ModelError(f"pressure names a block twice in {self.blocks}, expected each once")
         if (self.facing is None) == (self.at is None):
             raise ModelError("pressure: give either the direction that the face looks to or a point on it")
         if self.at is not None and len(self.blocks) > 1:
@@ -95,11 +97,11 @@ class Fill:
         """Return forces and moments at the centroids, shape (n, 6)."""
         named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
         load = np.zeros((len(blocks), 6))
-        lowest = np.inf
+        lowest, bounds = np.inf, boxes(blocks)
         for k in named or range(len(blocks)):
             block = blocks[k]
             for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():
-                load[k] += self._on_face(block, face, blocks)
+                load[k] += self._on_face(block, face, blocks, bounds)
                 lowest = min(lowest, float(block.vertices[list(block.faces[face]), 2].min()))
         if not load.any():
             raise ModelError(
@@ -108,12 +110,14 @@ class Fill:
             )
         return load
 
-    def _on_face(self, block: Block, face: int, blocks: Sequence[Block]) -> Array:
+    def _on_face(
+        self, block: Block, face: int, blocks: Sequence[Block], bounds: tuple[Array, Array]
+    ) -> Array:
         corners = block.vertices[list(block.faces[face])]
         under, _ = part_where(corners, self.level - corners[:, 2])
         normal, about = block.normals[face], block.centroid
         weight, first = 0.0, np.zeros(3)
-        for ring in open_to_the_sky(under, block, face, blocks):
+        for ring in open_to_the_sky(under, block, face, blocks, bounds):
             p, px = integrals(ring - about, self.unit_weight * (self.level - ring[:, 2]), UP)
             weight, first = weight + p, first + px
         # vertical stress p and horizontal stress K p act on the face; its area is the plan's over n_z
