@@ -1,6 +1,6 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
-from limitblocks import structures
+from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
@@ -30,7 +30,21 @@ from limitblocks.joints import (
     effective_strength,
     interface,
 )
-from limitblocks.mechanics import Load, force, mass_proportional, moment, self_weight
+from limitblocks.mechanics import (
+    Load,
+    Tilting,
+    added_mass,
+    compass,
+    fill,
+    force,
+    line_load,
+    mass_proportional,
+    moment,
+    pressure,
+    self_weight,
+    tilting,
+    top_force,
+)
 from limitblocks.model import Model
 from limitblocks.report import Report, report
 
@@ -64,23 +78,33 @@ __all__ = [
     "SolveError",
     "SolverFailure",
     "Status",
+    "Tilting",
     "UnlimitedLoad",
     "YieldRows",
+    "added_mass",
     "bounds",
     "check_mcp",
+    "compass",
     "effective_strength",
+    "fill",
     "find_interfaces",
     "force",
     "interface",
+    "line_load",
     "load_path",
     "mass_proportional",
     "model_schema",
     "moment",
     "nonassociated",
+    "pressure",
     "read",
     "read_result",
     "report",
     "self_weight",
     "structures",
+    "studies",
+    "tilting",
+    "top_force",
+    "units",
     "write_result",
 ]

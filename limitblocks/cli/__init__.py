@@ -26,6 +26,7 @@ from limitblocks.cli.options import (
     WithNonassociated,
     WithPath,
 )
+from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged, UnlimitedLoad
 
 if TYPE_CHECKING:
@@ -43,6 +44,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+app.add_typer(studies, name="study")
 
 DEFAULT_TOLERANCE = 1e-6
 

@@ -68,7 +68,7 @@ def load_words(load: Load) -> list[str]:
     """Return a line a term: its factor, kind and settings."""
     lines = []
     for factor, term in load.terms:
-        settings = ", ".join(f"{key} {_plain(value)}" for key, value in asdict(term).items())
+        settings = ", ".join(f"{key} {_plain(v)}" for key, v in asdict(term).items() if v not in (None, ()))
         lines.append(f"{factor:g} × {type(term).__name__}: {settings}")
     return lines
 
@@ -123,9 +123,9 @@ def _some(names: list[str]) -> str:
 
 
 def _plain(value: Any) -> str:
-    return (
-        "(" + ", ".join(f"{number:g}" for number in value) + ")" if isinstance(value, tuple) else str(value)
-    )
+    if not isinstance(value, tuple):
+        return str(value)
+    return "(" + ", ".join(f"{part:g}" if isinstance(part, float) else str(part) for part in value) + ")"
 
 
 def _times(counts: dict[str, int]) -> str:
