@@ -28,8 +28,8 @@ class Settings:
     rounds : int
         Rounds of the fixed point.
     iterations, leap, budget, patience : int
-        Newton iterations of one step, of the leap that closes them (0: none), of all together, and after the first
-        solution kept.
+        Newton iterations of one step, of the leap that closes them (0: none), of all together, and after the
+        first solution kept.
     turning : tuple of float
         Shares of the terms by which Table 5 turns about (e1, e2), gone through one after the other, each from
         the state where the one before ended; the last is 1, the flow rule itself.
