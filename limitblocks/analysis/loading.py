@@ -106,7 +106,9 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
             far = leap(reach, task.tolerance, settings)
             pace = pace._replace(used=pace.used + far.stage.inner)
             leapt = reach.stage.residuals["flow"]
-            taken += [far] if far.accepted else []
+            if far.accepted:
+                taken.append(far)
+                pace = pace._replace(rho=far.loading.rho)
         for one in taken:
             found.append(one.stage)
             report(one.stage)
@@ -145,10 +147,9 @@ def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple
 
 def _may_leap(task: _Task, stage: Stage, leapt: float) -> bool:
     """Whether the state is close enough to collapse, and well beyond where the last leap was tried."""
-    flow = stage.residuals["flow"]
-    limit = task.settings.near if stage.kind == "step" else task.settings.close
-    worth = task.settings.leap > 0 and stage.residuals.worst.value > task.tolerance
-    return worth and flow < min(limit, AGAIN * leapt)
+    settings, smooth = task.settings, stage.kind == "step" and not stage.failures
+    worth = smooth and settings.leap > 0 and stage.residuals.worst.value > task.tolerance
+    return worth and stage.residuals["flow"] < min(settings.close, AGAIN * leapt)
 
 
 def _next(task: _Task, stage: Stage, pace: _Pace) -> _Pace:
@@ -156,7 +157,7 @@ def _next(task: _Task, stage: Stage, pace: _Pace) -> _Pace:
     settings, rho = task.settings, pace.rho
     if not pace.failures:
         longest = settings.last if stage.residuals["flow"] < 1e-3 else settings.longest
-        rho = max(rho / settings.growth, task.first / longest)
+        rho = min(rho, max(rho / settings.growth, task.first / longest))  # after a leap no shorter than it
     level = max(0, pace.level - 1) if stage.kind == "jump" else 0
     return _Pace(rho, level, 0, pace.used)
 
