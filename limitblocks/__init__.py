@@ -20,7 +20,7 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import model_schema, read, read_result, write_result
+from limitblocks.io import ImportedBlocks, model_schema, read, read_blocks, read_result, write_result
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -44,6 +44,7 @@ __all__ = [
     "Claim",
     "ExactTorsion",
     "GeometryError",
+    "ImportedBlocks",
     "Interface",
     "Iteration",
     "Joint",
@@ -78,6 +79,7 @@ __all__ = [
     "moment",
     "nonassociated",
     "read",
+    "read_blocks",
     "read_result",
     "report",
     "self_weight",

@@ -1,0 +1,167 @@
+"""A block from the polygons of one solid as other programs write them: welded, closed, turned outward."""
+
+from __future__ import annotations
+
+import operator
+import reprlib
+from collections.abc import Iterable, Sequence
+from typing import NoReturn
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.errors import GeometryError
+from limitblocks.geometry import coplanar
+from limitblocks.geometry.block import Block
+from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
+from limitblocks.geometry.polyhedron import Faces
+
+#: Distance, relative to the block's size, below which two vertices are one.
+WELD = 1e-6
+#: Width, relative to the block's size, of a crack between faces that is closed.
+CRACK = 5e-4
+#: Plane faces of a block; a finer mesh costs time and says nothing more.
+_MOST_FACES = 5000
+
+
+def mended(
+    name: str,
+    vertices: npt.ArrayLike,
+    faces: Iterable[Sequence[int]],
+    unit_weight: float | None = None,
+) -> tuple[Block, tuple[str, ...]]:
+    """Return the block enclosed by the polygons of one solid, and what had to be mended, a line each.
+
+    Vertices within 1e-6 of the block's size become one; faces without area and repeated faces go; cracks up
+    to 5e-4 of the size are closed, with vertices that lie on the edge of another face; faces are turned
+    counter-clockwise seen from outside; adjacent faces in one plane become one face. What every triangle file
+    needs (equal vertices, triangles in one plane) is not worth a note.
+
+    Parameters
+    ----------
+    name : str
+        Name of the block.
+    vertices : array_like, shape (n, 3)
+        Global axes, m.
+    faces : iterable of sequences of int
+        Vertex indices around each face, in either sense.
+    unit_weight : float, optional
+        N/m3.
+
+    Raises
+    ------
+    GeometryError
+        The polygons do not enclose one solid, or it is no block; names the block and the place.
+    """
+    points, loops = _checked(name, vertices, faces)
+    notes: list[str] = []
+    size = float(np.ptp(points, axis=0).max())
+    points, loops = _welded(name, points, loops, WELD * size, notes)
+    loops = tidy(loops, notes)
+    if open_sides(loops).size:
+        points, loops = closed(name, points, loops, CRACK * size, notes)
+    loops = _outward(name, points, loops, notes)
+    loops, warp = coplanar.merged(points, loops, size)
+    if len(loops) > _MOST_FACES:
+        _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
+    if warp > WELD * size:
+        notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
+    used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
+    ends = np.cumsum([len(loop) for loop in loops])[:-1]
+    block = Block(
+        name, points[used], tuple(tuple(part.tolist()) for part in np.split(places, ends)), unit_weight
+    )
+    return block, tuple(f"block {name!r}: {note}" for note in notes)
+
+
+def _wrong(name: str, fault: str) -> NoReturn:
+    raise GeometryError(f"block {name!r}: {fault}")
+
+
+def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]]) -> tuple[Array, Faces]:
+    """Return the vertices that faces use, and the faces."""
+    try:
+        points = np.asarray(vertices, dtype=np.float64)
+        loops = tuple(tuple(map(operator.index, face)) for face in faces)
+    except (TypeError, ValueError, OverflowError):
+        _wrong(name, f"{reprlib.repr(faces)} are not faces over vertices of shape (n, 3)")
+    if points.ndim != 2 or points.shape[1] != 3:
+        _wrong(name, f"vertices: shape {points.shape} given; shape (n, 3) is needed")
+    for k, loop in enumerate(loops):
+        if loop and not 0 <= min(loop) <= max(loop) < len(points):
+            _wrong(name, f"face {k} = {reprlib.repr(loop)}: vertex indices run from 0 to {len(points) - 1}")
+    used = np.unique([vertex for loop in loops for vertex in loop]).astype(np.int64)
+    if len(used) < 4:
+        _wrong(name, f"its {len(loops)} faces have {len(used)} vertices; a solid has at least 4")
+    if not (np.abs(points[used]) <= 1e30).all():
+        k = used[np.argwhere(~(np.abs(points[used]) <= 1e30))[0, 0]]
+        _wrong(name, f"vertex {k} is {_place(points[k])}; finite numbers up to 1e30 are needed")
+    number = np.zeros(len(points), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return points[used], tuple(tuple(number[list(loop)].tolist()) for loop in loops)
+
+
+def _welded(
+    name: str, points: Array, loops: Faces, tolerance: float, notes: list[str]
+) -> tuple[Array, Faces]:
+    """Return the distinct vertices, and the faces over them."""
+    distinct, number = np.unique(points, axis=0, return_inverse=True)
+    target = clusters(name, distinct, tolerance)
+    moved = np.linalg.norm(distinct - distinct[target], axis=1).max()
+    if moved > 0.0:
+        merged = int((target != np.arange(len(target))).sum())
+        notes.append(f"{merged} vertices up to {moved:.2g} m from another one merged with it")
+    return distinct, renumbered(loops, target[number.reshape(-1)])
+
+
+def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
+    """Return the faces turned outward, after a check that they enclose one solid."""
+    sides, owner = sides_of(loops)
+    edges, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    _refuse_open(name, points, edges, uses)
+    first, second = np.argsort(edge.reshape(-1), kind="stable").reshape(-1, 2).T
+    f, g, m = owner[first], owner[second], len(loops)
+    turned = np.where(sides[first, 0] == sides[second, 0], m, 0)
+    # each face appears twice, as given and turned: what is tied together has one sense
+    ties = np.concatenate([f, f + m]), np.concatenate([g + turned, (g + turned + m) % (2 * m)])
+    graph = sparse.coo_array((np.ones(len(ties[0])), ties), shape=(2 * m, 2 * m))
+    shells, part = sparse.csgraph.connected_components(graph, directed=False)
+    if (part[:m] == part[m:]).any():
+        _wrong(
+            name, "the faces have no inner and outer side, as on a Moebius strip; a closed surface is needed"
+        )
+    if shells > 2:
+        _wrong(name, f"it has {shells // 2} separate closed surfaces; one is needed, split it into blocks")
+    flip = part[:m] != part[0]
+    middle = points.mean(axis=0)
+    volume = sum(
+        _volume(points[list(loop)] - middle) * (-1) ** int(t) for loop, t in zip(loops, flip, strict=True)
+    )
+    flip ^= volume < 0.0
+    if flip.any():
+        notes.append(
+            "all faces pointed inward and are turned" if flip.all() else f"{flip.sum()} of {m} faces turned"
+        )
+    return tuple(loop[::-1] if t else loop for loop, t in zip(loops, flip, strict=True))
+
+
+def _volume(corners: Array) -> float:
+    """Return six times the signed volume between a face and the origin, m3."""
+    return float(np.cross(corners[1:-1], corners[2:]).sum(axis=0) @ corners[0])
+
+
+def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> None:
+    for wrong, word in ((uses == 1, "the surface is open"), (uses > 2, "faces meet wrongly")):
+        if wrong.any():
+            a, b = points[edges[wrong.argmax()]]
+            _wrong(
+                name,
+                f"{word}: edges that belong to {uses[wrong.argmax()]} faces: {wrong.sum()}, the first from "
+                f"{_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
+            )
+
+
+def _place(point: Array) -> str:
+    return f"({', '.join(f'{value:.6g}' for value in point)})"

@@ -1,0 +1,1 @@
+"""Wavefront OBJ: each object or group a solid, faces as they are drawn."""

@@ -1,0 +1,117 @@
+"""A model from a file of any format: the model file, or blocks with what makes them a model."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, find_interfaces
+from limitblocks.io import faults, model_file
+from limitblocks.io.formats import is_model_file, read_blocks
+from limitblocks.io.imported import ImportedBlocks, UnitWeight
+from limitblocks.joints import Joint
+from limitblocks.mechanics import Load, self_weight
+from limitblocks.model import Model
+
+Supports = str | Iterable[str] | Callable[[Block], bool]
+
+_log = logging.getLogger("limitblocks")
+
+
+def read(
+    file: str | Path,
+    *,
+    joint: Joint | None = None,
+    supports: Supports | None = None,
+    unit_weight: UnitWeight = None,
+    units: str | None = None,
+    dead: Load | None = None,
+    live: Load | None = None,
+) -> Model:
+    """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
+
+    A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
+    bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
+    :func:`limitblocks.find_interfaces`. What had to be mended is logged as a warning, a line each;
+    :func:`limitblocks.read_blocks` returns it.
+
+    Parameters
+    ----------
+    file : str or Path
+        The suffix of its name says the format.
+    joint : Joint, optional
+        What every interface can carry.
+    supports : str, iterable of str, or function of a Block, optional
+        Names of blocks or of layers, or what is true for a block that does not move.
+    unit_weight : float or mapping of str to float, optional
+        N/m3, of all blocks or by layer.
+    units : str, optional
+        Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
+        metres where it says nothing.
+    dead, live : Load, optional
+        Loads; `dead` is self weight if left out.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, the model in it is wrong, or something that the format needs is missing;
+        `problems` has one line per fault, each with the file and the place in it.
+    MissingDependency
+        The format needs a package that is not installed.
+    """
+    path = Path(file)
+    given: dict[str, object] = {
+        "joint": joint,
+        "supports": supports,
+        "unit_weight": unit_weight,
+        "units": units,
+    }
+    given |= {"dead": dead, "live": live}
+    with faults.named(path):
+        known = is_model_file(path)
+        _refuse_arguments(known, {key for key, value in given.items() if value is not None})
+    if known:
+        return model_file.read(path)
+    assert joint is not None
+    assert supports is not None
+    assert live is not None
+    found = read_blocks(path, units=units, unit_weight=unit_weight)
+    for note in found.notes:
+        _log.warning("%s: %s", path, note)
+    with faults.named(path):
+        names = supports_of(found, supports)
+        interfaces = find_interfaces(found.blocks, joint)
+        return Model(found.blocks, names, interfaces, dead or self_weight(), live, path.stem)
+
+
+def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
+    """Return the names of the supports: blocks named, of named layers, or that a function picks.
+
+    Raises
+    ------
+    ModelError
+        A name is neither that of a block nor that of a layer.
+    """
+    if callable(supports):
+        return tuple(block.name for block in found.blocks if supports(block))
+    wanted = {supports} if isinstance(supports, str) else set(supports)
+    names, layers = set(found.layers), set(found.layers.values()) - {""}
+    unknown = sorted(wanted - names - layers)
+    if unknown:
+        raise ModelError(
+            *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
+              for name in unknown)
+        )  # fmt: skip
+    return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)
+
+
+def _refuse_arguments(model: bool, given: set[str]) -> None:
+    if model and given:
+        raise ModelError(f"a model file says {', '.join(sorted(given))} itself; leave the arguments out")
+    missing = [key for key in ("joint", "supports", "live") if key not in given]
+    if not model and missing:
+        raise ModelError(
+            *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
+        )
