@@ -60,7 +60,7 @@ class Solid(NamedTuple):
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit that it states (None: nothing), notes, axis up."""
+    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
 
     solids: Sequence[Solid]
     metres: float | None = None
@@ -147,7 +147,7 @@ def imported(
     Raises
     ------
     ModelError
-        With all faults: solids that are no blocks, no solid, unknown units or axis, unit weights of unknown layers.
+        With all faults: solids that are no blocks, no solid, an unknown unit, axis or layer.
     """
     solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))

@@ -56,8 +56,8 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     if "\0" in text:
         raise ModelError("is not text; an OBJ file is")
     for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").splitlines(), 1):
-        words = line.partition("#")[0].split()
-        if words:
+        words = line.split()
+        if words and not words[0].startswith("#"):
             yield number, words
 
 
@@ -69,7 +69,7 @@ def _section(state: dict[str, str], path: Path) -> _Section:
 
 def _face(corners: list[str], known: int) -> _Face:
     """Return the vertices of a face from 0; an OBJ file counts from 1, or back from the last with -1."""
-    indices = [int(corner.partition("/")[0]) for corner in corners]
+    indices = [int(corner.partition("/")[0]) for corner in " ".join(corners).partition("#")[0].split()]
     for index in indices:
         if not (1 <= index <= known or -known <= index <= -1):
             raise ValueError(f"vertex {index} is not one of the {known} vertices before it")
