@@ -20,7 +20,16 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import ImportedBlocks, model_schema, read, read_blocks, read_result, write_result
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+)
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -84,5 +93,7 @@ __all__ = [
     "report",
     "self_weight",
     "structures",
+    "write_animation",
+    "write_blocks",
     "write_result",
 ]
