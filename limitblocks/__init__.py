@@ -29,6 +29,7 @@ from limitblocks.io import (
     write_animation,
     write_blocks,
     write_result,
+    write_vtu,
 )
 from limitblocks.joints import (
     ExactTorsion,
@@ -96,4 +97,5 @@ __all__ = [
     "write_animation",
     "write_blocks",
     "write_result",
+    "write_vtu",
 ]

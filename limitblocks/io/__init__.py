@@ -7,6 +7,7 @@ from limitblocks.io.mesh_files import write_blocks
 from limitblocks.io.model_file import model_schema
 from limitblocks.io.result_file import read_result, write_result
 from limitblocks.io.structure_file import read
+from limitblocks.io.vtu import write_vtu
 
 __all__ = [
     "ImportedBlocks",
@@ -17,4 +18,5 @@ __all__ = [
     "write_animation",
     "write_blocks",
     "write_result",
+    "write_vtu",
 ]
