@@ -19,7 +19,7 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import model_schema, read, read_result, write_result
 from limitblocks.joints import (
     ExactTorsion,
@@ -42,6 +42,7 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
     "ExactTorsion",
     "GeometryError",
     "Interface",
@@ -69,6 +70,7 @@ __all__ = [
     "bounds",
     "check_mcp",
     "effective_strength",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
