@@ -59,6 +59,7 @@ class Block:
         object.__setattr__(self, "faces", _faces(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
         fault = fault or polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+        fault = fault or polyhedron.plane_fault(self._points, self.mesh, self.size, self._planes)
         fault = fault or surface.loop_fault(self._points, self.mesh, self.normals)
         if not fault and not self.convex:
             fault = surface.surface_fault(self._points, self.mesh, self.normals, self.size)
@@ -112,7 +113,7 @@ class Block:
     @cached_property
     def convex(self) -> bool:
         """Whether the block is convex: no vertex above a face by more than 1e-4 of its size."""
-        return polyhedron.is_convex(self._points, self.mesh, self.size, self._shape)
+        return polyhedron.is_convex(self._points, self.mesh, self.size, self._planes)
 
     @cached_property
     def mesh(self) -> Mesh:
@@ -132,13 +133,12 @@ class Block:
     @cached_property
     def normals(self) -> Array:
         """Unit normals of the faces, outward, shape (m, 3)."""
-        return read_only(polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[0])
+        return read_only(self._planes[0])
 
     @cached_property
     def offsets(self) -> Array:
         """Offsets of the face planes `normals @ x = offsets`, global axes, shape (m,), m."""
-        offsets = polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[1]
-        return read_only(offsets + self.normals @ self._origin)
+        return read_only(self._planes[1] + self.normals @ self._origin)
 
     def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
         """Return a copy with vertices `rotation @ x + translation`.
@@ -171,6 +171,10 @@ class Block:
     @cached_property
     def _points(self) -> Array:
         return self.vertices - self._origin
+
+    @cached_property
+    def _planes(self) -> tuple[Array, Array]:
+        return polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)
 
     @cached_property
     def _shape(self) -> Shape:

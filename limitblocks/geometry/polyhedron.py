@@ -117,11 +117,11 @@ def face_planes(points: Array, edges: Mesh, area_vectors: Array) -> tuple[Array,
     return normals, np.einsum("ij,ij->i", normals, middles)
 
 
-def is_convex(points: Array, edges: Mesh, size: float, body: Shape) -> bool:
+def is_convex(points: Array, edges: Mesh, size: float, planes: tuple[Array, Array]) -> bool:
     """Tell whether no vertex of a sound polyhedron lies above a face by more than 1e-4 of its size."""
     if len(points) - len(edges.start) // 2 + len(edges.first) != 2:  # several shells, or a hole through it
         return False
-    normals, offsets = face_planes(points, edges, body.area_vectors)
+    normals, offsets = planes
     rows = max(1, _CHUNK // len(points))
     parts = (slice(k, k + rows) for k in range(0, len(normals), rows))
     limit = CONVEX_TOLERANCE * size
@@ -129,7 +129,7 @@ def is_convex(points: Array, edges: Mesh, size: float, body: Shape) -> bool:
 
 
 def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
-    """Say what keeps a closed surface from bounding a volume with planar faces; empty when sound."""
+    """Say what keeps a closed surface from bounding a volume; empty when sound."""
     sides = points[edges.end] - points[edges.start]
     lengths2 = np.einsum("ij,ij->i", sides, sides)
     if lengths2.min() <= (ZERO_TOLERANCE * size) ** 2:
@@ -145,11 +145,12 @@ def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
     areas = np.sqrt(np.einsum("ij,ij->i", body.area_vectors, body.area_vectors))
     if areas.min() <= ZERO_TOLERANCE * size**2:
         return f"face {areas.argmin()} has no area; its vertices must span a plane"
-    return _plane_fault(points, edges, size, body)
+    return ""
 
 
-def _plane_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
-    normals, offsets = face_planes(points, edges, body.area_vectors)
+def plane_fault(points: Array, edges: Mesh, size: float, planes: tuple[Array, Array]) -> str:
+    """Say which vertex lies out of the plane of its face; empty when none does."""
+    normals, offsets = planes
     limit = PLANE_TOLERANCE * size
     warp = np.abs(np.einsum("ij,ij->i", normals[edges.face], points[edges.start]) - offsets[edges.face])
     if warp.max() > limit:
