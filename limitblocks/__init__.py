@@ -19,7 +19,7 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import (
     ImportedBlocks,
     model_schema,
@@ -52,6 +52,7 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
     "ExactTorsion",
     "GeometryError",
     "ImportedBlocks",
@@ -80,6 +81,7 @@ __all__ = [
     "bounds",
     "check_mcp",
     "effective_strength",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
