@@ -33,7 +33,9 @@ class NearMiss:
     area: float
 
     def __str__(self) -> str:
-        return f"{self.block_i}|{self.block_j} (gap {self.gap:.3g} m, {self.angle:.3g} rad, {self.area:.3g} m2)"
+        return (
+            f"{self.block_i}|{self.block_j} (gap {self.gap:.3g} m, {self.angle:.3g} rad, {self.area:.3g} m2)"
+        )
 
 
 @dataclass(frozen=True)
@@ -142,7 +144,7 @@ class Contacts:
     def __str__(self) -> str:
         return (
             f"contacts: {len(self.interfaces)} interfaces, {len(self.near_misses)} near misses, "
-            f"{len(self.overlaps)} overlaps, {len(self.isolated)} isolated blocks, {len(self.slivers)} slivers"
+            f"{len(self.overlaps)} overlaps, {len(self.slivers)} slivers, {len(self.isolated)} isolated blocks"
         )
 
 

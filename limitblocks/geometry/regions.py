@@ -62,7 +62,7 @@ def _level_pairs(surfaces: Surfaces) -> Indices:
     normal = surfaces.area_vector / np.linalg.norm(surfaces.area_vector, axis=1)[:, None]
     once = surfaces.face < surfaces.beyond
     pairs = np.column_stack([surfaces.face[once], surfaces.beyond[once]])
-    return pairs[np.einsum("ij,ij->i", *normal[pairs].swapaxes(0, 1)) > _LEVEL]
+    return np.asarray(pairs[np.einsum("ij,ij->i", *normal[pairs].swapaxes(0, 1)) > _LEVEL])
 
 
 def _planes(surfaces: Surfaces, region: Indices) -> tuple[Array, Array]:
