@@ -2,6 +2,7 @@
 
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.loading import Settings
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
@@ -43,6 +44,7 @@ __all__ = [
     "CheckFailed",
     "Claim",
     "Contacts",
+    "Diagnosis",
     "ExactTorsion",
     "GeometryError",
     "Interface",
@@ -69,6 +71,7 @@ __all__ = [
     "YieldRows",
     "bounds",
     "check_mcp",
+    "diagnose",
     "effective_strength",
     "find_contacts",
     "find_interfaces",
