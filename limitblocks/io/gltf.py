@@ -20,6 +20,8 @@ JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _COLUMNS = {"SCALAR": 1, "VEC3": 3}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+#: Beginnings of the names of extensions that leave places alone.
+_HARMLESS = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "KHR_mesh_quantization")
 
 
 def contents(path: Path) -> Contents:
@@ -38,6 +40,7 @@ def contents(path: Path) -> Contents:
         faces = 0
         for node, placement in _nodes(document):
             if "mesh" in node:
+                _refuse_moved(node)
                 mesh = document["meshes"][node["mesh"]]
                 name = node.get("name") or mesh.get("name") or path.stem
                 points, triangles = _geometry(document, buffers, mesh)
@@ -60,6 +63,9 @@ def _parts(data: bytes) -> tuple[dict[str, Any], bytes]:
     version = document.get("asset", {}).get("version") if isinstance(document, dict) else None
     if not str(version).startswith("2."):
         raise ModelError(f"glTF version is {version!r}; 2.0 is read")
+    for name in document.get("extensionsRequired", []):
+        if not str(name).startswith(_HARMLESS):
+            raise ModelError(f"its geometry needs the extension {name!r}; save it without compression")
     return document, binary
 
 
@@ -104,6 +110,12 @@ def _nodes(document: dict[str, Any]) -> Iterator[tuple[dict[str, Any], Array]]:
         placement = above @ _local(nodes[k])
         yield nodes[k], placement
         waiting += [(child, placement) for child in reversed(nodes[k].get("children", []))]
+
+
+def _refuse_moved(node: dict[str, Any]) -> None:
+    """Refuse a mesh whose places are not those of its vertices and nodes alone."""
+    if "skin" in node or "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
+        raise ModelError(f"node {node.get('name', '')!r} has a skin or instances; save it with them applied")
 
 
 def _local(node: dict[str, Any]) -> Array:
@@ -156,6 +168,8 @@ def _accessor(document: dict[str, Any], buffers: list[bytes], k: int, kind: str)
     accessor = document["accessors"][k]
     if "sparse" in accessor or "bufferView" not in accessor:
         raise ModelError("its geometry is sparse; save it in full")
+    if accessor.get("normalized"):
+        raise ModelError("its geometry is in normalised integers; save it in floating-point numbers")
     if accessor["type"] != kind:
         raise ModelError(f"accessor {k} is {accessor['type']!r}; {kind!r} is needed")
     view = document["bufferViews"][accessor["bufferView"]]

@@ -215,6 +215,17 @@ DAMAGE = {
         lambda d: changed(d, b'"nodes": [{', b'"nodes": [{"children": [0], '),
         "two parents",
     ),
+    "gltf with a skin": ("text.gltf", lambda d: changed(d, b'"mesh": 1', b'"skin": 0, "mesh": 1'), "a skin"),
+    "gltf in normalised integers": (
+        "text.gltf",
+        lambda d: changed(d, b'"count": 8', b'"normalized": true, "count": 8'),
+        "normalised",
+    ),
+    "gltf that is compressed": (
+        "text.gltf",
+        lambda d: changed(d, b'"scene": 0', b'"extensionsRequired": ["EXT_meshopt_compression"], "scene": 0'),
+        "EXT_meshopt_compression",
+    ),
     "gltf beside another file": (
         "text.gltf",
         lambda d: changed(d, b'"uri": "data:', b'"uri": "../secret/data:'),
