@@ -2,6 +2,7 @@
 
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
@@ -19,8 +20,18 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import model_schema, read, read_result, write_result
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+    write_vtu,
+)
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -56,8 +67,11 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
+    "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "ImportedBlocks",
     "Interface",
     "Iteration",
     "Joint",
@@ -85,8 +99,10 @@ __all__ = [
     "bounds",
     "check_mcp",
     "compass",
+    "diagnose",
     "effective_strength",
     "fill",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
@@ -98,6 +114,7 @@ __all__ = [
     "nonassociated",
     "pressure",
     "read",
+    "read_blocks",
     "read_result",
     "report",
     "self_weight",
@@ -106,5 +123,8 @@ __all__ = [
     "tilting",
     "top_force",
     "units",
+    "write_animation",
+    "write_blocks",
     "write_result",
+    "write_vtu",
 ]
