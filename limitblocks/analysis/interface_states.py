@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from limitblocks.analysis.results import LoadPath
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import Interface
 from limitblocks.joints.rows import hinge_gradients
@@ -172,11 +174,11 @@ def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tu
 
 
 def _states(
-    interfaces: tuple[Interface, ...],
+    interfaces: Sequence[Interface],
     dq: Array,
     e: Array,
     modes: tuple[tuple[str, ...], ...],
-    loaded: Array,
+    loaded: npt.NDArray[np.bool_],
     least: float,
 ) -> tuple[str, ...]:
     """Name the motion of each interface; `e` (m, 2) is NaN without a normal force."""
@@ -221,10 +223,10 @@ def _utilisation(model: Model, found: Collapse) -> Array:
         for k in points.tolist():
             Q, h = found.stress_resultants[k], hinge_gradients(model.interfaces[k].polygon[None])[0]
             used[k] = max(used[k], float(_ratio((h[:, 3:] @ Q[3:]).max(), -Q[2])))
-    return np.clip(used, 0.0, 1.0)
+    return used
 
 
-def _first_rows(problem: LimitProblem) -> Array:
+def _first_rows(problem: LimitProblem) -> Indices:
     """Interface of each linear row and of each cone."""
     cones = [first + size * np.arange(count) for first, count, size in problem.cones.blocks]
     return np.asarray(problem.row_interface[np.concatenate([np.arange(problem.cones.linear), *cones])])
@@ -245,4 +247,5 @@ def _shares(problem: LimitProblem, held: Array, rest: Array) -> Array:
 def _ratio(used: Any, available: Any) -> Array:
     """Quotient in 0 to 1; where nothing is available it is 1 if anything is used."""
     safe = np.where(available > NOISE, available, 1.0)
-    return np.where(available > NOISE, np.clip(used / safe, 0.0, 1.0), used > NOISE).astype(float)
+    share = np.where(available > NOISE, np.clip(used / safe, 0.0, 1.0), used > NOISE)
+    return np.asarray(share, dtype=float)
