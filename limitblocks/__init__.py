@@ -1,5 +1,8 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
+from importlib import import_module
+from typing import Any
+
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.analysis.load_path import load_path
@@ -84,3 +87,10 @@ __all__ = [
     "structures",
     "write_result",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `limitblocks.plots` when it is first asked for: it needs matplotlib."""
+    if name == "plots":
+        return import_module("limitblocks.plots")
+    raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")

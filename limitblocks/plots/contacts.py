@@ -26,22 +26,21 @@ from limitblocks.plots.style import (
     VERMILION,
     YELLOW,
     in_newtons,
-    legend_below,
 )
 
 LONGEST = 0.15  # arrow of the largest force, over the diagonal of the structure
-SHORTEST = 1e-3  # of the largest force: less is not drawn
+SHORTEST = 1e-2  # of the largest force: less is not drawn
 STICK = "#8c8c8c"
 # Colours of the states, widths of their lines so that print in grey tells some apart.
 COLOURS = {
     "stick": (STICK, 1.0),
-    "open": (YELLOW, 2.2),
+    "open": (ORANGE, 2.2),
     "slide": (BLUE, 2.6),
     "twist": (GREEN, 2.6),
     "slide-twist": (SKY, 2.6),
     "hinge": (VERMILION, 2.6),
     "hinge-slide": (PURPLE, 2.6),
-    "hinge-twist": (ORANGE, 2.6),
+    "hinge-twist": (YELLOW, 2.6),
     "hinge-slide-twist": ("#7b4a12", 2.6),
     "crush": (BLACK, 3.4),
 }
@@ -53,7 +52,7 @@ def forces(
     """Draw the contact forces as arrows from the points where they act.
 
     Each arrow is the force on the upper of the two blocks (on block j, if their centroids are level); the
-    other block feels the opposite. Forces below 1e-3 of the largest are left out.
+    other block feels the opposite. Forces below 1 % of the largest are left out.
 
     Parameters
     ----------
@@ -82,9 +81,9 @@ def forces(
     length = longest / max(float(sizes.max()), np.finfo(float).tiny)
     tails = applied(found)[shown]
     drawn.arrows(tails, length * vectors[shown], color=BLUE)
-    drawn.plot(tails, "o", color=BLACK, markersize=2.0)
+    drawn.plot(tails, "o", color=BLACK, markersize=1.2 if drawn.spatial else 2.0)
     drawn.frame(np.concatenate([points, tails + length * vectors[shown]]))
-    drawn.ax.set_title(f"contact forces; longest arrow {in_newtons(sizes.max())}", fontsize="small")
+    drawn.title(f"contact forces; longest arrow {in_newtons(sizes.max())}")
     return drawn.ax
 
 
@@ -127,7 +126,7 @@ def thrust_line(
     if len(hinges):
         style = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5}
         drawn.plot(hinges, "o", label="hinge", **style)
-    legend_below(drawn.ax)
+    drawn.legend()
     return drawn.ax
 
 
@@ -197,7 +196,7 @@ def interface_states(
         drawn.polygons(these, label=f"{state} ({counted[state]})", **style, **alpha)
     hinges = found.centre_of_pressure[["hinge" in state for state in found.state]]
     drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4)
-    legend_below(drawn.ax)
+    drawn.legend()
     return drawn.ax
 
 

@@ -12,10 +12,21 @@ from limitblocks.analysis.bounds import Bounds
 from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.model import Model
-from limitblocks.plots.style import BLACK, BLUE, CYCLE, ORANGE, PALE, SKY, VERMILION, curve_axes, plain
+from limitblocks.plots.style import (
+    BLACK,
+    BLUE,
+    CYCLE,
+    ORANGE,
+    PALE,
+    SKY,
+    VERMILION,
+    curve_axes,
+    legend_below,
+    plain,
+)
 
 COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
-KINDS = {"permanent loads": "o", "step": "o", "jump": "s", "fixed point": "*"}
+KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*"}
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
@@ -54,14 +65,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     ax.spines["top"].set_visible(False)
     right.spines["top"].set_visible(False)
     handles = [*ax.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
-    ax.legend(
-        handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.16),
-        ncols=4,
-        frameon=False,
-        fontsize="small",
-    )
+    legend_below(ax, handles=handles, ncols=4)
     return ax
 
 
@@ -112,8 +116,9 @@ def load_path(
         size = 11.0 if kind == "fixed point" else 4.5
         style = {"color": VERMILION if kind == "fixed point" else BLUE, "markersize": size}
         ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
-    word, unit = ("displacement", "m") if axis < 3 else ("rotation", "rad")
-    ax.set(xlabel=f"{word} of {names[k]} along {'XYZ'[axis % 3]} ({unit})", ylabel="load factor (–)")
+    word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
+    ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
+    ax.set_ylabel("load factor (–)")
     ax.legend(frameon=False, fontsize="small", loc="lower right")
     plain(ax)
     return ax
@@ -158,12 +163,14 @@ def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: s
     ax = curve_axes(ax, "polar")
     (line,) = ax.plot(angles, values, ".-", color=CYCLE[len(ax.lines) % len(CYCLE)], label=label)
     ax.fill(angles, np.nan_to_num(values), color=line.get_color(), alpha=0.1, linewidth=0)
-    ax.set_rlim(0.0)
-    ax.set_title("load factor (–) by direction of the push", fontsize="small")
+    ax.set_rlim(0.0, max(ax.get_rmax(), 1.08 * float(np.nan_to_num(values).max())))
+    ax.set_rlabel_position(112.5)
+    ax.tick_params(axis="x", pad=8)
+    ax.set_title("load factor (–) by direction of the push", fontsize="small", pad=14)
     ticks = [f"{degrees}°" for degrees in range(0, 360, 45)]
     ticks[0], ticks[2] = "0° (X)", "90° (Y)"
     ax.set_xticks(np.radians(range(0, 360, 45)), ticks)
-    ax.yaxis.set_major_locator(MaxNLocator(4, prune="lower"))
+    ax.yaxis.set_major_locator(MaxNLocator(5, prune="lower"))
     if label is not None:
         ax.legend(frameon=False, fontsize="small", loc="upper left", bbox_to_anchor=(1.05, 1.05))
     return ax
@@ -194,7 +201,7 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     if len(digests) > 1:
         raise LimitBlocksError("the results belong to different models; compare results of one")
     order = [name for name in COLOURS if name in values]
-    ax = curve_axes(ax)
+    ax = curve_axes(ax, size=(6.0, 0.9 + 0.42 * len(order)))
     numbers = np.array([values[name] for name in order])
     finite = np.isfinite(numbers)
     longest = float(np.abs(numbers[finite]).max(initial=0.0)) or 1.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+from mpl_toolkits.mplot3d.proj3d import proj_transform
 
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
@@ -27,16 +29,21 @@ PLANES = {
     "xy": np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]),
 }
 LIGHT = np.array([-0.35, -0.6, 0.72])
+LARGEST = 5.0  # inches: width or height of an axonometric drawing
 ABOVE = 10_000.0  # zorder of what is drawn over all blocks
 
 
 @dataclass(frozen=True)
 class Canvas:
-    """Axes with the view of a structure: rows right, up, towards the eye; `spatial` for mplot3d axes."""
+    """Axes with the view of a structure: rows right, up, towards the eye.
+
+    `spatial` for 3d Axes; `own` where the figure was made here and may be cut to the drawing.
+    """
 
     ax: Any
     view: Array
     spatial: bool
+    own: bool
 
     def flat(self, points: Array) -> Array:
         """Coordinates (n, 2) on the page of points (n, 3)."""
@@ -61,7 +68,10 @@ class Canvas:
         order = np.argsort([(p @ self.view[2]).max() for p in points], kind="stable").tolist()
         for hatch in ("", "/////"):
             these = [k for k in order if (colours[k] == SUPPORT) == bool(hatch)]
-            hulls = [_ring(shapely.MultiPoint(self.flat(points[k])).convex_hull) for k in these]
+            hulls = [
+                shapely.get_coordinates(shapely.MultiPoint(self.flat(points[k])).convex_hull)[:-1]
+                for k in these
+            ]
             fill = [to_rgb("white" if hatch else colours[k]) for k in these]
             lines = {"hatch": hatch, "zorder": 0.9} if hatch else {"zorder": 1.0}
             self._add(PolyCollection(hulls, facecolors=fill, **(lines | style)))
@@ -87,6 +97,11 @@ class Canvas:
         places = points if self.spatial else self.flat(points)
         self.ax.plot(*places.T, *args, **({"zorder": ABOVE} | style))
 
+    def text(self, point: Array, text: str, **style: Any) -> None:
+        """Write at a point (3,), over the blocks."""
+        place = point if self.spatial else self.flat(point)
+        self.ax.text(*place.tolist(), text, **({"va": "center", "fontsize": "small", "zorder": 2e4} | style))
+
     def arrows(self, tails: Array, vectors: Array, **style: Any) -> None:
         """Draw arrows (n, 3) from `tails` (n, 3), in m."""
         style = {"zorder": ABOVE} | style
@@ -110,6 +125,7 @@ class Canvas:
         if not self.spatial:
             names = ["XYZ"[int(np.abs(row).argmax())] for row in self.view[:2]]
             self.ax.set(xlabel=f"{names[0]} (m)", ylabel=f"{names[1]} (m)", aspect="equal")
+            self.ax.update_datalim(self.flat(points))
             self.ax.margins(0.04)
             self.ax.autoscale_view()
             plain(self.ax)
@@ -124,6 +140,56 @@ class Canvas:
             axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         self.ax.set_box_aspect(span)
         self.ax.grid(False)
+        self._cut(0.75)
+
+    def title(self, text: str) -> None:
+        """Write a line above the drawing."""
+        if self.spatial and self.own:
+            low, high = self._extent()
+            self.ax.text2D(
+                (low[0] + high[0]) / 2,
+                high[1] + 0.04,
+                text,
+                transform=self.ax.transAxes,
+                ha="center",
+                fontsize="small",
+            )
+        else:
+            self.ax.set_title(text, fontsize="small")
+
+    def legend(self) -> None:
+        """Put the legend below the drawing."""
+        low, high = self._extent()
+        labels = len(self.ax.get_legend_handles_labels()[1])
+        rows = -(-labels // 4)
+        if self.spatial:
+            self._cut(0.95 + 0.25 * rows)
+        place = ((low[0] + high[0]) / 2, low[1] - (0.12 if self.spatial else 0.14))
+        self.ax.legend(loc="upper center", bbox_to_anchor=place, ncols=4, frameon=False, fontsize="small")
+
+    def _extent(self) -> tuple[Array, Array]:
+        """Lower left and upper right corner of what is drawn, in axes coordinates."""
+        if not self.spatial:
+            return np.zeros(2), np.ones(2)
+        limits = [getattr(self.ax, f"get_{name}lim3d")() for name in "xyz"]
+        x, y, _ = proj_transform(*np.array(list(product(*limits))).T, self.ax.get_proj())
+        to_axes = self.ax.transData + self.ax.transAxes.inverted()
+        places = to_axes.transform(np.column_stack([x, y]))
+        return places.min(axis=0), places.max(axis=0)
+
+    def _cut(self, below: float) -> None:
+        """Give a new figure the shape of the drawing, with `below` inches for what is written there."""
+        if not self.own:
+            return
+        low, high = self._extent()
+        side = float(
+            min(LARGEST / (high - low))
+        )  # of the square axes, inches; they may reach beyond the figure
+        left, right, above = 0.55, 0.75, 0.45
+        wide, tall = side * (high - low) + [left + right, below + above]
+        self.ax.figure.set_size_inches(wide, tall)
+        corner = np.array([left, below]) - side * low
+        self.ax.set_position([corner[0] / wide, corner[1] / tall, side / wide, side / tall])
 
     def _add(self, collection: Any) -> None:
         if self.spatial:
@@ -147,16 +213,17 @@ def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
         raise LimitBlocksError(f"plane is {plane!r}, but ax has the projection {ax.name!r}; leave one out")
     plane = plane or ("3d" if ax is not None and ax.name == "3d" else _plane(model, ax is not None))
     if plane != "3d":
-        return Canvas(ax or new_axes(size=_size(model, PLANES[plane])), PLANES[plane], False)
-    if ax is None:
-        ax = new_axes("3d", (6.0, 5.0))
+        return Canvas(ax or new_axes(size=_size(model, PLANES[plane])), PLANES[plane], False, False)
+    own = ax is None
+    if own:
+        ax = new_axes("3d")
         wide, deep, _ = np.ptp(_vertices(model), axis=0)
         ax.view_init(elev=22.0, azim=-60.0 if wide >= deep else -30.0)
     ax.computed_zorder = False
     elev, azim = np.radians([ax.elev, ax.azim])
     eye = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
     right = np.array([-np.sin(azim), np.cos(azim), 0.0])
-    return Canvas(ax, np.array([right, np.cross(eye, right), eye]), True)
+    return Canvas(ax, np.array([right, np.cross(eye, right), eye]), True, own)
 
 
 def _plane(model: Model, flat: bool) -> str:
@@ -177,10 +244,6 @@ def _size(model: Model, view: Array) -> tuple[float, float]:
     wide, high = np.ptp(_vertices(model) @ view[:2].T, axis=0)
     width = float(np.clip(4.5 * wide / high, 3.0, 6.5))
     return width + 0.6, float(np.clip(width * high / wide, 1.2, 6.5)) + 1.0
-
-
-def _ring(polygon: Any) -> Array:
-    return np.asarray(shapely.get_coordinates(polygon)[:-1])
 
 
 def _shaded(colour: str, normal: Array) -> tuple[float, ...]:

@@ -12,14 +12,17 @@ from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas, canvas
-from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT
+from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number
 
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
 TURN = 0.25  # largest rotation drawn, rad: the drawing is linear in it
+LIVE = 0.12  # length of the arrow of the live load, over the diagonal
 STILL = 1e-3  # of the largest displacement rate: less counts as standing still
 
 
-def structure(model: Model, ax: Any = None, *, plane: str | None = None, names: bool = False) -> Any:
+def structure(
+    model: Model, ax: Any = None, *, plane: str | None = None, names: bool = False, live: bool = True
+) -> Any:
     """Draw the blocks; supports are hatched in elevation, dark in 3D.
 
     Parameters
@@ -33,6 +36,8 @@ def structure(model: Model, ax: Any = None, *, plane: str | None = None, names: 
         models whose contacts and live load lie in a vertical plane are drawn in that plane, others in 3D.
     names : bool
         Write each block's name at its centroid.
+    live : bool
+        Show by an arrow above the structure which way the resultant of the live load points.
 
     Returns
     -------
@@ -46,11 +51,11 @@ def structure(model: Model, ax: Any = None, *, plane: str | None = None, names: 
     """
     drawn = canvas(model, ax, plane)
     draw_structure(drawn, model)
+    if live:
+        _draw_live(drawn, model, [block.vertices for block in model.blocks])
     if names:
         for block in model.blocks:
-            place = block.centroid if drawn.spatial else drawn.flat(block.centroid)
-            style = {"ha": "center", "va": "center", "fontsize": "x-small", "clip_on": True, "zorder": 2e4}
-            drawn.ax.text(*place.tolist(), block.name, **style)
+            drawn.text(block.centroid, block.name, ha="center", fontsize="x-small")
     return drawn.ax
 
 
@@ -60,6 +65,28 @@ def draw_structure(drawn: Canvas, model: Model, **style: Any) -> None:
     colours = [SUPPORT if block.name in model.supports else STONE for block in model.blocks]
     drawn.blocks(points, [block.faces for block in model.blocks], colours, **style)
     drawn.frame(np.concatenate(points))
+
+
+def _draw_live(drawn: Canvas, model: Model, shapes: list[Array]) -> None:
+    """Draw the direction of the live load above the structure, where it has one, and the frame."""
+    points = np.concatenate(shapes)
+    resultant = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
+    resultant = resultant if drawn.spatial else resultant @ drawn.view[:2].T @ drawn.view[:2]
+    size = float(np.linalg.norm(resultant))
+    if size == 0.0:
+        drawn.frame(points)
+        return
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    vector = LIVE * diagonal * resultant / size
+    up = drawn.view[1] if not drawn.spatial else np.array([0.0, 0.0, 1.0])
+    middle = (points.max(axis=0) + points.min(axis=0)) / 2
+    top = middle + up * (float((points @ up).max() - middle @ up) + 0.04 * diagonal)
+    tail = top + up * abs(float(vector @ up)) / 2 - vector / 2
+    drawn.arrows(tail[None], vector[None], color=VERMILION)
+    drawn.text(
+        tail - 0.15 * vector, "live", color=VERMILION, ha="right" if vector @ drawn.view[0] > 0 else "left"
+    )
+    drawn.frame(np.concatenate([points, tail[None], (tail + vector)[None]]))
 
 
 def mechanism(
@@ -116,9 +143,9 @@ def mechanism(
     drawn.blocks(after, [block.faces for block in model.blocks], colours.tolist())
     outline = [before[k] for k in np.flatnonzero(moving)]
     drawn.outline(outline, colors=EDGE, linewidths=0.8, linestyles=(0, (4, 2.5)))
-    drawn.frame(np.concatenate(before + after))
-    said = f"displacement rates × {factor:.3g}; largest drawn {factor * sizes.max():.2g} m"
-    drawn.ax.set_title(said, fontsize="small")
+    _draw_live(drawn, model, before + after)
+    largest = f"{factor * sizes.max():.2g} m"
+    drawn.title(f"mechanism: largest displacement drawn {largest}, rates × {number(factor)}")
     return drawn.ax
 
 

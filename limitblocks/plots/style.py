@@ -17,16 +17,15 @@ STONE, MOVING, SUPPORT, EDGE, PALE = "#ece6da", "#c3daee", "#a8a39b", "#4d4943",
 
 def new_axes(projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:
     """Return Axes in a new figure that pyplot knows nothing of."""
-    figure = Figure(figsize=size, layout="constrained")
     if projection == "3d":
-        return figure.add_subplot(projection="3d", proj_type="ortho", computed_zorder=False)
-    return figure.add_subplot(projection=projection)
+        return Figure(figsize=size).add_subplot(projection="3d", proj_type="ortho", computed_zorder=False)
+    return Figure(figsize=size, layout="constrained").add_subplot(projection=projection)
 
 
-def curve_axes(ax: Any, projection: str | None = None) -> Any:
+def curve_axes(ax: Any, projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:
     """Return `ax` if it fits, or new Axes; LimitBlocksError if it is of another projection."""
     if ax is None:
-        return new_axes(projection)
+        return new_axes(projection, size)
     wanted = projection or "rectilinear"
     if getattr(ax, "name", None) != wanted:
         raise LimitBlocksError(
@@ -41,10 +40,16 @@ def plain(ax: Axes) -> None:
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def legend_below(ax: Any, columns: int = 4) -> None:
-    """Put the legend below the axes."""
-    box = (0.5, -0.06 if ax.name == "3d" else -0.14)
-    ax.legend(loc="upper center", bbox_to_anchor=box, ncols=columns, frameon=False, fontsize="small")
+def legend_below(ax: Any, **options: Any) -> None:
+    """Put the legend below the labels of the axes."""
+    style = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16), "frameon": False, "fontsize": "small"}
+    ax.legend(**(style | options))
+
+
+def number(value: float) -> str:
+    """Return a number with three digits, powers of ten as in print."""
+    digits, _, power = f"{value:.3g}".partition("e")
+    return digits if not power else rf"${digits}\times10^{{{int(power)}}}$"
 
 
 def in_newtons(value: float, unit: str = "N") -> str:

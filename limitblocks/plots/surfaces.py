@@ -13,8 +13,8 @@ from limitblocks.geometry import Interface
 from limitblocks.joints.base import RESULTANTS
 from limitblocks.joints.interaction import shear_strength, torsion_bending, torsion_shear_curve
 from limitblocks.joints.queries import Queries
-from limitblocks.joints.torsion import as_region, torsion_constant
-from limitblocks.plots.style import BLACK, CYCLE, curve_axes
+from limitblocks.joints.torsion import as_region, cross, torsion_constant
+from limitblocks.plots.style import BLACK, CYCLE, curve_axes, legend_below
 
 LONG = 1e6  # times the size of N: what is stronger counts as unlimited
 
@@ -29,7 +29,7 @@ def interaction(
     stress_resultants: Any = None,
     exact: bool = False,
     label: str | None = None,
-    directions: int = 180,
+    directions: int = 90,
     ax: Any = None,
 ) -> Any:
     """Draw a section of the yield set of an interface: two stress resultants, the others zero.
@@ -100,7 +100,8 @@ def interaction(
     ax.axvline(0.0, color="0.8", linewidth=0.6, zorder=0.5)
     if (x[0] in "VN") == (y[0] in "VN"):
         ax.set_aspect("equal")
-    ax.legend(frameon=False, fontsize="small", loc="upper center", bbox_to_anchor=(0.5, -0.16))
+    ax.locator_params(nbins=6)
+    legend_below(ax)
     return ax
 
 
@@ -113,12 +114,12 @@ def _label(name: str, relative: bool) -> str:
 
 
 def _unit(k: int) -> Array:
-    return np.eye(6)[k]
+    return np.asarray(np.eye(6)[k])
 
 
 def _strength(joint: Queries, interface: Interface, direction: Array, given: Array) -> float:
-    t = joint.strength(interface, direction, given)
-    if not t * np.abs(direction).max() < LONG * np.abs(given).max():
+    t: float = joint.strength(interface, direction, given)
+    if not t * float(np.abs(direction).max()) < LONG * float(np.abs(given).max()):
         names = [RESULTANTS[k] for k in np.flatnonzero(direction)]
         raise ModelError(f"{joint!r} carries {' and '.join(names)} without limit; there is no curve to draw")
     return t
@@ -127,12 +128,29 @@ def _strength(joint: Queries, interface: Interface, direction: Array, given: Arr
 def _around(joint: Queries, interface: Interface, at: tuple[int, int], N: float, directions: int) -> Array:
     """Closed curve (k, 2) around the state of N alone, by rays at even angles of the scaled axes."""
     given = N * _unit(2)
-    reach = [_strength(joint, interface, _unit(k), given) or abs(N) for k in at]
-    angles = np.linspace(0.0, 2.0 * np.pi, directions + 1)
-    rays = np.stack([np.cos(angles) * reach[0], np.sin(angles) * reach[1]], axis=1)
-    basis = np.stack([_unit(k) for k in at])
-    t = [_strength(joint, interface, ray @ basis, given) for ray in rays]
-    return np.array(t)[:, None] * rays
+    reach = np.array([_strength(joint, interface, _unit(k), given) or abs(N) for k in at])
+    basis = reach[:, None] * np.stack([_unit(k) for k in at])
+
+    def on_curve(rays: Array) -> Array:
+        t = [_strength(joint, interface, ray @ basis, given) for ray in rays]
+        return np.asarray(np.array(t)[:, None] * rays)
+
+    angles = 2.0 * np.pi * np.arange(directions) / directions
+    points = on_curve(np.stack([np.cos(angles), np.sin(angles)], axis=1))
+    points = np.concatenate([points, on_curve(_corners(points))])
+    points = points[np.argsort(np.arctan2(points[:, 1], points[:, 0]))]
+    return np.asarray(reach * np.concatenate([points, points[:1]]))
+
+
+def _corners(points: Array) -> Array:
+    """Where the lines through the pairs of points before and after each side of a closed polygon meet."""
+    before, start, end, after = (np.roll(points, k, axis=0) for k in (1, 0, -1, -2))
+    a, b = start - before, after - end
+    turn = cross(a, b)
+    bent = np.abs(turn) > 1e-6 * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+    met = start + (cross(end - start, b) / np.where(bent, turn, 1.0))[:, None] * a
+    between = (cross(start, met) > 0.0) & (cross(met, end) > 0.0)
+    return np.asarray(met[bent & between])
 
 
 def _with_normal_force(
