@@ -5,6 +5,7 @@ from typing import Any
 
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.interface_states import InterfaceStates, interface_states
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.loading import Settings
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
@@ -48,6 +49,7 @@ __all__ = [
     "ExactTorsion",
     "GeometryError",
     "Interface",
+    "InterfaceStates",
     "Iteration",
     "Joint",
     "LimitBlocksError",
@@ -75,6 +77,7 @@ __all__ = [
     "find_interfaces",
     "force",
     "interface",
+    "interface_states",
     "load_path",
     "mass_proportional",
     "model_schema",

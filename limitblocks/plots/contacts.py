@@ -13,7 +13,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.model import Model
-from limitblocks.plots.drawing import Canvas, canvas
+from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.structures import draw_structure
 from limitblocks.plots.style import (
     BLACK,
@@ -27,6 +27,7 @@ from limitblocks.plots.style import (
     YELLOW,
     in_newtons,
 )
+from limitblocks.plots.views import canvas
 
 LONGEST = 0.15  # arrow of the largest force, over the diagonal of the structure
 SHORTEST = 1e-2  # of the largest force: less is not drawn

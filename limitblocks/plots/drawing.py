@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
@@ -16,18 +16,10 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 
 from limitblocks.arrays import Array
-from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import polyhedron
 from limitblocks.geometry.painter import painting_order, placed
-from limitblocks.model import Model
-from limitblocks.plots.style import EDGE, SUPPORT, new_axes, plain
+from limitblocks.plots.style import EDGE, SUPPORT, legend_below, plain
 
-# Directions on the page to the right, up, and towards the eye.
-PLANES = {
-    "xz": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
-    "yz": np.array([[0, 1.0, 0], [0, 0, 1], [1, 0, 0]]),
-    "xy": np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]),
-}
 LIGHT = np.array([-0.35, -0.6, 0.72])
 LARGEST = 5.0  # inches: width or height of an axonometric drawing
 ABOVE = 10_000.0  # zorder of what is drawn over all blocks
@@ -37,13 +29,15 @@ ABOVE = 10_000.0  # zorder of what is drawn over all blocks
 class Canvas:
     """Axes with the view of a structure: rows right, up, towards the eye.
 
-    `spatial` for 3d Axes; `own` where the figure was made here and may be cut to the drawing.
+    `spatial` for 3d Axes; `own` where the figure was made here and may be cut to the drawing, with the points
+    `beyond` the frame, to which it may be added.
     """
 
     ax: Any
     view: Array
     spatial: bool
     own: bool
+    beyond: list[Array] = field(default_factory=list)
 
     def flat(self, points: Array) -> Array:
         """Coordinates (n, 2) on the page of points (n, 3)."""
@@ -108,7 +102,7 @@ class Canvas:
         if self.spatial:
             self.ax.quiver(*tails.T, *vectors.T, arrow_length_ratio=0.2, linewidth=1.0, **style)
         else:
-            across = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "width": 0.0035}
+            across = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "units": "inches", "width": 0.018}
             self.ax.quiver(*self.flat(tails).T, *self.flat(vectors).T, **across, **style)
 
     def outline(self, points: Sequence[Array], **style: Any) -> None:
@@ -121,15 +115,15 @@ class Canvas:
 
     def frame(self, points: Array) -> None:
         """Label the axes, in m, with equal scales and the limits of `points` (n, 3)."""
-        low, high = points.min(axis=0), points.max(axis=0)
         if not self.spatial:
             names = ["XYZ"[int(np.abs(row).argmax())] for row in self.view[:2]]
             self.ax.set(xlabel=f"{names[0]} (m)", ylabel=f"{names[1]} (m)", aspect="equal")
-            self.ax.update_datalim(self.flat(points))
+            self.ax.update_datalim(self.flat(np.concatenate([points, *self.beyond])))
             self.ax.margins(0.04)
             self.ax.autoscale_view()
             plain(self.ax)
             return
+        low, high = points.min(axis=0), points.max(axis=0)
         span = np.maximum(high - low, 0.02 * (high - low).max())
         middle = (low + high) / 2
         for name, centre, length in zip("xyz", middle, span, strict=True):
@@ -144,35 +138,26 @@ class Canvas:
 
     def title(self, text: str) -> None:
         """Write a line above the drawing."""
-        if self.spatial and self.own:
-            low, high = self._extent()
-            self.ax.text2D(
-                (low[0] + high[0]) / 2,
-                high[1] + 0.04,
-                text,
-                transform=self.ax.transAxes,
-                ha="center",
-                fontsize="small",
-            )
-        else:
-            self.ax.set_title(text, fontsize="small")
+        low, high = self._extent()
+        place = {"x": (low[0] + high[0]) / 2, "y": high[1] + 0.03} if self.spatial else {}
+        self.ax.set_title(text, fontsize="small", **place)
 
     def legend(self) -> None:
         """Put the legend below the drawing."""
-        low, high = self._extent()
-        labels = len(self.ax.get_legend_handles_labels()[1])
-        rows = -(-labels // 4)
         if self.spatial:
-            self._cut(0.95 + 0.25 * rows)
-        place = ((low[0] + high[0]) / 2, low[1] - (0.12 if self.spatial else 0.14))
-        self.ax.legend(loc="upper center", bbox_to_anchor=place, ncols=4, frameon=False, fontsize="small")
+            rows = -(-len(self.ax.get_legend_handles_labels()[1]) // 4)
+            self._cut(0.85 + 0.2 * rows)
+        low, high = self._extent()
+        place = ((low[0] + high[0]) / 2, low[1])
+        legend_below(self.ax, place, 0.65 if self.spatial else 0.5, ncols=4)
 
     def _extent(self) -> tuple[Array, Array]:
         """Lower left and upper right corner of what is drawn, in axes coordinates."""
         if not self.spatial:
             return np.zeros(2), np.ones(2)
         limits = [getattr(self.ax, f"get_{name}lim3d")() for name in "xyz"]
-        x, y, _ = proj_transform(*np.array(list(product(*limits))).T, self.ax.get_proj())
+        points = np.concatenate([np.array(list(product(*limits))), *self.beyond])
+        x, y, _ = proj_transform(*points.T, self.ax.get_proj())
         to_axes = self.ax.transData + self.ax.transAxes.inverted()
         places = to_axes.transform(np.column_stack([x, y]))
         return places.min(axis=0), places.max(axis=0)
@@ -185,7 +170,7 @@ class Canvas:
         side = float(
             min(LARGEST / (high - low))
         )  # of the square axes, inches; they may reach beyond the figure
-        left, right, above = 0.55, 0.75, 0.45
+        left, right, above = 0.55, 0.75, 0.55
         wide, tall = side * (high - low) + [left + right, below + above]
         self.ax.figure.set_size_inches(wide, tall)
         corner = np.array([left, below]) - side * low
@@ -196,54 +181,6 @@ class Canvas:
             self.ax.add_collection3d(collection, autolim=False)
         else:
             self.ax.add_collection(collection)
-
-
-def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
-    """Return `ax`, or new Axes, with the view of `model`.
-
-    Without a plane, `ax` decides; without `ax` too, models whose contacts and loads lie in one vertical plane
-    are drawn in elevation, others axonometrically.
-    """
-    if plane not in (None, "3d", *PLANES):
-        known = ", ".join(map(repr, (*PLANES, "3d")))
-        raise LimitBlocksError(f"plane is {plane!r}, expected one of {known}")
-    if ax is not None and getattr(ax, "name", None) not in ("3d", "rectilinear"):
-        raise LimitBlocksError(f"ax is {ax!r}, expected plain or 3d Axes of matplotlib")
-    if ax is not None and plane is not None and (ax.name == "3d") != (plane == "3d"):
-        raise LimitBlocksError(f"plane is {plane!r}, but ax has the projection {ax.name!r}; leave one out")
-    plane = plane or ("3d" if ax is not None and ax.name == "3d" else _plane(model, ax is not None))
-    if plane != "3d":
-        return Canvas(ax or new_axes(size=_size(model, PLANES[plane])), PLANES[plane], False, False)
-    own = ax is None
-    if own:
-        ax = new_axes("3d")
-        wide, deep, _ = np.ptp(_vertices(model), axis=0)
-        ax.view_init(elev=22.0, azim=-60.0 if wide >= deep else -30.0)
-    ax.computed_zorder = False
-    elev, azim = np.radians([ax.elev, ax.azim])
-    eye = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
-    right = np.array([-np.sin(azim), np.cos(azim), 0.0])
-    return Canvas(ax, np.array([right, np.cross(eye, right), eye]), True, own)
-
-
-def _plane(model: Model, flat: bool) -> str:
-    """Name of the elevation in which contacts and live load lie, or else 3d, or xz if it must be `flat`."""
-    vectors = np.stack([interface.axes[2] for interface in model.interfaces])
-    live = model.live.on(model.free_blocks)[:, :3]
-    live = live / max(float(np.abs(live).max()), np.finfo(float).tiny)
-    out = np.abs(np.concatenate([vectors, live])).max(axis=0) < 1e-6
-    return "xz" if out[1] else "yz" if out[0] else "xz" if flat else "3d"
-
-
-def _vertices(model: Model) -> Array:
-    return np.concatenate([block.vertices for block in model.blocks])
-
-
-def _size(model: Model, view: Array) -> tuple[float, float]:
-    """Size of a figure, inches, whose shape is that of the structure."""
-    wide, high = np.ptp(_vertices(model) @ view[:2].T, axis=0)
-    width = float(np.clip(4.5 * wide / high, 3.0, 6.5))
-    return width + 0.6, float(np.clip(width * high / wide, 1.2, 6.5)) + 1.0
 
 
 def _shaded(colour: str, normal: Array) -> tuple[float, ...]:

@@ -11,8 +11,9 @@ from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
-from limitblocks.plots.drawing import Canvas, canvas
+from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number
+from limitblocks.plots.views import canvas
 
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
 TURN = 0.25  # largest rotation drawn, rad: the drawing is linear in it
@@ -78,15 +79,16 @@ def _draw_live(drawn: Canvas, model: Model, shapes: list[Array]) -> None:
         return
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
     vector = LIVE * diagonal * resultant / size
-    up = drawn.view[1] if not drawn.spatial else np.array([0.0, 0.0, 1.0])
+    up = np.array([0.0, 0.0, 1.0]) if drawn.spatial else drawn.view[1]
     middle = (points.max(axis=0) + points.min(axis=0)) / 2
-    top = middle + up * (float((points @ up).max() - middle @ up) + 0.04 * diagonal)
-    tail = top + up * abs(float(vector @ up)) / 2 - vector / 2
+    height = float((points @ drawn.view[1]).max() - middle @ drawn.view[1]) / float(up @ drawn.view[1])
+    centre = middle + up * (height + 0.04 * diagonal + abs(float(vector @ drawn.view[1])) / 2)
+    tail = centre - vector / 2
     drawn.arrows(tail[None], vector[None], color=VERMILION)
-    drawn.text(
-        tail - 0.15 * vector, "live", color=VERMILION, ha="right" if vector @ drawn.view[0] > 0 else "left"
-    )
-    drawn.frame(np.concatenate([points, tail[None], (tail + vector)[None]]))
+    label = centre + up * (0.015 * diagonal + abs(float(vector @ drawn.view[1])) / 2)
+    drawn.text(label, "live", color=VERMILION, ha="center", va="bottom")
+    drawn.beyond.append(np.stack([tail, tail + vector, label + 0.04 * diagonal * up]))
+    drawn.frame(points)
 
 
 def mechanism(
@@ -145,7 +147,7 @@ def mechanism(
     drawn.outline(outline, colors=EDGE, linewidths=0.8, linestyles=(0, (4, 2.5)))
     _draw_live(drawn, model, before + after)
     largest = f"{factor * sizes.max():.2g} m"
-    drawn.title(f"mechanism: largest displacement drawn {largest}, rates × {number(factor)}")
+    drawn.title(f"mechanism: largest displacement drawn {largest},\ndisplacement rates × {number(factor)}")
     return drawn.ax
 
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.transforms import ScaledTranslation
 
 from limitblocks.errors import LimitBlocksError
 
@@ -40,10 +41,13 @@ def plain(ax: Axes) -> None:
     ax.spines[["top", "right"]].set_visible(False)
 
 
-def legend_below(ax: Any, **options: Any) -> None:
-    """Put the legend below the labels of the axes."""
-    style = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16), "frameon": False, "fontsize": "small"}
-    ax.legend(**(style | options))
+def legend_below(
+    ax: Any, place: tuple[float, float] = (0.5, 0.0), inches: float = 0.5, **options: Any
+) -> None:
+    """Put the legend some inches below a place in axes coordinates, for the labels to have room."""
+    lower = ax.transAxes + ScaledTranslation(0.0, -inches, ax.figure.dpi_scale_trans)
+    style = {"loc": "upper center", "bbox_to_anchor": place, "frameon": False, "fontsize": "small"}
+    ax.legend(bbox_transform=lower, **(style | options))
 
 
 def number(value: float) -> str:
