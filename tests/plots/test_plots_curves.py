@@ -187,7 +187,8 @@ def test_polar_is_sorted_and_closed():
 
 
 def test_polar_takes_a_study_and_leaves_gaps():
-    study = SimpleNamespace(angles=np.radians([0.0, 30.0, 60.0]), load_factors=np.array([1.0, np.inf, 2.0]))
+    angles = np.radians([0.0, np.nan, 30.0, 60.0])  # NaN: a vertical push
+    study = SimpleNamespace(angles=angles, load_factors=np.array([1.0, 9.0, np.inf, 2.0]))
     ax = lb.plots.polar(study, label="wall")
     assert len(curve(ax, "wall")) == 3  # a fan stays open
     assert np.isnan(curve(ax, "wall")[1, 1])
@@ -198,6 +199,7 @@ def test_polar_takes_a_study_and_leaves_gaps():
     [
         ((np.zeros(3), np.zeros(2)), r"angles have shape \(3,\) and load factors \(2,\)"),
         ((np.zeros(3),), "ndarray has no angles"),
+        (([np.nan], [1.0]), "at least one angle that is finite"),
         (([0.0], [1.0], Figure().add_subplot()), "projection 'rectilinear', expected 'polar'"),
     ],
 )
