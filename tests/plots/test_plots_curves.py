@@ -59,7 +59,7 @@ def test_torsion_with_shear_in_newtons_and_the_exact_curve():
 @pytest.mark.parametrize(("moment", "half"), [("M1", L2), ("M2", L1)])
 def test_torsion_with_bending_agrees_with_the_effective_rectangle_at_its_ends(moment, half):
     ax = lb.plots.interaction(JOINT, RECTANGLE, moment, "T", exact=True)
-    plane, exact = curve(ax, repr(JOINT)), curve(ax, "uniform pressure, exact")
+    plane, exact = curve(ax, repr(JOINT)), curve(ax, "uniform pressure, effective area")
     T0 = FRICTION * float(rectangle_torsion_constant(L1, L2))
     other = L1 + L2 - half
     hinge = FRICTION * other / 2  # Eq. (22)
@@ -78,6 +78,13 @@ def test_crushing_parabola():
     # stress block: the strip that carries N has the arm l2 (1 - N / limit)
     assert np.allclose(np.abs(M), -N * L2 * (1 + N / limit), atol=1e-5 * limit * L2)
     assert ax.get_xlabel() == "$N$ (N)"
+
+
+def test_stress_states_keep_their_normal_force_on_a_curve_over_it():
+    Q = [(0.0, 0.0, -3.0, 0.1, 0.0, 0.0), (0.0, 0.0, -5.0, -0.2, 0.0, 0.0)]
+    ax = lb.plots.interaction(JOINT, RECTANGLE, "N", "M1", N=-8.0, stress_resultants=Q)
+    assert np.allclose(curve(ax, "stress states"), [(-3.0, 0.1), (-5.0, -0.2)])
+    assert contains(curve(ax, repr(JOINT)), [(-8.0, 8.0 * L2), (-8.0, -8.0 * L2)])
 
 
 def test_joints_are_compared_on_the_same_axes():
@@ -110,7 +117,8 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
         (JOINT, RECTANGLE, {"stress_resultants": [(1.0, 2.0)]}, r"shape \(1, 2\), expected \(k, 6\)"),
         (JOINT, RECTANGLE, {"stress_resultants": np.zeros((1, 6))}, "expected compression"),
         (JOINT, TRIANGLE, {"exact": True}, "symmetric about both"),
-        (JOINT, RECTANGLE, {"x": "N", "exact": True}, "no exact curve is known"),
+        (JOINT, RECTANGLE, {"x": "N"}, "N is missing: give the largest"),
+        (JOINT, RECTANGLE, {"x": "N", "N": -1.0, "exact": True}, "no exact curve is known"),
     ],
 )
 def test_what_has_no_interaction_curve_is_refused(joint, interface, settings, message):
