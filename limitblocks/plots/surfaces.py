@@ -34,7 +34,7 @@ def interaction(
 ) -> Any:
     """Draw a section of the yield set of an interface: two stress resultants, the others zero.
 
-    Without `N` everything is per |N|, which a dry joint of unlimited strength allows; a curve over N needs it.
+    Without `N` everything is per |N|, which a dry joint of unlimited strength allows; curves over N need it.
     Call it again with the same `ax` to compare joints.
 
     Parameters
