@@ -1,8 +1,12 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
+from importlib import import_module
+from typing import Any
+
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
+from limitblocks.analysis.interface_states import InterfaceStates, interface_states
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
@@ -73,6 +77,7 @@ __all__ = [
     "GeometryError",
     "ImportedBlocks",
     "Interface",
+    "InterfaceStates",
     "Iteration",
     "Joint",
     "LimitBlocksError",
@@ -106,6 +111,7 @@ __all__ = [
     "find_interfaces",
     "force",
     "interface",
+    "interface_states",
     "line_load",
     "load_path",
     "mass_proportional",
@@ -128,3 +134,10 @@ __all__ = [
     "write_result",
     "write_vtu",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `limitblocks.plots` when it is first asked for: it needs matplotlib."""
+    if name == "plots":
+        return import_module("limitblocks.plots")
+    raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")
