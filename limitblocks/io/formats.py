@@ -16,6 +16,9 @@ READERS: dict[str, str] = {
     ".ply": "ply",
     ".glb": "gltf",
     ".gltf": "gltf",
+    ".dxf": "dxf",
+    ".3dm": "rhino",
+    ".json": "compas",
 }
 
 
