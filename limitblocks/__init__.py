@@ -20,7 +20,17 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import ImportedBlocks, model_schema, read, read_blocks, read_result, write_result
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+    write_vtu,
+)
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -84,5 +94,8 @@ __all__ = [
     "report",
     "self_weight",
     "structures",
+    "write_animation",
+    "write_blocks",
     "write_result",
+    "write_vtu",
 ]

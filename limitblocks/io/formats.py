@@ -23,7 +23,7 @@ READERS: dict[str, str] = {
 
 
 def read_blocks(
-    file: str | Path, *, units: str | None = None, unit_weight: UnitWeight = None
+    file: str | Path, *, units: str | None = None, unit_weight: UnitWeight = None, up: str | None = None
 ) -> ImportedBlocks:
     """Return the blocks in `file`, of any format in docs/files.md but the model file.
 
@@ -37,6 +37,9 @@ def read_blocks(
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer; blocks of other layers get none, as supports may.
 
+    up : str, optional
+        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+
     Raises
     ------
     ModelError
@@ -46,7 +49,7 @@ def read_blocks(
     """
     path = Path(file)
     with faults.named(path):
-        return imported(_contents(path), units, unit_weight)
+        return imported(_contents(path), units, unit_weight, up)
 
 
 def _contents(path: Path) -> Contents:

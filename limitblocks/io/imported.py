@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.mend import mended
@@ -23,6 +24,9 @@ from limitblocks.io.strict_json import LARGEST_FILE
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 MOST_SOLIDS = 100_000
 MOST_FACES = 1_000_000
+
+#: From axes with Y up to axes with Z up.
+Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 UnitWeight = float | Mapping[str, float] | None
 
@@ -64,11 +68,12 @@ class Solid(NamedTuple):
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, the metres per unit that it states (None: nothing), notes."""
+    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
 
     solids: Sequence[Solid]
     metres: float | None = None
     notes: Sequence[str] = ()
+    up: str = "z"
 
 
 def read_bytes(path: Path) -> bytes:
@@ -142,15 +147,17 @@ def metres(units: str | None, stated: float | None = None) -> float:
     return UNITS[units]
 
 
-def imported(contents: Contents, units: str | None, unit_weight: UnitWeight) -> ImportedBlocks:
-    """Return the solids of a file as blocks with unique names, in metres.
+def imported(
+    contents: Contents, units: str | None, unit_weight: UnitWeight, up: str | None = None
+) -> ImportedBlocks:
+    """Return the solids of a file as blocks with unique names, in metres, with Z up.
 
     Raises
     ------
     ModelError
-        With all faults: solids that are no blocks, no solid, unknown units, unit weights of unknown layers.
+        With all faults: solids that are no blocks, no solid, an unknown unit, axis or layer.
     """
-    solids, scale = contents.solids, metres(units, contents.metres)
+    solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
@@ -161,7 +168,7 @@ def imported(contents: Contents, units: str | None, unit_weight: UnitWeight) -> 
     blocks, notes = [], [*contents.notes, *notes]
     for name, solid in zip(names, solids, strict=True):
         try:
-            vertices = np.asarray(solid.vertices, dtype=np.float64) * scale
+            vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
             block, said = mended(name, vertices, solid.faces, weights[name])
         except ModelError as error:
             wrong += error.problems
@@ -177,6 +184,13 @@ def imported(contents: Contents, units: str | None, unit_weight: UnitWeight) -> 
 def _is_support(solid: Solid) -> bool:
     on_layer = solid.layer.strip().lower() in {"support", "supports"}
     return on_layer if solid.support is None else solid.support
+
+
+def _upright(up: str) -> Array:
+    """Return the matrix (3, 3) that turns rows of coordinates to Z up."""
+    if up not in ("y", "z"):
+        raise ModelError(f"up is {up!r}; expected 'y' or 'z'")
+    return Z_UP.T if up == "y" else np.eye(3)
 
 
 def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:

@@ -27,6 +27,7 @@ def read(
     supports: Supports | None = None,
     unit_weight: UnitWeight = None,
     units: str | None = None,
+    up: str | None = None,
     dead: Load | None = None,
     live: Load | None = None,
 ) -> Model:
@@ -50,6 +51,8 @@ def read(
     units : str, optional
         Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
         metres where it says nothing.
+    up : str, optional
+        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
 
@@ -68,7 +71,7 @@ def read(
         "unit_weight": unit_weight,
         "units": units,
     }
-    given |= {"dead": dead, "live": live}
+    given |= {"dead": dead, "up": up, "live": live}
     with faults.named(path):
         known = is_model_file(path)
         _refuse_arguments(known, {key for key, value in given.items() if value is not None})
@@ -77,7 +80,7 @@ def read(
     assert joint is not None
     assert supports is not None
     assert live is not None
-    found = read_blocks(path, units=units, unit_weight=unit_weight)
+    found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     for note in found.notes:
         _log.warning("%s: %s", path, note)
     with faults.named(path):
