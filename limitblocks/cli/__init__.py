@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.options import (
     AsJson,
     ClaimFile,
@@ -160,6 +161,9 @@ def report(
         results += [_nonassociated(structure, **flow)] if with_nonassociated else []
         results += [_path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
+
+
+app.command("import")(import_blocks)
 
 
 @app.command()

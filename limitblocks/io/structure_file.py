@@ -70,23 +70,45 @@ def read(
         "supports": supports,
         "unit_weight": unit_weight,
         "units": units,
+        "up": up,
     }
-    given |= {"dead": dead, "up": up, "live": live}
-    with faults.named(path):
-        known = is_model_file(path)
-        _refuse_arguments(known, {key for key, value in given.items() if value is not None})
-    if known:
+    said = [key for key, value in (given | {"dead": dead, "live": live}).items() if value is not None]
+    if is_model_file(path) and said:
+        raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
+    if is_model_file(path):
         return model_file.read(path)
-    assert joint is not None
-    assert supports is not None
-    assert live is not None
     found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     for note in found.notes:
         _log.warning("%s: %s", path, note)
     with faults.named(path):
-        names = supports_of(found, supports)
-        interfaces = find_interfaces(found.blocks, joint)
-        return Model(found.blocks, names, interfaces, dead or self_weight(), live, path.stem)
+        return model_of(found, joint=joint, supports=supports, live=live, dead=dead, name=path.stem)
+
+
+def model_of(
+    found: ImportedBlocks,
+    *,
+    joint: Joint | None,
+    supports: Supports | None,
+    live: Load | None,
+    dead: Load | None = None,
+    name: str = "",
+) -> Model:
+    """Return the model of blocks that were read, with the interfaces found between them.
+
+    Raises
+    ------
+    ModelError
+        An argument is missing, a support is unknown, or the model is wrong.
+    """
+    if joint is None or supports is None or live is None:
+        given = {"joint": joint, "supports": supports, "live": live}
+        missing = (key for key, value in given.items() if value is None)
+        raise ModelError(
+            *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
+        )
+    names = supports_of(found, supports)
+    interfaces = find_interfaces(found.blocks, joint)
+    return Model(found.blocks, names, interfaces, self_weight() if dead is None else dead, live, name)
 
 
 def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
@@ -108,13 +130,3 @@ def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
               for name in unknown)
         )  # fmt: skip
     return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)
-
-
-def _refuse_arguments(model: bool, given: set[str]) -> None:
-    if model and given:
-        raise ModelError(f"a model file says {', '.join(sorted(given))} itself; leave the arguments out")
-    missing = [key for key in ("joint", "supports", "live") if key not in given]
-    if not model and missing:
-        raise ModelError(
-            *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
-        )
