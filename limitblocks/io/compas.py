@@ -27,11 +27,10 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
 from limitblocks.io.compas_geometry import frame, polygons, transformation
-from limitblocks.io.imported import Contents, Solid, foreign
+from limitblocks.io.imported import SUPPORT_LAYERS, Contents, Solid, foreign
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
 _SUPPORT = ("is_support", "is_fixed", "fixed", "is_boundary")
-_SUPPORTS = ("support", "supports")
 
 
 class Thing(NamedTuple):
@@ -101,7 +100,7 @@ def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[s
     else:
         for k, part in data.items():
             if isinstance(part, dict | list):
-                yield from _walk(part, place, k, support or k.lower() in _SUPPORTS, left_out)
+                yield from _walk(part, place, k, support or k.lower() in SUPPORT_LAYERS, left_out)
 
 
 def _numbered(key: str) -> str:
@@ -111,7 +110,7 @@ def _numbered(key: str) -> str:
 def _solid(found: Any, place: Array, name: str, support: bool, layer: str = "") -> Solid:
     vertices, faces = found
     vertices = vertices @ place[:3, :3].T + place[:3, 3]
-    return Solid(name, layer or ("supports" if support else "blocks"), vertices, faces, support)
+    return Solid(name, layer or ("support" if support else "block"), vertices, faces, support)
 
 
 def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Iterator[Solid]:

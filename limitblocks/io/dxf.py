@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
@@ -43,6 +43,11 @@ class Part(NamedTuple):
         """What the drawing calls the entity."""
         return str(self.entity.dxf.handle)
 
+    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Return faces in the sense they have in the drawing, which a mirror image turns."""
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
+        return [face[::-1] for face in faces] if mirrored else faces
+
     def placed(self, points: Any) -> Array:
         """Return points (n, 3) of the entity in the coordinates of the drawing."""
         rows = np.array([tuple(point) for point in points], dtype=np.float64).reshape(-1, 3)
@@ -66,7 +71,7 @@ def ezdxf() -> ModuleType:
 
 def contents(path: Path) -> Contents:
     """Return the solids in a DXF drawing: meshes, polyfaces, 3D faces, bodies with plane faces."""
-    from limitblocks.io import dxf_solids
+    from limitblocks.io import dxf_solids, shells
 
     drawing = opened(path)
     left_out: Counter[str] = Counter()
@@ -80,8 +85,9 @@ def contents(path: Path) -> Contents:
             found = dxf_solids.polygons(part)
             if found is None:
                 left_out[part.kind] += 1
-            else:
-                solids += [Solid(part.name, part.layer, *shape) for shape in found]
+                continue
+            for points, loops in found:
+                solids += shells.solids(part.name, part.layer, points, part.turned(loops))
         solids += dxf_solids.from_3d_faces(faces)
     if not solids:
         raise ModelError(f"holds no solid{_instead(left_out)}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -12,11 +11,9 @@ from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.dxf import Part
 from limitblocks.io.imported import Solid
+from limitblocks.io.shells import solids
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
-
-#: Distance between corners of 3D faces that are one vertex, over the extent of the faces.
-_SAME = 1e-7
 
 
 def polygons(part: Part) -> list[Polygons] | None:
@@ -36,11 +33,11 @@ def polygons(part: Part) -> list[Polygons] | None:
         mesh = MeshBuilder.from_polyface(entity)
         return [(part.placed(mesh.vertices), mesh.faces)]
     if kind in ("3DSOLID", "BODY"):
-        return [_soup([part.placed(face) for face in faces]) for faces in _body(part)]
+        return [soup([part.placed(face) for face in faces]) for faces in _body(part)]
     return None
 
 
-def _soup(loops: Sequence[Array]) -> Polygons:
+def soup(loops: Sequence[Array]) -> Polygons:
     """Return polygons that share no vertices."""
     ends = np.cumsum([len(loop) for loop in loops])
     return np.concatenate(loops), [
@@ -89,58 +86,12 @@ def _faces(body: Any) -> Iterator[Any]:
 
 
 def from_3d_faces(parts: Iterable[Part]) -> list[Solid]:
-    """Return solids of single 3D faces, those of one layer and block reference together.
-
-    Programs write the faces of one solid one after the other: a solid ends where its surface closes, so that
-    solids that touch stay apart. Where that fails, faces that share vertices are one solid.
-    """
+    """Return the solids of single 3D faces, those of one layer and block reference together."""
     groups: dict[tuple[str, int], list[Part]] = {}
     for part in parts:
         groups.setdefault((part.layer, part.reference), []).append(part)
-    return [solid for group in groups.values() for solid in _group(group)]
-
-
-def _group(parts: Sequence[Part]) -> list[Solid]:
-    corners = [part.placed(part.entity.wcs_vertices()) for part in parts]
-    points, faces = _soup(corners)
-    spread = float(np.ptp(points, axis=0).max()) if np.isfinite(points).all() else 1.0
-    grid = np.round((points - points[0]) / ((spread or 1.0) * _SAME))
-    _, number = np.unique(grid, axis=0, return_inverse=True)
-    loops = [tuple(number.reshape(-1)[list(face)].tolist()) for face in faces]
-    found = _closed_in_turn(loops)
-    if found is None:
-        found = _connected(loops)
-    return [
-        Solid(parts[members[0]].name, parts[members[0]].layer, points, [faces[k] for k in members])
-        for members in found
-    ]
-
-
-def _closed_in_turn(loops: Sequence[Sequence[int]]) -> list[list[int]] | None:
-    """Return runs of faces that each close a surface; None where the last run does not."""
-    runs: list[list[int]] = [[]]
-    uses: Counter[frozenset[int]] = Counter()
-    odd: set[frozenset[int]] = set()
-    for k, loop in enumerate(loops):
-        runs[-1].append(k)
-        for j in range(len(loop)):
-            side = frozenset((loop[j - 1], loop[j]))
-            if len(side) == 2:
-                uses[side] += 1
-                odd ^= {side}
-        if not odd and uses:
-            runs.append([])
-            uses.clear()
-    return None if runs.pop() else runs
-
-
-def _connected(loops: Sequence[Sequence[int]]) -> list[list[int]]:
-    """Return groups of faces that share vertices."""
-    from scipy import sparse
-
-    face = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
-    vertex = np.concatenate([np.asarray(loop) for loop in loops])
-    n, m = len(loops), int(vertex.max()) + 1
-    graph = sparse.coo_array((np.ones(len(face)), (face, n + vertex)), shape=(n + m, n + m))
-    _, part = sparse.csgraph.connected_components(graph, directed=False)
-    return [np.flatnonzero(part[:n] == label).tolist() for label in dict.fromkeys(part[:n].tolist())]
+    found = []
+    for group in groups.values():
+        points, faces = soup([part.placed(part.entity.wcs_vertices()) for part in group])
+        found += solids(group[0].name, group[0].layer, points, faces)
+    return found

@@ -23,6 +23,8 @@ from limitblocks.io.strict_json import LARGEST_FILE
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 MOST_SOLIDS = 100_000
+#: Layers, in small letters, whose blocks are supports unless the format says otherwise.
+SUPPORT_LAYERS = ("support", "supports")
 MOST_FACES = 1_000_000
 
 #: From axes with Y up to axes with Z up.
@@ -182,7 +184,7 @@ def imported(
 
 
 def _is_support(solid: Solid) -> bool:
-    on_layer = solid.layer.strip().lower() in {"support", "supports"}
+    on_layer = solid.layer.strip().lower() in SUPPORT_LAYERS
     return on_layer if solid.support is None else solid.support
 
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import MissingDependency, ModelError
-from limitblocks.io import rhino_breps
+from limitblocks.io import rhino_breps, shells
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
 
 _DEEPEST = 32  # instances within instances
@@ -34,6 +34,11 @@ class Part(NamedTuple):
     matrix: Array
     layer: str
     name: str
+
+    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Return faces in the sense they have in the model, which a mirror image turns."""
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
+        return [face[::-1] for face in faces] if mirrored else faces
 
     def placed(self, points: Array) -> Array:
         """Return points (n, 3) of the geometry in the coordinates of the model."""
@@ -72,7 +77,8 @@ def contents(path: Path) -> Contents:
             if found is None:
                 left_out[type(part.geometry).__name__] += 1
             else:
-                solids.append(Solid(part.name, part.layer, part.placed(found[0]), found[1]))
+                points, faces = part.placed(found[0]), part.turned(found[1])
+                solids += shells.solids(part.name, part.layer, points, faces)
         metres, notes = _metres(model)
     if wrong:
         raise ModelError(*wrong)

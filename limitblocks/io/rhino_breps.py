@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.geometry.coplanar import area_vector
 from limitblocks.io.imported import refuse_many
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
@@ -83,7 +84,11 @@ def _outline(face: Any, tolerance: float) -> Array | None:
         if gaps[k, end] > 10.0 * tolerance:
             return None
         corners.append(ends[left.pop(int(k)), 1 - end])
-    return np.array(corners[:-1])
+    loop = np.array(corners[:-1])
+    u, v = face.Domain(0), face.Domain(1)
+    normal = np.array(_xyz(face.NormalAt((u.T0 + u.T1) / 2, (v.T0 + v.T1) / 2)))
+    inward = bool(area_vector(loop) @ normal < 0.0) != bool(face.OrientationIsReversed)
+    return loop[::-1] if inward else loop
 
 
 def _xyz(point: Any) -> tuple[float, float, float]:
