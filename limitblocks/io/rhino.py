@@ -12,13 +12,10 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import MissingDependency, ModelError
-from limitblocks.io import rhino_breps, shells
+from limitblocks.io import rhino_breps, rhino_chunks, shells
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
 
 _DEEPEST = 32  # instances within instances
-_MAGIC = b"3D Geometry File Format "
-# the last chunk: its code, the length of what follows, the length of the file
-_END = np.dtype([("code", "<u4"), ("length", "<u8"), ("size", "<u8")])
 #: Metres per unit of Rhino's unit systems.
 _METRES = {
     "Microns": 1e-6, "Millimeters": 1e-3, "Centimeters": 1e-2, "Decimeters": 0.1, "Meters": 1.0,
@@ -89,12 +86,9 @@ def contents(path: Path) -> Contents:
 
 
 def _model(package: ModuleType, data: bytes) -> Any:
-    if not data.startswith(_MAGIC):
-        raise ModelError("is not a 3dm file: it does not begin as one")
-    # a part of a file would be read as if it were whole
-    end = np.frombuffer(data[-_END.itemsize :], dtype=_END) if len(data) > 100 else None
-    if end is None or end["code"][0] != 0x7FFF or end["size"][0] != len(data):
-        raise ModelError("is not a whole 3dm file of Rhino 5 or later: its end is missing; save it again")
+    fault = rhino_chunks.fault(data)
+    if fault:
+        raise ModelError(fault)
     with foreign("3dm"):
         model = package.File3dm.FromByteArray(data)
     if model is None:
