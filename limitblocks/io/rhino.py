@@ -12,7 +12,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import MissingDependency, ModelError
-from limitblocks.io import rhino_breps, rhino_chunks, shells
+from limitblocks.io import rhino_breps, rhino_chunks, rhino_trial, shells
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
 
 _DEEPEST = 32  # instances within instances
@@ -60,7 +60,7 @@ def rhino3dm() -> ModuleType:
 def contents(path: Path) -> Contents:
     """Return the solids in a Rhino file; hidden objects and all that is no solid are left out with a note."""
     package = rhino3dm()
-    model = _model(package, read_bytes(path))
+    model, notes = _model(package, path)
     left_out: Counter[str] = Counter()
     wrong: list[str] = []
     solids: list[Solid] = []
@@ -76,24 +76,27 @@ def contents(path: Path) -> Contents:
             else:
                 points, faces = part.placed(found[0]), part.turned(found[1])
                 solids += shells.solids(part.name, part.layer, points, faces)
-        metres, notes = _metres(model)
+        metres, said = _metres(model)
     if wrong:
         raise ModelError(*wrong)
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
     if not solids:
         raise ModelError(f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces")
-    return Contents(solids, metres, [*notes, *([f"left out: {listed}"] if listed else [])])
+    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
 
 
-def _model(package: ModuleType, data: bytes) -> Any:
-    fault = rhino_chunks.fault(data)
+def _model(package: ModuleType, path: Path) -> tuple[Any, list[str]]:
+    """Return the model in a file, and a note where rhino3dm left out objects without a word."""
+    data = read_bytes(path)
+    fault = rhino_chunks.fault(data) or rhino_trial.fault(path)
     if fault:
         raise ModelError(fault)
     with foreign("3dm"):
         model = package.File3dm.FromByteArray(data)
-    if model is None:
-        raise ModelError("is not sound 3dm: rhino3dm cannot read it; save it again in Rhino")
-    return model
+        if model is None:
+            raise ModelError("is not sound 3dm: rhino3dm cannot read it; save it again in Rhino")
+        lost = rhino_chunks.objects(data) - len(model.Objects)
+    return model, [f"left out: {lost} objects that rhino3dm cannot read, damaged or of plug-ins"] * (lost > 0)
 
 
 def _metres(model: Any) -> tuple[float | None, list[str]]:

@@ -14,7 +14,8 @@ _MAGIC = b"3D Geometry File Format "
 _FIRST = 32  # bytes before the first chunk
 _SHORT = 0x80000000
 _TABLE = 0x10000000
-_RECORDS = (0x20008070, 0x20008076, 0x00027FFA)  # object, instance definition, object of a class
+_OBJECT = 0x20008070
+_RECORDS = (_OBJECT, 0x20008076, 0x00027FFA)  # object, instance definition, object of a class
 _END = 0x00007FFF
 
 
@@ -25,7 +26,7 @@ def fault(data: bytes) -> str:
     version = data[len(_MAGIC) : _FIRST].strip()
     if not version.isdigit() or int(version) < 50:
         return f"is of 3dm version {version.decode('ascii', 'replace')!r}; save it with Rhino 5 or later"
-    at = _misfit(data, _FIRST, len(data))
+    at, _ = _walk(data)
     if at is not None:
         return f"is not a whole 3dm file: the part at byte {at} of {len(data)} is damaged or cut off"
     if data[-20:-8] != _HEADER.pack(_END, 8) or int.from_bytes(data[-8:], "little") != len(data):
@@ -33,22 +34,28 @@ def fault(data: bytes) -> str:
     return ""
 
 
-def _misfit(data: bytes, start: int, end: int) -> int | None:
-    """Return where the chunks from `start` do not fill the bytes up to `end`; None where they do."""
-    open_spans = [(start, end)]
-    while open_spans:
-        at, end = open_spans.pop()
+def objects(data: bytes) -> int:
+    """Return the number of objects in a 3dm file without fault."""
+    return _walk(data)[1]
+
+
+def _walk(data: bytes) -> tuple[int | None, int]:
+    """Return where chunks do not fill what they are in, None where all do, and the number of objects."""
+    spans, found = [(_FIRST, len(data))], 0
+    while spans:
+        at, end = spans.pop()
         while at < end:
             if end - at < _HEADER.size:
-                return at
+                return at, found
             code, length = _HEADER.unpack_from(data, at)
             body = at + _HEADER.size
             after = body if code & _SHORT else body + length
             if not body <= after <= end:
-                return at
+                return at, found
+            found += code == _OBJECT
             if not code & _SHORT and code & _TABLE:
-                open_spans.append((body, after))
+                spans.append((body, after))
             elif code in _RECORDS:
-                open_spans.append((body, after - 4 if code & 0x8000 else after))  # less its check sum
+                spans.append((body, after - 4 if code & 0x8000 else after))  # less its check sum
             at = after
-    return None
+    return None, found
