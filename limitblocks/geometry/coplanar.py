@@ -7,6 +7,7 @@ from collections import Counter
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.geometry.cracks import sides_of
 from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
 
 #: Angle between the normals of faces that count as coplanar, rad.
@@ -44,20 +45,23 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
     return _without_needless(points, tuple(found), COLLINEAR * size), warp
 
 
-def area_vector(corners: Array) -> Array:
-    """Return the area vector (3,) of a polygon of corners (n, 3), m2."""
-    arms = corners - corners[0]
-    return np.asarray(np.cross(arms[1:-1], arms[2:]).sum(axis=0) / 2.0)
+def area_vectors(points: Array, faces: Faces) -> Array:
+    """Return the area vectors (m, 3) of faces over points (n, 3), m2."""
+    sides, owner = sides_of(faces)
+    first = np.array([face[0] for face in faces])[owner]
+    swept = np.cross(points[sides[:, 0]] - points[first], points[sides[:, 1]] - points[first])
+    return np.asarray(np.add.reduceat(swept, np.flatnonzero(np.diff(owner, prepend=-1))) / 2.0)
 
 
 def _regions(points: Array, faces: Faces, limit: float) -> list[list[int]]:
     """Return groups of adjacent faces, each within `limit` of the plane of its largest face."""
-    vectors = np.array([area_vector(points[list(face)]) for face in faces])
+    vectors = area_vectors(points, faces)
     areas = np.linalg.norm(vectors, axis=1)
     normals = vectors / np.maximum(areas, np.finfo(float).tiny)[:, None]
     owner = {(face[k - 1], face[k]): f for f, face in enumerate(faces) for k in range(len(face))}
-    longest = [_longest_side(points, face) for face in faces]
-    slim = areas <= limit * np.array([np.linalg.norm(points[a] - points[b]) for a, b in longest])
+    longest, length = _longest_sides(points, faces)
+    slim = areas <= limit * length
+    least = np.cos(ANGLE)
     free = np.ones(len(faces), dtype=bool)
     regions = []
     for seed in np.argsort(-areas, kind="stable").tolist():
@@ -70,19 +74,25 @@ def _regions(points: Array, faces: Faces, limit: float) -> list[list[int]]:
                 back = faces[f][k], faces[f][k - 1]
                 g = owner[back]
                 # the normal of a slim face is noise; across a short side it would make a spike
-                opens = longest[g] == back if slim[g] else normals[g] @ normals[seed] >= np.cos(ANGLE)
-                arms = points[list(faces[g])] - points[faces[seed][0]]
-                if free[g] and opens and np.abs(arms @ normals[seed]).max() <= limit:
+                opens = longest[g] == back if slim[g] else normals[g] @ normals[seed] >= least
+                if free[g] and opens and _height(points, faces[g], faces[seed], normals[seed]) <= limit:
                     free[g] = False
                     region.append(g)
         regions.append(region)
     return regions
 
 
-def _longest_side(points: Array, face: tuple[int, ...]) -> tuple[int, int]:
-    corners = points[list(face)]
-    k = int(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1).argmax())
-    return face[k - 1], face[k]
+def _height(points: Array, face: tuple[int, ...], base: tuple[int, ...], normal: Array) -> float:
+    """Return the largest distance of a face from the plane of `normal` through a corner of `base`, m."""
+    return float(np.abs((points[list(face)] - points[base[0]]) @ normal).max())
+
+
+def _longest_sides(points: Array, faces: Faces) -> tuple[list[tuple[int, int]], Array]:
+    """Return the longest side of each face, from vertex to vertex, and the length (m,) of it, m."""
+    sides, owner = sides_of(faces)
+    lengths = np.linalg.norm(points[sides[:, 1]] - points[sides[:, 0]], axis=1)
+    last = np.lexsort((lengths, owner))[np.flatnonzero(np.diff(owner, append=-1))]
+    return [(a, b) for a, b in sides[last].tolist()], lengths[last]
 
 
 def _ring(faces: list[tuple[int, ...]]) -> tuple[int, ...]:
@@ -100,7 +110,7 @@ def _ring(faces: list[tuple[int, ...]]) -> tuple[int, ...]:
 
 def _warp(corners: Array) -> float:
     """Return the largest distance of corners (n, 3) from their mean plane, m."""
-    vector = area_vector(corners)
+    vector = area_vectors(corners, (tuple(range(len(corners))),))[0]
     length = np.linalg.norm(vector)
     heights = (corners - corners.mean(axis=0)) @ vector
     return float(np.abs(heights).max() / length) if length > 0.0 else np.inf

@@ -24,6 +24,7 @@ WELD = 1e-6
 CRACK = 5e-4
 #: Plane faces of a block; a finer mesh costs time and says nothing more.
 _MOST_FACES = 5000
+_MOST_POLYGONS = 200_000  # before those in one plane are merged
 
 
 def mended(
@@ -62,6 +63,8 @@ def mended(
     loops = tidy(loops, notes)
     if open_sides(loops).size:
         points, loops = closed(name, points, loops, CRACK * size, notes)
+    if not loops:
+        _wrong(name, "no face has an area; a solid is needed")
     loops = _outward(name, points, loops, notes)
     loops, warp = coplanar.merged(points, loops, size)
     if len(loops) > _MOST_FACES:
@@ -89,6 +92,8 @@ def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]])
         _wrong(name, f"{reprlib.repr(faces)} are not faces over vertices of shape (n, 3)")
     if points.ndim != 2 or points.shape[1] != 3:
         _wrong(name, f"vertices: shape {points.shape} given; shape (n, 3) is needed")
+    if len(loops) > _MOST_POLYGONS:
+        _wrong(name, f"it has {len(loops)} faces; at most {_MOST_POLYGONS} are taken, make the mesh coarser")
     for k, loop in enumerate(loops):
         if loop and not 0 <= min(loop) <= max(loop) < len(points):
             _wrong(name, f"face {k} = {reprlib.repr(loop)}: vertex indices run from 0 to {len(points) - 1}")
@@ -135,11 +140,9 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     if shells > 2:
         _wrong(name, f"it has {shells // 2} separate closed surfaces; one is needed, split it into blocks")
     flip = part[:m] != part[0]
-    middle = points.mean(axis=0)
-    volume = sum(
-        _volume(points[list(loop)] - middle) * (-1) ** int(t) for loop, t in zip(loops, flip, strict=True)
-    )
-    flip ^= volume < 0.0
+    arms = points[[loop[0] for loop in loops]] - points.mean(axis=0)
+    volumes = np.einsum("ij,ij->i", coplanar.area_vectors(points, loops), arms)
+    flip ^= volumes @ np.where(flip, -1.0, 1.0) < 0.0
     if flip.any():
         notes.append(
             "all faces pointed inward and are turned" if flip.all() else f"{flip.sum()} of {m} faces turned"
@@ -147,13 +150,8 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     return tuple(loop[::-1] if t else loop for loop, t in zip(loops, flip, strict=True))
 
 
-def _volume(corners: Array) -> float:
-    """Return six times the signed volume between a face and the origin, m3."""
-    return float(np.cross(corners[1:-1], corners[2:]).sum(axis=0) @ corners[0])
-
-
 def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> None:
-    for wrong, word in ((uses == 1, "the surface is open"), (uses > 2, "faces meet wrongly")):
+    for wrong, word in ((uses > 2, "faces meet wrongly"), (uses == 1, "the surface is open")):
         if wrong.any():
             a, b = points[edges[wrong.argmax()]]
             _wrong(

@@ -30,8 +30,9 @@ def contents(path: Path) -> Contents:
     ModelError
         The file is not as the format wants it, or uses compressed or sparse geometry.
     """
-    document, binary = _parts(read_bytes(path))
+    data = read_bytes(path)
     with foreign("glTF"):
+        document, binary = _parts(data)
         buffers = [_buffer(one, binary, path) for one in document.get("buffers", [])]
         found: list[Solid] = []
         faces = 0
@@ -83,7 +84,7 @@ def _buffer(buffer: dict[str, Any], binary: bytes, path: Path) -> bytes:
     if uri.startswith("data:"):
         return base64.b64decode(uri.partition(",")[2], validate=True)
     if Path(uri).name != uri:
-        raise ModelError(f"names the buffer {uri!r}; a file in the same folder is read")
+        raise ModelError(f"names the buffer {uri[:40]!r}; a file in the same folder is read")
     return read_bytes(path.with_name(uri))
 
 

@@ -10,7 +10,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import GeometryError
-from limitblocks.geometry.coplanar import area_vector
+from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
 from limitblocks.geometry.polyhedron import Faces
@@ -129,5 +129,6 @@ def _refuse_cavity(name: str, points: Array, shells: list[list[tuple[int, ...]]]
 
 def _flux(points: Array, shell: list[tuple[int, ...]]) -> float:
     """Return three times the signed volume of a shell."""
-    origin = points[shell[0][0]]
-    return float(sum(area_vector(points[list(face)]) @ (points[face[0]] - origin) for face in shell))
+    loops = tuple(shell)
+    arms = points[[loop[0] for loop in loops]] - points[loops[0][0]]
+    return float((area_vectors(points, loops) * arms).sum())

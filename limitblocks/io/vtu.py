@@ -103,7 +103,8 @@ def _blocks(model: Model, state: Array | None, field: dict[str, float]) -> bytes
     starts = np.cumsum([0, *(len(block.vertices) for block in blocks)]).tolist()
     polygons = [np.add(face, starts[k]) for k, block in enumerate(blocks) for face in block.faces]
     owner = np.repeat(np.arange(len(blocks)), [len(block.faces) for block in blocks])
-    supports = np.array([block.name in set(model.supports) for block in blocks], dtype=np.int64)
+    held = set(model.supports)
+    supports = np.array([block.name in held for block in blocks], dtype=np.int64)
     moves = (
         {}
         if state is None
