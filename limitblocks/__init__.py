@@ -19,12 +19,13 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import (
     ImportedBlocks,
     model_schema,
     read,
     read_blocks,
+    read_drawing,
     read_result,
     write_animation,
     write_blocks,
@@ -52,6 +53,7 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
     "ExactTorsion",
     "GeometryError",
     "ImportedBlocks",
@@ -80,6 +82,7 @@ __all__ = [
     "bounds",
     "check_mcp",
     "effective_strength",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
@@ -90,6 +93,7 @@ __all__ = [
     "nonassociated",
     "read",
     "read_blocks",
+    "read_drawing",
     "read_result",
     "report",
     "self_weight",

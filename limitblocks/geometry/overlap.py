@@ -1,28 +1,33 @@
-"""Interpenetration of convex blocks: separating axes, depth and common volume."""
+"""Interpenetration of blocks: separating axes, depth and common volume."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from functools import cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import GeometryError
 from limitblocks.geometry.block import Block
+from limitblocks.geometry.contacts import Overlap
 
 _CHUNK = 2_000_000  # distances held in memory at once
+_THIN = 0.5  # of the mean thickness of the thinner block: no overlap deeper than this is tolerated
 
 
-def refuse_overlaps(
+def find_overlaps(
     blocks: Sequence[Block], points: Sequence[Array], pairs: Indices, tolerance: float
-) -> None:
-    """Raise GeometryError naming every pair of blocks that interpenetrate deeper than `tolerance`.
+) -> tuple[Overlap, ...]:
+    """Return every pair of blocks that interpenetrate deeper than `tolerance`, in the order of `pairs`.
 
-    Depth is the least translation that separates the two blocks, by the separating-axis theorem: face normals
-    settle nearly all pairs, cross products of edges the rest.
+    Depth is the least translation that separates the two blocks, or their convex hulls, by the
+    separating-axis theorem: face normals settle nearly all pairs, cross products of edges the rest. Where a
+    block is not convex and the hulls do overlap, depth is the mean thickness of the common part (see
+    :class:`Overlap`). No more is tolerated than half the mean thickness, 2 volume / surface, of the thinner
+    block.
 
     Parameters
     ----------
@@ -35,20 +40,42 @@ def refuse_overlaps(
         m.
     """
     if len(pairs) == 0:
-        return
-    bodies = {k: _Body.of(blocks[k], points[k]) for k in np.unique(pairs)}
+        return ()
+    bodies = {k: _Body.of(blocks[k], points[k]) for k in np.unique(pairs).tolist()}
+    thickness = {k: 2.0 * blocks[k].volume / float(blocks[k].areas.sum()) for k in bodies}
+    limits = np.array([min(tolerance, *(_THIN * thickness[k] for k in pair)) for pair in pairs.tolist()])
     depths = np.minimum(_face_depths(bodies, pairs), _face_depths(bodies, pairs[:, ::-1]))
-    faults = []
-    for (i, j), face_depth in zip(pairs[depths > tolerance], depths[depths > tolerance], strict=True):
-        depth = min(face_depth, _edge_depth(bodies[i], bodies[j]))
-        if depth > tolerance:
-            faults.append(
-                f"blocks {blocks[i].name!r} and {blocks[j].name!r} overlap by "
-                f"{_common_volume(bodies[i], bodies[j]):.3g} m3, {depth:.3g} m deep; "
-                f"at most {tolerance:.3g} m is tolerated"
-            )
-    if faults:
-        raise GeometryError(*faults)
+    solid = cache(lambda k: _solid(blocks[k], points[k]))
+    found = []
+    deep = depths > limits
+    for (i, j), face_depth, limit in zip(pairs[deep].tolist(), depths[deep], limits[deep].tolist(), strict=True):
+        first, second = bodies[i], bodies[j]
+        convex = blocks[i].convex and blocks[j].convex
+        depth = float(face_depth)
+        if convex or len(first.edges) * len(second.edges) < _CHUNK:
+            depth = min(depth, _edge_depth(first, second, limit))
+        if depth <= limit:
+            continue
+        if convex:
+            volume = _common_volume(first, second)
+        else:
+            depth, volume = _thickness(solid(i) ^ solid(j))
+        if depth > limit:
+            found.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit))
+    return tuple(found)
+
+
+def _solid(block: Block, points: Array) -> Any:
+    from manifold3d import Manifold, Mesh64
+
+    return Manifold(Mesh64(np.ascontiguousarray(points), block.triangles.astype(np.uint64)))
+
+
+def _thickness(common: Any) -> tuple[float, float]:
+    """Return the largest mean thickness of the pieces of a solid, m, and its volume, m3."""
+    parts = [part for part in common.decompose() if part.surface_area() > 0.0]
+    depth = max((2.0 * part.volume() / part.surface_area() for part in parts), default=0.0)
+    return depth, float(common.volume())
 
 
 class _Body(NamedTuple):
@@ -83,15 +110,21 @@ def _face_depths(bodies: dict[int, _Body], pairs: Indices) -> Array:
     return depths
 
 
-def _edge_depth(first: _Body, second: _Body) -> float:
-    """Return the least depth along the cross products of an edge of each body, m."""
-    axes = np.cross(first.edges[:, None], second.edges[None]).reshape(-1, 3)
-    lengths = np.linalg.norm(axes, axis=1)
-    keep = lengths > 1e-6 * lengths.max(initial=0.0)  # parallel edges give no axis
-    axes = axes[keep] / lengths[keep, None]
-    heights, others = first.points @ axes.T, second.points @ axes.T
-    depths = np.minimum(heights.max(axis=0) - others.min(axis=0), others.max(axis=0) - heights.min(axis=0))
-    return float(depths.min(initial=np.inf))
+def _edge_depth(first: _Body, second: _Body, enough: float) -> float:
+    """Return the least depth along the cross products of an edge of each body, m; or one below `enough`."""
+    least = np.inf
+    rows = max(1, _CHUNK // max(1, len(second.edges) * (len(first.points) + len(second.points))))
+    for k in range(0, len(first.edges), rows):
+        axes = np.cross(first.edges[k : k + rows, None], second.edges[None]).reshape(-1, 3)
+        lengths = np.linalg.norm(axes, axis=1)
+        keep = lengths > 1e-6 * lengths.max(initial=0.0)  # parallel edges give no axis
+        axes = axes[keep] / lengths[keep, None]
+        heights, others = first.points @ axes.T, second.points @ axes.T
+        depths = np.minimum(heights.max(axis=0) - others.min(axis=0), others.max(axis=0) - heights.min(axis=0))
+        least = min(least, float(depths.min(initial=np.inf)))
+        if least <= enough:
+            break
+    return least
 
 
 def _common_volume(first: _Body, second: _Body) -> float:

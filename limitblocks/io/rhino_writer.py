@@ -11,13 +11,12 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import Block
 from limitblocks.io.rhino import rhino3dm
-from limitblocks.io.triangles import triangles
 
 _VERSION = 7  # of Rhino, that can open the file
 
 
 def rhino(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
-    """Return the file; faces of more than four sides become triangles."""
+    """Return the file; faces of more than four sides, or of blocks that are not convex, become triangles."""
     package = rhino3dm()
     model = package.File3dm()
     model.Settings.ModelUnitSystem = package.UnitSystem.Meters
@@ -50,11 +49,8 @@ def _mesh(package: ModuleType, block: Block) -> Any:
     mesh = package.Mesh()
     for x, y, z in block.vertices.tolist():
         mesh.Vertices.AddPoint3d(x, y, z)  # in double precision, unlike Add
-    if max(map(len, block.faces)) <= 4:
-        loops: Sequence[Sequence[int]] = block.faces
-    else:
-        loops = triangles(block)[0].tolist()
-    for loop in loops:
+    quads = block.convex and max(map(len, block.faces)) <= 4
+    for loop in block.faces if quads else block.triangles.tolist():
         mesh.Faces.AddFace(*loop)
     mesh.Normals.ComputeNormals()
     return mesh
