@@ -51,7 +51,9 @@ def contents(path: Path) -> Contents:
     with foreign("COMPAS JSON"):
         solids = list(_walk(document, np.eye(4), "", False, left_out))
     if not solids:
-        raise ModelError("holds no COMPAS assembly, model or mesh; expected blocks as compas.json_dump writes")
+        raise ModelError(
+            "holds no COMPAS assembly, model or mesh; expected blocks as compas.json_dump writes"
+        )
     return Contents(solids, None, [f"left out: {number} {kind}" for kind, number in left_out.items()])
 
 
@@ -78,29 +80,33 @@ _CLASSES = ("Assembly", "Block", "BlockElement", "Box", "Element", "Mesh", "Part
 
 def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[str]) -> Iterator[Solid]:
     """Yield the solids in `value`, put in `place` (4, 4), which stands under `key` of what holds it."""
-    kind, data, name, _ = item = thing(value)
-    if isinstance(data, list):
-        for k, part in enumerate(data):
-            if isinstance(part, dict | list):
-                yield from _walk(part, place, f"{key} {k}".strip(), support, left_out)
-    elif not isinstance(data, dict):
-        return
-    elif (found := polygons(data)) is not None:
+    kind, data, name, _ = thing(value)
+    if isinstance(data, dict) and (found := polygons(data)) is not None:
         yield _solid(found, place, name or _numbered(key), support)
-    elif "elements" in data:
-        yield from _model(data, place, left_out)
-    elif "node" in data:
-        yield from _nodes(data, place, left_out)
-    elif "graph" in data:
-        yield from _walk(data["graph"], place, key, support, left_out)
-    elif "assembly" in data and "blocks" in data:
-        yield from _network(data, place)
-    elif item.kind:
+    elif isinstance(data, dict) and (within := _known(data, place, left_out)) is not None:
+        yield from within
+    elif isinstance(data, dict) and kind and "graph" not in data:
         left_out[kind] += 1
     else:
-        for k, part in data.items():
-            if isinstance(part, dict | list):
-                yield from _walk(part, place, k, support or k.lower() in SUPPORT_LAYERS, left_out)
+        for word, part in _parts(data, key, bool(kind)):
+            yield from _walk(part, place, word, support or word.lower() in SUPPORT_LAYERS, left_out)
+
+
+def _known(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Iterator[Solid] | None:
+    """Return the solids of a layout that holds several; None where `data` is none."""
+    if "elements" in data:
+        return _model(data, place, left_out)
+    if "node" in data:
+        return _nodes(data, place, left_out)
+    return _network(data, place) if "assembly" in data and "blocks" in data else None
+
+
+def _parts(data: Any, key: str, graph_only: bool) -> Iterator[tuple[str, Any]]:
+    """Yield what a list, a dictionary or an assembly holds, each with the key it stands under."""
+    if isinstance(data, list):
+        yield from ((f"{key} {k}".strip(), part) for k, part in enumerate(data))
+    elif isinstance(data, dict):
+        yield from ((k, part) for k, part in data.items() if k == "graph" or not graph_only)
 
 
 def _numbered(key: str) -> str:

@@ -50,7 +50,7 @@ def numbers(values: Any, count: int) -> list[float]:
 
 
 def frame(value: Any) -> Array:
-    """Return the matrix (4, 4) that takes local coordinates in a frame to global ones; None is the identity."""
+    """Return the matrix (4, 4) that takes coordinates in a frame to global ones; None is the identity."""
     if value is None:
         return np.eye(4)
     data = unwrapped(value)

@@ -30,7 +30,9 @@ def compas(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
         "edge": {key: {} for key in nodes},
         "max_node": len(blocks) - 1,
     }
-    document = _object("datastructures/Assembly", {"graph": graph, "attributes": {}}, "limitblocks", "assembly")
+    document = _object(
+        "datastructures/Assembly", {"graph": graph, "attributes": {}}, "limitblocks", "assembly"
+    )
     return json.dumps(document, allow_nan=False).encode()
 
 

@@ -107,7 +107,7 @@ def opened(path: Path) -> Any:
     if read_bytes(path)[:6].startswith(b"AC10"):
         raise ModelError("is a DWG, not a DXF; save it as DXF")
     with foreign("DXF"):
-        return package.readfile(path)  # type: ignore[attr-defined]
+        return package.readfile(path)
 
 
 def metres_per_unit(drawing: Any) -> float | None:
@@ -118,13 +118,14 @@ def metres_per_unit(drawing: Any) -> float | None:
     ModelError
         The code of the unit is unknown.
     """
-    from ezdxf import units
+    from ezdxf.enums import InsertUnits
+    from ezdxf.units import conversion_factor
 
     code = drawing.header.get("$INSUNITS", 0)
     if code == 0:
         return None
     try:
-        return float(units.conversion_factor(units.InsertUnits(code), units.InsertUnits.Meters))
+        return float(conversion_factor(InsertUnits(code), InsertUnits.Meters))
     except (ValueError, TypeError, KeyError):
         raise ModelError(f"unit of length $INSUNITS is {code!r}; expected a code from 0 to 24") from None
 
@@ -152,9 +153,7 @@ def parts(drawing: Any, left_out: Counter[str]) -> Iterator[Part]:
     ModelError
         A block is missing or contains itself, or the drawing has too many entities.
     """
-    hidden = {
-        layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()
-    }
+    hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
     return _Expansion(hidden, left_out).parts(drawing.modelspace(), np.eye(4), "", "", 0)
 
 
@@ -192,7 +191,9 @@ class _Expansion:
         if depth == _DEEPEST:
             raise ModelError(f"block {title!r} contains itself, or blocks nest deeper than {_DEEPEST}")
         if insert.mcount > MOST_FACES:
-            raise ModelError(f"block reference {handle}: {insert.mcount} copies; at most {MOST_FACES} are read")
+            raise ModelError(
+                f"block reference {handle}: {insert.mcount} copies; at most {MOST_FACES} are read"
+            )
         for one in insert.multi_insert() if insert.mcount > 1 else (insert,):
             self.references += 1
             # ezdxf writes points as rows

@@ -41,10 +41,10 @@ def read_drawing(
 ) -> ImportedBlocks:
     """Return the blocks in a DXF drawing of an elevation: prisms over its closed outlines.
 
-    x of the drawing becomes X, y becomes Z, and the prisms extend along Y from -thickness / 2 to thickness / 2.
+    x of the drawing becomes X, y becomes Z; the prisms extend along Y, from -thickness / 2 to thickness / 2.
     An outline is a polyline that is closed, or ends within 1 % of its size from its start. Arcs become chords
     of at most 5 degrees, whose distance from the arc is at most 0.1 % of its radius. A text inside an outline
-    names the block. Neighbours need not share corners; gaps are a matter of :func:`limitblocks.find_interfaces`.
+    names the block. Neighbours need not share corners; gaps are left to :func:`limitblocks.find_interfaces`.
 
     Parameters
     ----------
@@ -123,30 +123,29 @@ def _outline(part: Part, notes: list[str]) -> Outline | None:
     if found is None or len(found[0]) < 3:
         return None
     points, closed = found
+    word = f"{part.kind} {part.handle} on layer {part.layer!r}"
     if not (np.abs(points) <= 1e30).all():
-        raise ModelError(f"{part.kind} {part.handle}: corners are not finite numbers up to 1e30")
+        raise ModelError(f"{word}: corners are not finite numbers up to 1e30")
     size = float(np.ptp(points, axis=0).max())
-    if np.ptp(points[:, 2]) > _FLAT * size:
-        notes.append(f"left out: {part.kind} {part.handle} on layer {part.layer!r}, not parallel to the drawing")
-        return None
     gap = float(np.linalg.norm(points[-1] - points[0]))
-    if not closed and gap > CLOSING * size:
-        notes.append(
-            f"left out: {part.kind} {part.handle} on layer {part.layer!r}, open by {gap:.3g} for a size of {size:.3g}"
-        )
-        return None
-    if not closed and gap > 0.0:
-        notes.append(f"{part.kind} {part.handle} on layer {part.layer!r}: closed over {gap:.2g} drawing units")
-    corners = points[: len(points) - (not closed or gap == 0.0), :2]
+    if gap <= CLOSING * size and not closed:
+        notes += [f"{word}: closed over a gap of {gap:.2g} drawing units"] if gap > 0.0 else []
+        closed, points = True, points[:-1]
+    elif gap == 0.0:
+        points = points[:-1]
+    corners = points[:, :2]
     ring = shapely.Polygon(corners) if len(corners) >= 3 else None
-    if ring is None or ring.area <= 1e-9 * size**2:
-        notes.append(f"left out: {part.kind} {part.handle} on layer {part.layer!r}, without area")
-        return None
-    if not ring.is_valid:
-        raise ModelError(
-            f"{part.kind} {part.handle} on layer {part.layer!r} crosses or touches itself near "
-            f"({corners[0, 0]:.6g}, {corners[0, 1]:.6g}); an outline is one simple loop"
-        )
+    for wrong, why in (
+        (np.ptp(points[:, 2]) > _FLAT * size, "it is not parallel to the drawing"),
+        (not closed, f"it is open by {gap:.3g} for a size of {size:.3g}"),
+        (ring is None or not ring.area > 1e-9 * size**2, "it has no area"),
+    ):
+        if wrong:
+            notes.append(f"left out: {word}: {why}")
+            return None
+    if not shapely.is_valid(ring):
+        near = f"{corners[0, 0]:.6g}, {corners[0, 1]:.6g}"
+        raise ModelError(f"{word} near ({near}) crosses or touches itself; an outline is one simple loop")
     return Outline(corners, part)
 
 
@@ -175,7 +174,9 @@ def _with_arcs(part: Part, rows: Array, closed: bool) -> Array:
     """Return corners (n, 2) of sides (x, y, bulge); bulge is the tangent of a quarter of the arc's angle."""
     chords = np.ceil(4.0 * np.arctan(np.abs(rows[:, 2])) / CHORD - 1e-9)
     if chords.sum() > _MOST_CHORDS:
-        raise ModelError(f"{part.kind} {part.handle} has {chords.sum():.0f} chords; at most {_MOST_CHORDS} are taken")
+        raise ModelError(
+            f"{part.kind} {part.handle} has {chords.sum():.0f} chords; at most {_MOST_CHORDS} are taken"
+        )
     corners = []
     for k, (x, y, bulge) in enumerate(rows.tolist()):
         corners.append((x, y))
@@ -190,7 +191,7 @@ def _with_arcs(part: Part, rows: Array, closed: bool) -> Array:
 
 
 def _labelled(outlines: Sequence[Outline], labels: Sequence[Part]) -> list[str]:
-    """Return the names of outlines: the only text inside, which is in no smaller outline, or the usual one."""
+    """Return the names of outlines: the only text inside and in no smaller outline, or the usual one."""
     places = [part.placed([_text_place(part.entity)])[0, :2] for part in labels]
     tree = shapely.STRtree([shapely.Polygon(outline.corners) for outline in outlines])
     inside: dict[int, list[str]] = {}

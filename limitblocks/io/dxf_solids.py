@@ -28,7 +28,7 @@ def polygons(part: Part) -> list[Polygons] | None:
     if kind == "MESH":
         return [(part.placed(entity.vertices), [tuple(face) for face in entity.faces])]
     if kind == "POLYLINE" and (entity.is_poly_face_mesh or entity.is_polygon_mesh):
-        from ezdxf.render import MeshBuilder
+        from ezdxf.render.mesh import MeshBuilder
 
         mesh = MeshBuilder.from_polyface(entity)
         return [(part.placed(mesh.vertices), mesh.faces)]
@@ -47,7 +47,7 @@ def soup(loops: Sequence[Array]) -> Polygons:
 
 def _body(part: Part) -> list[list[Any]]:
     """Return the faces of each lump of an ACIS body."""
-    from ezdxf.acis.api import load_dxf
+    from ezdxf.acis.dxf import load_dxf
     from ezdxf.acis.mesh import flat_polygon_faces_from_body
 
     try:

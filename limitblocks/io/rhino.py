@@ -54,7 +54,7 @@ def rhino3dm() -> ModuleType:
         import rhino3dm as package
     except ImportError:
         raise MissingDependency("3dm files need rhino3dm: pip install limitblocks[rhino]") from None
-    return package  # type: ignore[no-any-return]
+    return package
 
 
 def contents(path: Path) -> Contents:
@@ -81,7 +81,9 @@ def contents(path: Path) -> Contents:
         raise ModelError(*wrong)
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
     if not solids:
-        raise ModelError(f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces")
+        raise ModelError(
+            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
+        )
     return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
 
 
@@ -148,7 +150,9 @@ class _Expansion:
         if definition is None:
             raise ModelError(f"block instance {name!r}: its definition {reference.ParentIdefId} is missing")
         if depth == _DEEPEST:
-            raise ModelError(f"block {definition.Name!r} contains itself, or blocks nest deeper than {_DEEPEST}")
+            raise ModelError(
+                f"block {definition.Name!r} contains itself, or blocks nest deeper than {_DEEPEST}"
+            )
         items = [self.model.Objects.FindId(key) for key in definition.GetObjectIds()]
         where = matrix @ np.array(reference.Xform.ToFloatArray(True), dtype=np.float64).reshape(4, 4)
         yield from self.parts([i for i in items if i is not None], where, name or definition.Name, depth + 1)

@@ -10,7 +10,6 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.geometry.coplanar import area_vector
 from limitblocks.io.imported import refuse_many
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
@@ -87,7 +86,9 @@ def _outline(face: Any, tolerance: float) -> Array | None:
     loop = np.array(corners[:-1])
     u, v = face.Domain(0), face.Domain(1)
     normal = np.array(_xyz(face.NormalAt((u.T0 + u.T1) / 2, (v.T0 + v.T1) / 2)))
-    inward = bool(area_vector(loop) @ normal < 0.0) != bool(face.OrientationIsReversed)
+    inward = bool(np.cross(loop, np.roll(loop, -1, axis=0)).sum(axis=0) @ normal < 0.0) != bool(
+        face.OrientationIsReversed
+    )
     return loop[::-1] if inward else loop
 
 

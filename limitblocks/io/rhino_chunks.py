@@ -1,8 +1,8 @@
 """The chunks that a 3dm file consists of: whether they fit together.
 
-rhino3dm searches damaged files without end and takes part of a file for the whole, so that this is looked at
-first. A chunk is a code (4 bytes) and a length (8 bytes) with as many bytes after it; a short chunk has a value
-instead of the length (openNURBS, opennurbs_3dm.h).
+rhino3dm searches most damaged files without end, so that this is looked at first. A chunk is a code (4 bytes)
+and a length (8 bytes) with as many bytes after it; a short chunk has a value instead of the length
+(openNURBS, opennurbs_3dm.h).
 """
 
 from __future__ import annotations

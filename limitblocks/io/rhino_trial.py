@@ -1,4 +1,4 @@
-"""A trial of a 3dm file in a process of its own: damaged ones can make rhino3dm search without end, or crash."""
+"""A trial of a 3dm file in a process of its own: rhino3dm may search a damaged one without end, or crash."""
 
 from __future__ import annotations
 
@@ -27,7 +27,9 @@ def fault(path: Path) -> str:
     try:
         code = subprocess.run(command, capture_output=True, timeout=seconds, check=False).returncode
     except subprocess.TimeoutExpired:
-        return f"is damaged: rhino3dm does not come to an end with it in {seconds:.0f} s; save it again in Rhino"
+        return (
+            f"is damaged: rhino3dm does not come to an end with it in {seconds:.0f} s; save it again in Rhino"
+        )
     except OSError:
         return ""
     # 1 is an error of Python, as where the package is found in this process only
