@@ -31,6 +31,12 @@ UnitWeights = Annotated[
 ]
 Units = Annotated[str | None, typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft.")]
 Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
+Gap = Annotated[
+    float | None, typer.Option(help="Distance that counts as touching, in block lengths [default: 1e-3].")
+]
+Angle = Annotated[
+    float | None, typer.Option(help="Angle between faces that counts as touching, rad [default: 1e-2].")
+]
 
 
 def import_blocks(
@@ -42,6 +48,8 @@ def import_blocks(
     joint: JointName = "OrdunaLourenco",
     units: Units = None,
     up: Up = None,
+    gap: Gap = None,
+    angle: Angle = None,
     output: Output = None,
     force: Force = False,
 ) -> None:
@@ -55,9 +63,12 @@ def import_blocks(
         refuse_existing(to, force, file)
         law, load = _joint(joint, friction), mass_proportional(_vector(live))
         found = read_blocks(file, units=units, unit_weight=_unit_weight(unit_weight), up=up)
-        for note in found.notes:
-            typer.echo(f"note: {note}", err=True)
-        model = model_of(found, joint=law, supports=supports, live=load, name=file.stem)
+        model, warnings = model_of(
+            found, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
+        )
+        for word, lines in (("note", found.notes), ("warning", warnings)):
+            for line in lines:
+                typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 
 

@@ -8,10 +8,12 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.geometry.cracks import sides_of
-from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
+from limitblocks.geometry.polyhedron import Faces
 
 #: Angle between the normals of faces that count as coplanar, rad.
 ANGLE = 1e-2
+#: Distance from one plane, relative to the block's size, that counts as coplanar.
+FLAT = 1e-4
 #: Distance from the line through its neighbours, relative to the block's size, of a needless vertex.
 COLLINEAR = 1e-6
 
@@ -31,12 +33,12 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
     size : float
         Of the block, m.
     """
-    limit = PLANE_TOLERANCE * size / 2.0
+    limit = FLAT * size
     found: list[tuple[int, ...]] = []
     warp = 0.0
     for members in _regions(points, faces, limit):
         ring = _ring([faces[k] for k in members]) if len(members) > 1 else ()
-        off = _warp(points[list(ring)]) if ring else 0.0
+        off = _warp(points, ring, {v for k in members for v in faces[k]}) if ring else 0.0
         if ring and off <= 2.0 * limit:
             warp = max(warp, off)
             found.append(ring)
@@ -108,11 +110,12 @@ def _ring(faces: list[tuple[int, ...]]) -> tuple[int, ...]:
     return tuple(ring) if len(ring) == len(after) else ()
 
 
-def _warp(corners: Array) -> float:
-    """Return the largest distance of corners (n, 3) from their mean plane, m."""
-    vector = area_vectors(corners, (tuple(range(len(corners))),))[0]
+def _warp(points: Array, ring: tuple[int, ...], vertices: set[int]) -> float:
+    """Return the largest distance of `vertices` from the mean plane of a ring, m."""
+    corners = points[list(ring)]
+    vector = area_vectors(corners, (tuple(range(len(ring))),))[0]
     length = np.linalg.norm(vector)
-    heights = (corners - corners.mean(axis=0)) @ vector
+    heights = (points[list(vertices)] - corners.mean(axis=0)) @ vector
     return float(np.abs(heights).max() / length) if length > 0.0 else np.inf
 
 

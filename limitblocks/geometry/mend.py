@@ -132,21 +132,25 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     # each face appears twice, as given and turned: what is tied together has one sense
     ties = np.concatenate([f, f + m]), np.concatenate([g + turned, (g + turned + m) % (2 * m)])
     graph = sparse.coo_array((np.ones(len(ties[0])), ties), shape=(2 * m, 2 * m))
-    shells, part = sparse.csgraph.connected_components(graph, directed=False)
+    _, part = sparse.csgraph.connected_components(graph, directed=False)
     if (part[:m] == part[m:]).any():
         _wrong(
             name, "the faces have no inner and outer side, as on a Moebius strip; a closed surface is needed"
         )
-    if shells > 2:
-        _wrong(name, f"it has {shells // 2} separate closed surfaces; one is needed, split it into blocks")
-    flip = part[:m] != part[0]
+    # one label of each shell, that of most of its faces as given
+    shell, labels = np.unique(np.minimum(part[:m], part[m:]), return_inverse=True)
+    flip = part[:m] != shell[labels]
+    flip ^= (np.bincount(labels, flip) * 2 > np.bincount(labels))[labels]
     arms = points[[loop[0] for loop in loops]] - points.mean(axis=0)
-    volumes = np.einsum("ij,ij->i", coplanar.area_vectors(points, loops), arms)
-    flip ^= volumes @ np.where(flip, -1.0, 1.0) < 0.0
+    volumes = np.einsum("ij,ij->i", coplanar.area_vectors(points, loops), arms) * np.where(flip, -1.0, 1.0)
+    volume = np.bincount(labels, volumes)
+    outer = np.abs(volume).argmax()
+    if np.sum(volume * volume[outer] > 0.0) > 1:
+        _wrong(name, f"it has {len(shell)} separate closed surfaces; one is needed, split it into blocks")
+    flip ^= volume[outer] < 0.0
     if flip.any():
-        notes.append(
-            "all faces pointed inward and are turned" if flip.all() else f"{flip.sum()} of {m} faces turned"
-        )
+        whole = f"{flip.sum()} of {m} faces turned"
+        notes.append("all faces pointed inward and are turned" if flip.all() else whole)
     return tuple(loop[::-1] if t else loop for loop, t in zip(loops, flip, strict=True))
 
 

@@ -18,7 +18,6 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.io.imported import Z_UP
 from limitblocks.io.motion import motion
-from limitblocks.io.triangles import triangles
 from limitblocks.io.written import write
 from limitblocks.model import Model
 
@@ -123,10 +122,9 @@ class _Data:
 
 def _primitive(data: _Data, block: Block, material: int) -> dict[str, Any]:
     points = (block.vertices - block.centroid) @ Z_UP
-    order, _ = triangles(block)
     return {
         "attributes": {"POSITION": data.add(points.astype("<f4"), _FLOAT, "VEC3", _VERTICES)},
-        "indices": data.add(order.astype("<u4").reshape(-1, 1), _INT, "SCALAR", _INDICES),
+        "indices": data.add(block.triangles.astype("<u4").reshape(-1, 1), _INT, "SCALAR", _INDICES),
         "material": material,
     }
 

@@ -14,7 +14,6 @@ from limitblocks.io.dxf_writer import dxf
 from limitblocks.io.glb import glb
 from limitblocks.io.imported import ImportedBlocks
 from limitblocks.io.rhino_writer import rhino
-from limitblocks.io.triangles import triangles
 from limitblocks.io.written import write
 from limitblocks.model import Model
 
@@ -73,8 +72,10 @@ def _stl(blocks: Sequence[Block], _: dict[str, str]) -> bytes:
     lines: list[str] = []
     for block in blocks:
         lines.append(f"solid {_line(block.name)}")
-        order, face = triangles(block)
-        for corners, normal in zip(block.vertices[order].tolist(), block.normals[face].tolist(), strict=True):
+        trios = block.vertices[block.triangles]
+        normals = np.cross(trios[:, 1] - trios[:, 0], trios[:, 2] - trios[:, 0])
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+        for corners, normal in zip(trios.tolist(), normals.tolist(), strict=True):
             lines.append(f" facet normal {_digits(normal)}\n  outer loop")
             lines += [f"   vertex {_digits(corner)}" for corner in corners]
             lines.append("  endloop\n endfacet")

@@ -9,7 +9,6 @@ import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import GeometryError
 from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
@@ -22,12 +21,8 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
 
     Faces belong to one solid that share edges by their indices, else by the places of their vertices. Where
     touching solids share edges, a solid ends where its surface closes, in the order of the faces. What does
-    not close is left together, for :func:`limitblocks.geometry.mend.mended` to say what is wrong.
-
-    Raises
-    ------
-    GeometryError
-        A solid has a cavity.
+    not close is left together, for :func:`limitblocks.geometry.mend.mended` to say what is wrong. Cavities
+    are faces of the solid around them: surfaces that point inward inside one that points outward.
     """
     points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
     loops = tuple(map(tuple, faces))
@@ -35,7 +30,7 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
         return []
     groups = _groups(name, points, loops) if _in_range(points, loops) else [list(range(len(loops)))]
     if len(groups) > 1:
-        _refuse_cavity(name, points, [[loops[k] for k in group] for group in groups])
+        groups = _with_cavities(points, loops, groups)
     found = []
     for group in groups:
         used, number = np.unique(np.concatenate([loops[k] for k in group]), return_inverse=True)
@@ -116,19 +111,23 @@ def _by_order(loops: Faces) -> list[list[int]]:
     return groups[:-1] if not groups[-1] else []
 
 
-def _refuse_cavity(name: str, points: Array, shells: list[list[tuple[int, ...]]]) -> None:
-    """Refuse a shell that points inward inside another that points outward."""
+def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list[list[int]]:
+    """Return the groups, those that point inward inside another put to it: they are its cavities."""
+    shells = [tuple(loops[k] for k in group) for group in groups]
     bodies = [points[np.unique(np.concatenate(shell))] for shell in shells]
     low, high = (np.array([f(body, axis=0) for body in bodies]) for f in (np.min, np.max))
-    inward = np.array([_flux(points, shell) < 0.0 for shell in shells])
-    for k in np.flatnonzero(inward):
-        if (~inward & (low < low[k]).all(axis=1) & (high > high[k]).all(axis=1)).any():
-            middle = ", ".join(f"{value:.6g}" for value in (low[k] + high[k]) / 2.0)
-            raise GeometryError(f"block {name!r}: it has a cavity about ({middle}); a block is solid")
+    volumes = np.array([_flux(points, shell) for shell in shells])
+    whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
+    for k in np.flatnonzero(volumes < 0.0).tolist():
+        around = (volumes > -volumes[k]) & (low < low[k]).all(axis=1) & (high > high[k]).all(axis=1)
+        if whole and around.any():
+            whole[int(np.where(around, volumes, np.inf).argmin())] += groups[k]
+        else:
+            whole[k] = list(groups[k])
+    return [whole[k] for k in sorted(whole)]
 
 
-def _flux(points: Array, shell: list[tuple[int, ...]]) -> float:
+def _flux(points: Array, shell: Faces) -> float:
     """Return three times the signed volume of a shell."""
-    loops = tuple(shell)
-    arms = points[[loop[0] for loop in loops]] - points[loops[0][0]]
-    return float((area_vectors(points, loops) * arms).sum())
+    arms = points[[loop[0] for loop in shell]] - points[shell[0][0]]
+    return float((area_vectors(points, shell) * arms).sum())

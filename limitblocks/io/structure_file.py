@@ -6,8 +6,8 @@ import logging
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from limitblocks.errors import ModelError
-from limitblocks.geometry import Block, find_interfaces
+from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry import Block, find_contacts
 from limitblocks.io import faults, model_file
 from limitblocks.io.formats import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
@@ -30,13 +30,15 @@ def read(
     up: str | None = None,
     dead: Load | None = None,
     live: Load | None = None,
+    gap: float | None = None,
+    angle: float | None = None,
 ) -> Model:
     """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
 
     A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
     bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
-    :func:`limitblocks.find_interfaces`. What had to be mended is logged as a warning, a line each;
-    :func:`limitblocks.read_blocks` returns it.
+    :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
+    warnings, a line each; :func:`limitblocks.read_blocks` and :func:`limitblocks.find_contacts` return them.
 
     Parameters
     ----------
@@ -56,6 +58,8 @@ def read(
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
+    gap, angle : float, optional
+        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad.
 
     Raises
     ------
@@ -73,16 +77,19 @@ def read(
         "units": units,
         "up": up,
     }
-    said = [key for key, value in (given | {"dead": dead, "live": live}).items() if value is not None]
+    said = [key for key, value in given.items() if value is not None]
     if is_model_file(path) and said:
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
     found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
-    for note in found.notes:
-        _log.warning("%s: %s", path, note)
     with faults.named(path):
-        return model_of(found, joint=joint, supports=supports, live=live, dead=dead, name=path.stem)
+        model, warnings = model_of(
+            found, joint=joint, supports=supports, live=live, dead=dead, gap=gap, angle=angle, name=path.stem
+        )
+    for line in (*found.notes, *warnings):
+        _log.warning("%s: %s", path, line)
+    return model
 
 
 def model_of(
@@ -92,9 +99,11 @@ def model_of(
     supports: Supports | None,
     live: Load | None,
     dead: Load | None = None,
+    gap: float | None = None,
+    angle: float | None = None,
     name: str = "",
-) -> Model:
-    """Return the model of blocks that were read, with the interfaces found between them.
+) -> tuple[Model, list[str]]:
+    """Return the model of blocks that were read, and what is worth a look in their contacts, a line each.
 
     Raises
     ------
@@ -109,8 +118,12 @@ def model_of(
             *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
         )
     names = supports_of(found, supports)
-    interfaces = find_interfaces(found.blocks, joint)
-    return Model(found.blocks, names, interfaces, self_weight() if dead is None else dead, live, name)
+    tolerances = {key: value for key, value in (("gap", gap), ("angle", angle)) if value is not None}
+    contacts = find_contacts(found.blocks, joint, **tolerances)
+    if contacts.overlaps:
+        raise GeometryError(*map(str, contacts.overlaps))
+    loads = self_weight() if dead is None else dead
+    return Model(found.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
 
 
 def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:

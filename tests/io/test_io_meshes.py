@@ -177,13 +177,33 @@ def test_names_become_unique_and_say_so(tmp_path):
     assert found.notes == ("3 blocks are named 'a'; all but the first got a number",)
 
 
-def test_block_with_a_cavity_is_refused(tmp_path):
+def test_cavity_belongs_to_the_block_around_it(tmp_path):
     outer, inner = trimesh.creation.box((3, 3, 3)), trimesh.creation.box((1, 1, 1))
     inner.invert()
+    beside = trimesh.creation.box((3, 3, 3))
+    beside.apply_translation((3, 0, 0))
     path = tmp_path / "hollow.stl"
-    trimesh.util.concatenate([outer, inner]).export(path)
-    with pytest.raises(lb.ModelError, match=r"'hollow'.* cavity about \(0, 0, 0\)"):
-        lb.read_blocks(path)
+    trimesh.util.concatenate([inner, outer, beside]).export(path)
+    found = lb.read_blocks(path)
+    assert [block.volume for block in found.blocks] == pytest.approx([26.0, 27.0])
+    again = lb.read_blocks(lb.write_blocks(found, tmp_path / "again.obj"))
+    assert [block.volume for block in again.blocks] == pytest.approx([26.0, 27.0])
+
+
+CONCAVE = lb.Block(
+    "angle",
+    [(x, y, z) for z in (0.0, 1.0) for x, y in ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))],
+    [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6))],
+)
+
+
+@pytest.mark.parametrize("suffix", PRECISION)
+def test_block_that_is_not_convex_keeps_its_shape(suffix, tmp_path):
+    path = lb.write_blocks([CONCAVE], tmp_path / f"angle{suffix}")
+    (block,) = lb.read_blocks(path).blocks
+    assert block.volume == pytest.approx(3.0, rel=PRECISION[suffix])
+    assert sorted(block.areas) == pytest.approx([1, 1, 1, 1, 2, 2, 3, 3], rel=PRECISION[suffix])
+    assert not block.convex
 
 
 def test_read_makes_a_model_and_logs_what_was_mended(tmp_path, caplog):
