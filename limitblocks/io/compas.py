@@ -46,7 +46,9 @@ def contents(path: Path) -> Contents:
     """Return the solids in a file of COMPAS JSON; lengths are in the unit of whoever wrote it."""
     document = strict_json.parse(strict_json.read_text(path))
     if isinstance(document, dict) and "schema_version" in document:
-        raise ModelError("is a model file of limitblocks, not COMPAS JSON; limitblocks.read(file).blocks are its blocks")
+        raise ModelError(
+            "is a model file of limitblocks, not COMPAS JSON; limitblocks.read(file).blocks are its blocks"
+        )
     left_out: Counter[str] = Counter()
     with foreign("COMPAS JSON"):
         solids = list(_walk(document, np.eye(4), "", False, left_out))

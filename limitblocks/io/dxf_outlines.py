@@ -100,7 +100,9 @@ def _solids(drawing: Any, depth: float, layers: Sequence[str] | None) -> tuple[l
         else:
             outlines.append(outline)
     if not outlines:
-        raise ModelError(f"holds no closed outline{f' but {dxf.listed(left_out)}' if left_out else ''}")
+        raise ModelError(
+            f"holds no closed outline{f' but {dxf.listed(left_out)}' if left_out else ''}", *notes
+        )
     names = _labelled(outlines, labels)
     solids = [
         Solid(name, outline.part.layer, *_prism(outline.corners, depth))
@@ -138,7 +140,7 @@ def _outline(part: Part, notes: list[str]) -> Outline | None:
     for wrong, why in (
         (np.ptp(points[:, 2]) > _FLAT * size, "it is not parallel to the drawing"),
         (not closed, f"it is open by {gap:.3g} for a size of {size:.3g}"),
-        (ring is None or not ring.area > 1e-9 * size**2, "it has no area"),
+        (ring is None or not ring.convex_hull.area > 1e-9 * size**2, "it has no area"),
     ):
         if wrong:
             notes.append(f"left out: {word}: {why}")
