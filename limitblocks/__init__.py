@@ -2,6 +2,7 @@
 
 from limitblocks import structures
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.loading import Settings
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
@@ -54,6 +55,7 @@ __all__ = [
     "CheckFailed",
     "Claim",
     "Contacts",
+    "Diagnosis",
     "ExactTorsion",
     "GeometryError",
     "ImportedBlocks",
@@ -81,6 +83,7 @@ __all__ = [
     "YieldRows",
     "bounds",
     "check_mcp",
+    "diagnose",
     "effective_strength",
     "find_contacts",
     "find_interfaces",

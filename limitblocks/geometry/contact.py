@@ -99,7 +99,7 @@ def find_contacts(
     centre = np.mean([block.vertices[0] for block in blocks], axis=0)
     points = [block.vertices - centre for block in blocks]
     pairs = _neighbours(points, NEAR * tolerance)
-    overlaps = _overlaps(blocks, points, pairs, tolerance)
+    overlaps = find_overlaps(blocks, points, pairs, tolerance)
     faces = all_faces(blocks, points)
     seen = patches(faces, *opposed(faces, pairs, NEAR * tolerance, min(NEAR * angle, np.pi / 4)), length)
     whole = shapely.area(seen.shape) > seen.least
@@ -123,19 +123,6 @@ def _neighbours(points: Sequence[Array], tolerance: float) -> Indices:
     low = np.array([body.min(axis=0) for body in points])
     high = np.array([body.max(axis=0) for body in points])
     return overlapping_boxes(low - tolerance, high + tolerance)
-
-
-def _overlaps(
-    blocks: Sequence[Block], points: Sequence[Array], pairs: Indices, tolerance: float
-) -> tuple[Overlap, ...]:
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
-    least = (high - low).min(axis=1)
-    i, j = pairs.T
-    # a block thinner than the tolerance may lie inside another
-    slight = np.minimum(tolerance, np.minimum(least[i], least[j]) * 1e-3)
-    deep = (np.minimum(high[i] - low[j], high[j] - low[i]) > slight[:, None]).all(axis=1)
-    return find_overlaps(blocks, points, pairs[deep], tolerance)
 
 
 def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None:
@@ -166,9 +153,7 @@ def _near_misses(
 def _slivers(names: Sequence[str], faces: FaceTable, found: Patches) -> tuple[Sliver, ...]:
     area = shapely.area(found.shape)
     numbers = np.column_stack([area, 2.0 * area / shapely.length(found.shape)]).tolist()
-    return tuple(
-        Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True)
-    )
+    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True))
 
 
 def _interfaces(

@@ -33,7 +33,9 @@ class NearMiss:
     area: float
 
     def __str__(self) -> str:
-        return f"{self.block_i}|{self.block_j} (gap {self.gap:.3g} m, {self.angle:.3g} rad, {self.area:.3g} m2)"
+        return (
+            f"{self.block_i}|{self.block_j} (gap {self.gap:.3g} m, {self.angle:.3g} rad, {self.area:.3g} m2)"
+        )
 
 
 @dataclass(frozen=True)
@@ -111,15 +113,18 @@ class Contacts:
     @property
     def warnings(self) -> list[str]:
         """A line for each kind of thing found beside the interfaces, and for each overlap."""
-        kinds: list[tuple[str, Sequence[Any]]] = [
-            ("no interface between blocks that nearly touch", self.near_misses),
-            ("blocks without any interface", self.isolated),
-            ("contacts left out because they are too small", self.slivers),
-        ]
         lines = [str(overlap) for overlap in self.overlaps[:_SHOWN]]
         if len(self.overlaps) > _SHOWN:
             lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")
-        return lines + [f"{words}: {_some(found)}" for words, found in kinds if found]
+        lines += self._line("no interface between blocks that nearly touch", self.near_misses)
+        lines += self._line("blocks without any interface", self.isolated)
+        return lines + self._line("contacts left out because they are too small", self.slivers)
+
+    @staticmethod
+    def _line(words: str, found: Sequence[object]) -> list[str]:
+        """Return one line that names the first of what was found; none when nothing was."""
+        more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+        return [f"{words}: {', '.join(map(str, found[:_SHOWN]))}{more}"] if found else []
 
     def to_dict(self) -> dict[str, Any]:
         """Return all as plain numbers, lists and text, the interfaces without their joint; SI units."""
@@ -140,12 +145,11 @@ class Contacts:
         return {"interfaces": interfaces, "isolated": list(self.isolated)} | found
 
     def __str__(self) -> str:
-        return (
-            f"contacts: {len(self.interfaces)} interfaces, {len(self.near_misses)} near misses, "
-            f"{len(self.overlaps)} overlaps, {len(self.isolated)} isolated blocks, {len(self.slivers)} slivers"
+        counts = (
+            (self.interfaces, "interfaces"),
+            (self.near_misses, "near misses"),
+            (self.overlaps, "overlaps"),
+            (self.isolated, "isolated blocks"),
+            (self.slivers, "slivers"),
         )
-
-
-def _some(found: Sequence[Any]) -> str:
-    shown = ", ".join(map(str, found[:_SHOWN]))
-    return shown + (f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else "")
+        return ", ".join(f"{len(found)} {words}" for found, words in counts)

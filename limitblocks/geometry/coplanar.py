@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -38,13 +39,31 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
     warp = 0.0
     for members in _regions(points, faces, limit):
         ring = _ring([faces[k] for k in members]) if len(members) > 1 else ()
-        off = _warp(points, ring, {v for k in members for v in faces[k]}) if ring else 0.0
+        off = warp_of(points, ring, {v for k in members for v in faces[k]}) if ring else 0.0
         if ring and off <= 2.0 * limit:
             warp = max(warp, off)
             found.append(ring)
         else:
             found += [faces[k] for k in members]
     return _without_needless(points, tuple(found), COLLINEAR * size), warp
+
+
+def divided(points: Array, faces: Faces) -> Faces:
+    """Return the faces; those that meet a vertex twice, as an outline bridged to a hole, in triangles."""
+    from manifold3d import triangulate
+
+    found: list[tuple[int, ...]] = []
+    for face in faces:
+        if len(set(face)) == len(face):
+            found.append(face)
+            continue
+        corners = points[list(face)]
+        normal = area_vectors(corners, (tuple(range(len(face))),))[0]
+        # the two axes nearest to the plane, in the order that keeps the sense of rotation
+        k = int(np.abs(normal).argmax())
+        axes = [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
+        found += [tuple(face[v] for v in trio) for trio in triangulate([corners[:, axes]]).tolist()]
+    return tuple(found)
 
 
 def area_vectors(points: Array, faces: Faces) -> Array:
@@ -110,7 +129,7 @@ def _ring(faces: list[tuple[int, ...]]) -> tuple[int, ...]:
     return tuple(ring) if len(ring) == len(after) else ()
 
 
-def _warp(points: Array, ring: tuple[int, ...], vertices: set[int]) -> float:
+def warp_of(points: Array, ring: tuple[int, ...], vertices: Iterable[int]) -> float:
     """Return the largest distance of `vertices` from the mean plane of a ring, m."""
     corners = points[list(ring)]
     vector = area_vectors(corners, (tuple(range(len(ring))),))[0]

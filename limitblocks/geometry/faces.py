@@ -149,7 +149,7 @@ def _opposed(faces: FaceTable, pairs: Indices, tolerance: float, angle: float) -
 
 
 def _facing(faces: FaceTable, pairs: Indices, tolerance: float) -> tuple[Indices, Indices]:
-    """Return the pairs of regions of `pairs` of blocks of which each reaches the bounds of the other block."""
+    """Return the pairs of regions of `pairs` of blocks, each within the bounds of the other block."""
     low = np.minimum.reduceat(faces.low, faces.start)
     high = np.maximum.reduceat(faces.high, faces.start)
     near, count = [], []

@@ -16,7 +16,7 @@ from limitblocks.errors import GeometryError
 from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
-from limitblocks.geometry.polyhedron import Faces
+from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
 
 #: Distance, relative to the block's size, below which two vertices are one.
 WELD = 1e-6
@@ -60,7 +60,7 @@ def mended(
     notes: list[str] = []
     size = float(np.ptp(points, axis=0).max())
     points, loops = _welded(name, points, loops, WELD * size, notes)
-    loops = tidy(loops, notes)
+    loops = coplanar.divided(points, tidy(loops, notes))
     if open_sides(loops).size:
         points, loops = closed(name, points, loops, CRACK * size, notes)
     if not loops:
@@ -69,6 +69,7 @@ def mended(
     loops, warp = coplanar.merged(points, loops, size)
     if len(loops) > _MOST_FACES:
         _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
+    _refuse_warped(name, points, loops, PLANE_TOLERANCE * size)
     if warp > WELD * size:
         notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
     used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
@@ -162,6 +163,17 @@ def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> Non
                 name,
                 f"{word}: edges that belong to {uses[wrong.argmax()]} faces: {wrong.sum()}, the first from "
                 f"{_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
+            )
+
+
+def _refuse_warped(name: str, points: Array, loops: Faces, limit: float) -> None:
+    for loop in loops:
+        if len(loop) > 3 and (off := coplanar.warp_of(points, loop, loop)) > limit:
+            corners = ", ".join(_place(points[vertex]) for vertex in loop[:8])
+            _wrong(
+                name,
+                f"the face {corners}{', ...' * (len(loop) > 8)} is not planar: a corner lies {off:.3g} m out of "
+                f"its plane; at most {limit:.3g} m is allowed, split it into triangles",
             )
 
 

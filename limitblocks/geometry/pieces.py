@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 from typing import Any
 
@@ -106,7 +107,7 @@ def _triangles(shape: Any) -> list[list[Point]]:
 
 
 def _merged(loops: list[list[Point]]) -> list[list[Point]]:
-    """Merge neighbouring convex loops as long as they stay convex, across their longest common sides first."""
+    """Merge neighbouring loops as long as they stay convex, across their longest common sides first."""
     sides = {side: k for k, loop in enumerate(loops) for side in pairwise([*loop, loop[0]])}
     common = [(u, v) for u, v in sides if u < v and (v, u) in sides]
     for u, v in sorted(common, key=lambda ends: (-_squared(*ends), ends)):
@@ -135,4 +136,4 @@ def _squared(a: Point, b: Point) -> float:
 
 def _turn(a: Point, b: Point, c: Point) -> float:
     """Return the distance of corner b from the line through a and c; negative at a reflex corner."""
-    return _cross(a, b, c) / max(_squared(a, c), 1.0) ** 0.5
+    return _cross(a, b, c) / math.sqrt(max(_squared(a, c), 1.0))

@@ -34,9 +34,9 @@ class Surfaces(NamedTuple):
 def regions(surfaces: Surfaces) -> Indices:
     """Return the region (m,) of each face: the number of its first face.
 
-    Faces across an edge are tried for one plane where the corners of each lie in the plane of the other. All
-    that is linked so is one region where all its corners lie in its mean plane; otherwise, as on a finely
-    faceted cylinder, it stays apart. The tolerance is 1e-6 of the block's size, then that of a face.
+    Faces on both sides of an edge are linked where their corners lie in a common plane. All that is linked
+    so is one region where all its corners lie in its mean plane; otherwise, as on a finely faceted cylinder,
+    it stays apart. The tolerance is 1e-6 of the block's size, then that of a face.
     """
     region = np.arange(len(surfaces.size))
     near = _level_pairs(surfaces)
@@ -44,16 +44,10 @@ def regions(surfaces: Surfaces) -> Indices:
         return region
     for tolerance in _FLAT:
         flat = tolerance * surfaces.size
-        normal, middle = _planes(surfaces, region)
-        a, b = region[near].T
-        links = near[(a != b) & _in_plane(surfaces, region, a, b, normal, middle, flat)]
-        tried = _linked(region, links)
-        normal, middle = _planes(surfaces, tried)
-        own = tried[surfaces.face]
-        high = np.abs(np.einsum("ij,ij->i", surfaces.corner - middle[own], normal[own])) > flat[own]
-        uneven = np.zeros(len(region), dtype=bool)
-        uneven[own[high]] = True
-        region = np.where(uneven[tried], region, tried)
+        ends = region[near]
+        ends = ends[ends[:, 0] != ends[:, 1]]
+        tried = _linked(region, ends[_even(surfaces, region, ends, flat)])
+        region = np.where(_uneven(surfaces, tried, flat)[tried], region, tried)
     return region
 
 
@@ -62,37 +56,37 @@ def _level_pairs(surfaces: Surfaces) -> Indices:
     normal = surfaces.area_vector / np.linalg.norm(surfaces.area_vector, axis=1)[:, None]
     once = surfaces.face < surfaces.beyond
     pairs = np.column_stack([surfaces.face[once], surfaces.beyond[once]])
-    return pairs[np.einsum("ij,ij->i", *normal[pairs].swapaxes(0, 1)) > _LEVEL]
+    return np.asarray(pairs[np.einsum("ij,ij->i", *normal[pairs].swapaxes(0, 1)) > _LEVEL])
 
 
-def _planes(surfaces: Surfaces, region: Indices) -> tuple[Array, Array]:
-    """Return unit normals and mean corners (m, 3) of regions, each at the number of its first face."""
-    m = len(region)
-    own = region[surfaces.face]
-    count = np.maximum(np.bincount(own, minlength=m), 1)[:, None]
-    middle = np.column_stack([np.bincount(own, x, m) for x in surfaces.corner.T]) / count
-    vector = np.column_stack([np.bincount(region, x, m) for x in surfaces.area_vector.T])
-    length = np.linalg.norm(vector, axis=1)[:, None]
-    return vector / np.maximum(length, np.finfo(float).tiny), middle
-
-
-def _in_plane(
-    surfaces: Surfaces, region: Indices, a: Indices, b: Indices, normal: Array, middle: Array, flat: Array
-) -> Any:
-    """Tell of pairs of regions whether the corners of each lie in the plane of the other, shape (p,)."""
+def _even(surfaces: Surfaces, region: Indices, pairs: Indices, flat: Array) -> Any:
+    """Tell of pairs (p, 2) of regions whether their corners lie in a common plane, shape (p,)."""
     own = region[surfaces.face]
     order = np.argsort(own, kind="stable")
     number = np.bincount(own, minlength=len(region))
     start = np.cumsum(number) - number
-    sound = np.ones(len(a), dtype=bool)
-    for plane, other in ((a, b), (b, a)):
-        pair = np.repeat(np.arange(len(other)), number[other])
-        place = np.arange(len(pair)) - np.repeat(np.cumsum(number[other]) - number[other], number[other])
-        corner = surfaces.corner[order[start[other][pair] + place]]
-        arms = corner - middle[plane[pair]]
-        high = np.abs(np.einsum("ij,ij->i", arms, normal[plane[pair]])) > flat[plane[pair]]
-        sound[pair[high]] = False
-    return sound
+    each = pairs.ravel()
+    owner = np.repeat(np.arange(len(each)), number[each])
+    place = np.arange(len(owner)) - np.repeat(np.cumsum(number[each]) - number[each], number[each])
+    vectors = np.column_stack([np.bincount(region, x, len(region)) for x in surfaces.area_vector.T])
+    corners, pair = surfaces.corner[order[start[each][owner] + place]], owner // 2
+    return ~_off_plane(corners, pair, vectors[pairs].sum(axis=1), flat[pairs[:, 0]])
+
+
+def _uneven(surfaces: Surfaces, region: Indices, flat: Array) -> Any:
+    """Tell of regions, each at the number of its first face, whether a corner is out of the plane, (m,)."""
+    vectors = np.column_stack([np.bincount(region, x, len(region)) for x in surfaces.area_vector.T])
+    return _off_plane(surfaces.corner, region[surfaces.face], vectors, flat)
+
+
+def _off_plane(corners: Array, owner: Indices, vectors: Array, flat: Array) -> Any:
+    """Tell of m groups of corners (k, 3) whether one is off the plane square to the area vector, (m,)."""
+    m = len(vectors)
+    count = np.maximum(np.bincount(owner, minlength=m), 1)[:, None]
+    middle = np.column_stack([np.bincount(owner, x, m) for x in corners.T]) / count
+    normal = vectors / np.maximum(np.linalg.norm(vectors, axis=1), np.finfo(float).tiny)[:, None]
+    height = np.einsum("ij,ij->i", corners - middle[owner], normal[owner])
+    return np.bincount(owner, np.abs(height) > flat[owner], m) > 0
 
 
 def _linked(region: Indices, links: Indices) -> Indices:

@@ -39,7 +39,7 @@ def surface_fault(points: Array, edges: Mesh, normals: Array, size: float) -> st
 
 
 def triangles(points: Array, edges: Mesh, normals: Array) -> tuple[Indices, Indices]:
-    """Return the vertices (t, 3), counter-clockwise from outside, and the face (t,) of triangles of the faces.
+    """Return triangles of the faces: vertices (t, 3), counter-clockwise from outside, and their face (t,).
 
     Fans for faces without reflex corners, ear clipping for the others; no vertices are added.
     """
@@ -70,7 +70,7 @@ def _bent(points: Array, edges: Mesh, normals: Array) -> Indices:
 
 
 def _loop(edges: Mesh, face: int) -> Indices:
-    return edges.start[edges.face == face]
+    return np.asarray(edges.start[edges.face == face])
 
 
 def _flat(points: Array, normal: Array) -> Array:
@@ -128,8 +128,8 @@ def _shell_fault(points: Array, edges: Mesh, sides: tuple[Indices, Indices]) -> 
         first = int(np.flatnonzero(shell == k)[0])
         if volumes[k] > 0.0:
             return (
-                f"face {first} belongs to a second piece, or to a cavity whose faces point out of it; a block "
-                "is one piece, and the faces of a cavity point into the cavity"
+                f"face {first} belongs to a second piece, or to a cavity whose faces point out of it; a "
+                "block is one piece, and the faces of a cavity point into the cavity"
             )
         others = shell[face] != k
         if _winding(points[corners[~others][0, 0]], points[corners[others]]) != 1:

@@ -135,6 +135,28 @@ def test_slightly_warped_quadrilateral_is_taken_as_flat_with_a_note():
     assert "flat within" in notes[0]
 
 
+def test_outline_bridged_to_a_hole_is_read():
+    outer = [(x, y) for x, y in ((0, 0), (3, 0), (3, 3), (0, 3))]
+    inner = [(x, y) for x, y in ((1, 1), (2, 1), (2, 2), (1, 2))]
+    vertices = [(x, y, z) for z in (0.0, 1.0) for x, y in outer + inner]  # 0-3, 4-7 below; 8-11, 12-15 above
+    top = (8, 9, 10, 11, 8, 12, 15, 14, 13, 12)
+    bottom = tuple(v - 8 for v in reversed(top))
+    sides = [(k, (k + 1) % 4, (k + 1) % 4 + 8, k + 8) for k in range(4)]
+    sides += [((k + 1) % 4 + 4, k + 4, k + 12, (k + 1) % 4 + 12) for k in range(4)]
+    found, notes = mended("frame", vertices, [top, bottom, *sides])
+    assert found.volume == pytest.approx(8.0)
+    assert notes == ()
+
+
+def test_face_that_is_not_planar_is_named_by_its_corners():
+    vertices = BOX.vertices.copy()
+    vertices[7] += (0.0, 0.0, 0.1)
+    with pytest.raises(
+        lb.GeometryError, match=r"'box'.*\(1, 2, 3.1\).*is not planar.*split it into triangles"
+    ):
+        mended("box", vertices, BOX.faces)
+
+
 MOEBIUS = [(k, (k + 1) % 5, (k + 2) % 5) for k in range(5)]
 # the projective plane of 6 vertices: closed, without an inner side
 PROJECTIVE = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (0, 4, 5), (0, 5, 1)]
