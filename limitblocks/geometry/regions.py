@@ -68,14 +68,14 @@ def _even(surfaces: Surfaces, region: Indices, pairs: Indices, flat: Array) -> A
     each = pairs.ravel()
     owner = np.repeat(np.arange(len(each)), number[each])
     place = np.arange(len(owner)) - np.repeat(np.cumsum(number[each]) - number[each], number[each])
-    vectors = np.column_stack([np.bincount(region, x, len(region)) for x in surfaces.area_vector.T])
+    vectors = _sums(region, surfaces.area_vector, len(region))
     corners, pair = surfaces.corner[order[start[each][owner] + place]], owner // 2
     return ~_off_plane(corners, pair, vectors[pairs].sum(axis=1), flat[pairs[:, 0]])
 
 
 def _uneven(surfaces: Surfaces, region: Indices, flat: Array) -> Any:
     """Tell of regions, each at the number of its first face, whether a corner is out of the plane, (m,)."""
-    vectors = np.column_stack([np.bincount(region, x, len(region)) for x in surfaces.area_vector.T])
+    vectors = _sums(region, surfaces.area_vector, len(region))
     return _off_plane(surfaces.corner, region[surfaces.face], vectors, flat)
 
 
@@ -83,10 +83,14 @@ def _off_plane(corners: Array, owner: Indices, vectors: Array, flat: Array) -> A
     """Tell of m groups of corners (k, 3) whether one is off the plane square to the area vector, (m,)."""
     m = len(vectors)
     count = np.maximum(np.bincount(owner, minlength=m), 1)[:, None]
-    middle = np.column_stack([np.bincount(owner, x, m) for x in corners.T]) / count
+    middle = _sums(owner, corners, m) / count
     normal = vectors / np.maximum(np.linalg.norm(vectors, axis=1), np.finfo(float).tiny)[:, None]
     height = np.einsum("ij,ij->i", corners - middle[owner], normal[owner])
-    return np.bincount(owner, np.abs(height) > flat[owner], m) > 0
+    return np.bincount(owner[np.abs(height) > flat[owner]], minlength=m) > 0
+
+
+def _sums(owner: Indices, vectors: Array, number: int) -> Array:
+    return np.column_stack([np.bincount(owner, x, number) for x in vectors.T]).astype(np.float64)
 
 
 def _linked(region: Indices, links: Indices) -> Indices:
