@@ -63,7 +63,7 @@ def _contents(path: Path) -> Contents:
 
 
 def is_model_file(path: Path) -> bool:
-    """Return whether the file at `path` is a model file of limitblocks: by its suffix, or JSON not of COMPAS."""
+    """Return whether the file at `path` is a model file of limitblocks: JSON that is not of COMPAS."""
     return path.suffix.lower() == "" or (path.suffix.lower() == ".json" and not _is_compas(path))
 
 

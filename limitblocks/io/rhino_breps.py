@@ -60,7 +60,7 @@ def _brep(package: ModuleType, brep: Any) -> Polygons:
     outlines = []
     for face in brep.Faces:
         if len(face.Loops) > 1:
-            raise ModelError("has a face with a hole; split the block in Rhino into parts without holes")
+            raise ModelError("has a face with a hole; run Mesh on it in Rhino")
         outline = _outline(face, tolerance)
         if outline is None:
             return _render_mesh(package, brep)

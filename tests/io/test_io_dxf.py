@@ -6,8 +6,10 @@ import ezdxf
 import numpy as np
 import pytest
 from ezdxf.render.forms import cube, cylinder
+from typer.testing import CliRunner
 
 import limitblocks as lb
+from limitblocks.cli import app
 from limitblocks.geometry.polygon import areas
 
 JOINT = lb.OrdunaLourenco(0.6)
@@ -286,6 +288,23 @@ def test_elevation_gives_the_interfaces_of_the_generator(tmp_path, name, thickne
     assert lb.bounds(again).upper == pytest.approx(lb.bounds(model).upper, rel=1e-6)
 
 
+def test_import_of_an_elevation(tmp_path):
+    """A block half as wide as high on a support that its layer marks rocks at half its weight."""
+
+    def draw(space):
+        for layer, low, high in (("Support", (0, -1), (2, 0)), ("stone", (0.5, 0), (1.5, 2))):
+            corners = [low, (high[0], low[1]), high, (low[0], high[1])]
+            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    options = ["--friction", "0.7", "--live", "1,0,0", "--unit-weight", "20e3", "--thickness", "0.5"]
+    result = CliRunner().invoke(app, ["import", str(path), *options])
+    assert (result.exit_code, result.stderr) == (0, "")
+    model = lb.read(tmp_path / "a.json")
+    assert [block.volume for block in model.free_blocks] == pytest.approx([1.0 * 2.0 * 0.5])
+    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
+
+
 def test_elevation_drawn_by_hand(tmp_path):
     """Corners off by up to 0.1 mm, outlines not closed, polylines of every kind."""
     model = STRUCTURES["arch"]
@@ -395,12 +414,12 @@ def test_damaged_drawings_read_or_fail_cleanly(tmp_path):
         version="R2000",
     ).read_bytes()
     path = tmp_path / "a.dxf"
-    failed = 0
+    problems = []
     for k in range(140):
         path.write_bytes(damaged(flat if k % 2 else solids, chance))
         try:
             lb.read_drawing(path, thickness=0.2) if k % 2 else lb.read_blocks(path)
         except lb.ModelError as error:
-            failed += 1
-            assert all("\n" not in line and line.startswith(str(path)) for line in error.problems)
-    assert failed > 30
+            problems.append(error.problems)
+    assert len(problems) > 30
+    assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)

@@ -30,6 +30,13 @@ def fault(path):
     return str(caught.value)
 
 
+@pytest.fixture(autouse=True)
+def trials(request, monkeypatch):
+    """Sound files are read without a trial, which takes a new process."""
+    if not request.node.name.startswith(("test_endless", "test_damaged", "test_old")):
+        monkeypatch.setattr("limitblocks.io.rhino_trial.fault", lambda path: "")
+
+
 class Drawing:
     """A Rhino file to be."""
 
@@ -232,7 +239,7 @@ def test_damaged_files_read_or_fail_cleanly(tmp_path):
     chance = random.Random(1)
     data = lb.write_blocks(STRUCTURES["wall"].blocks[:2], tmp_path / "good.3dm").read_bytes()
     path = tmp_path / "a.3dm"
-    failed = 0
+    problems = []
     for _ in range(25):
         bad = bytearray(data)
         k = chance.randrange(len(bad) - 20)
@@ -250,9 +257,9 @@ def test_damaged_files_read_or_fail_cleanly(tmp_path):
         try:
             lb.read_blocks(path)
         except lb.ModelError as error:
-            failed += 1
-            assert all("\n" not in line and line.startswith(str(path)) for line in error.problems)
-    assert failed > 10
+            problems.append(error.problems)
+    assert len(problems) > 10
+    assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)
 
 
 def test_without_rhino3dm(tmp_path, monkeypatch):
