@@ -11,7 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.dxf import Part
 from limitblocks.io.imported import Solid
-from limitblocks.io.shells import solids
+from limitblocks.io.shells import solids, soup
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 
@@ -35,14 +35,6 @@ def polygons(part: Part) -> list[Polygons] | None:
     if kind in ("3DSOLID", "BODY"):
         return [soup([part.placed(face) for face in faces]) for faces in _body(part)]
     return None
-
-
-def soup(loops: Sequence[Array]) -> Polygons:
-    """Return polygons that share no vertices."""
-    ends = np.cumsum([len(loop) for loop in loops])
-    return np.concatenate(loops), [
-        range(end - len(loop), end) for end, loop in zip(ends.tolist(), loops, strict=True)
-    ]
 
 
 def _body(part: Part) -> list[list[Any]]:

@@ -154,7 +154,7 @@ class _Expansion:
                 f"block {definition.Name!r} contains itself, or blocks nest deeper than {_DEEPEST}"
             )
         items = [self.model.Objects.FindId(key) for key in definition.GetObjectIds()]
-        where = matrix @ np.array(reference.Xform.ToFloatArray(True), dtype=np.float64).reshape(4, 4)
+        where = matrix @ _matrix(reference.Xform)
         yield from self.parts([i for i in items if i is not None], where, name or definition.Name, depth + 1)
 
 
@@ -164,3 +164,8 @@ def _visible(layer: Any, known: dict[str, Any], steps: int) -> Iterator[bool]:
     while above is not None and steps >= 0:
         yield bool(above.Visible)
         above, steps = known.get(str(above.ParentLayerId)), steps - 1
+
+
+def _matrix(transform: Any) -> Array:
+    """Return a transform as a matrix (4, 4), with the digits that its ToFloatArray drops."""
+    return np.array([[getattr(transform, f"M{i}{j}") for j in range(4)] for i in range(4)], dtype=np.float64)

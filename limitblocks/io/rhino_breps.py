@@ -11,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io.imported import refuse_many
+from limitblocks.io.shells import soup
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 
@@ -65,7 +66,7 @@ def _brep(package: ModuleType, brep: Any) -> Polygons:
         if outline is None:
             return _render_mesh(package, brep)
         outlines.append(outline)
-    return _joined(outlines)
+    return soup(outlines)
 
 
 def _outline(face: Any, tolerance: float) -> Array | None:
@@ -102,12 +103,4 @@ def _render_mesh(package: ModuleType, brep: Any) -> Polygons:
     if any(mesh is None for mesh in found):
         raise ModelError(f"has curved faces or edges and no render mesh; {_CURED}")
     shapes = [_mesh(mesh) for mesh in found]
-    return _joined([points[list(face)] for points, faces in shapes for face in faces])
-
-
-def _joined(loops: Sequence[Array]) -> Polygons:
-    """Return polygons that share no vertices."""
-    ends = np.cumsum([len(loop) for loop in loops])
-    return np.concatenate(loops), [
-        range(end - len(loop), end) for end, loop in zip(ends.tolist(), loops, strict=True)
-    ]
+    return soup([points[list(face)] for points, faces in shapes for face in faces])

@@ -131,3 +131,11 @@ def _flux(points: Array, shell: Faces) -> float:
     """Return three times the signed volume of a shell."""
     arms = points[[loop[0] for loop in shell]] - points[shell[0][0]]
     return float((area_vectors(points, shell) * arms).sum())
+
+
+def soup(loops: Sequence[Array]) -> tuple[Array, list[range]]:
+    """Return vertices (n, 3) and faces of polygons that share no vertices, each given by its corners (k, 3)."""
+    ends = np.cumsum([len(loop) for loop in loops])
+    return np.concatenate(loops), [
+        range(end - len(loop), end) for end, loop in zip(ends.tolist(), loops, strict=True)
+    ]

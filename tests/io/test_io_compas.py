@@ -137,7 +137,7 @@ def assembly_document():
 
 
 def model_document():
-    """compas_dem 0.6.0, on compas_model 0.9.3: BlockModel of Block with material, under a group that moves."""
+    """compas_dem 0.6.0, on compas_model 0.9.3: blocks with a material, one of them in a group that moves."""
 
     def element(k, transformation=None):
         data = {

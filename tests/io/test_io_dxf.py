@@ -363,6 +363,8 @@ def test_drawing_layers(tmp_path):
     path = drawn(tmp_path / "a.dxf", draw)
     assert len(lb.read_drawing(path, thickness=1.0).blocks) == 2
     assert set(lb.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
+    block = lb.read_drawing(path, thickness=0.5, units="mm").blocks[0]
+    assert block.volume == pytest.approx(1e-3 * 1e-3 * 0.5, rel=1e-12)  # the thickness is in m
     assert "did you mean 'stone'" in fault(lb.read_drawing, path, thickness=1.0, layers="stones")
 
 

@@ -159,14 +159,20 @@ def test_instances(tmp_path):
     shape, about = (box(high=(1, 2, 3)),), (drawing.attributes("inner", layer),)
     drawing.model.InstanceDefinitions.Add("stone", "", "", "", rhino3dm.Point3d(0, 0, 0), shape, about)
     key = next(iter(drawing.model.InstanceDefinitions)).Id
+    turn = rhino3dm.Transform.Rotation(np.pi / 2, rhino3dm.Vector3d(0, 0, 1), rhino3dm.Point3d(0, 0, 0))
     for k, scale in enumerate((1.0, 2.0, -1.0)):
-        place = rhino3dm.Transform.Translation(10.0 * k, 0, 0)
+        place = rhino3dm.Transform.Translation(10.0 * k, 1 / 3, 1e6 + 0.1)
         place.M22 = scale
         drawing.add(rhino3dm.InstanceReference(key, place), f"i{k}", layer)
+    drawing.add(rhino3dm.InstanceReference(key, turn), "turned", layer)
     found = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
-    assert [block.name for block in found.blocks] == ["i0", "i1", "i2"]
-    assert [block.volume for block in found.blocks] == pytest.approx([6.0, 12.0, 6.0], rel=1e-12)
-    assert [block.centroid[2] for block in found.blocks] == pytest.approx([1.5, 3.0, -1.5], rel=1e-12)
+    assert [block.name for block in found.blocks] == ["i0", "i1", "i2", "turned"]
+    assert [block.volume for block in found.blocks] == pytest.approx([6.0, 12.0, 6.0, 6.0], rel=1e-9)
+    heights = (1.5, 3.0, -1.5)
+    for k in range(3):
+        middle = [10.0 * k + 0.5, 1 / 3 + 1.0, 1e6 + 0.1 + heights[k]]
+        assert found.blocks[k].centroid == pytest.approx(middle, rel=1e-12)
+    assert found.blocks[3].centroid == pytest.approx([-1.0, 0.5, 1.5], rel=1e-12)
     assert not found.notes
 
 
