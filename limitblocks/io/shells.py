@@ -134,7 +134,7 @@ def _flux(points: Array, shell: Faces) -> float:
 
 
 def soup(loops: Sequence[Array]) -> tuple[Array, list[range]]:
-    """Return vertices (n, 3) and faces of polygons that share no vertices, each given by its corners (k, 3)."""
+    """Return vertices (n, 3) and faces of polygons given by their corners (k, 3), which share no vertex."""
     ends = np.cumsum([len(loop) for loop in loops])
     return np.concatenate(loops), [
         range(end - len(loop), end) for end, loop in zip(ends.tolist(), loops, strict=True)
