@@ -132,7 +132,8 @@ def _ring(faces: list[tuple[int, ...]]) -> tuple[int, ...]:
 def warp_of(points: Array, ring: tuple[int, ...], vertices: Iterable[int]) -> float:
     """Return the largest distance of `vertices` from the mean plane of a ring, m."""
     corners = points[list(ring)]
-    vector = area_vectors(corners, (tuple(range(len(ring))),))[0]
+    arms = corners - corners[0]
+    vector = np.cross(arms[1:-1], arms[2:]).sum(axis=0)
     length = np.linalg.norm(vector)
     heights = (points[list(vertices)] - corners.mean(axis=0)) @ vector
     return float(np.abs(heights).max() / length) if length > 0.0 else np.inf

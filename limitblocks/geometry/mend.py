@@ -69,14 +69,16 @@ def mended(
     loops, warp = coplanar.merged(points, loops, size)
     if len(loops) > _MOST_FACES:
         _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
-    _refuse_warped(name, points, loops, PLANE_TOLERANCE * size)
     if warp > WELD * size:
         notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
     used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
     ends = np.cumsum([len(loop) for loop in loops])[:-1]
-    block = Block(
-        name, points[used], tuple(tuple(part.tolist()) for part in np.split(places, ends)), unit_weight
-    )
+    rings = tuple(tuple(part.tolist()) for part in np.split(places, ends))
+    try:
+        block = Block(name, points[used], rings, unit_weight)
+    except GeometryError:  # its numbers of faces and vertices say nothing to whoever drew the solid
+        _refuse_warped(name, points, loops, PLANE_TOLERANCE * size)
+        raise
     return block, tuple(f"block {name!r}: {note}" for note in notes)
 
 
@@ -168,12 +170,13 @@ def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> Non
 
 def _refuse_warped(name: str, points: Array, loops: Faces, limit: float) -> None:
     for loop in loops:
-        if len(loop) > 3 and (off := coplanar.warp_of(points, loop, loop)) > limit:
-            corners = ", ".join(_place(points[vertex]) for vertex in loop[:8])
+        off = coplanar.warp_of(points, loop, loop)
+        if off > limit:
+            corners = ", ".join(_place(points[vertex]) for vertex in loop[:8]) + ", ..." * (len(loop) > 8)
             _wrong(
                 name,
-                f"the face {corners}{', ...' * (len(loop) > 8)} is not planar: a corner lies {off:.3g} m out of "
-                f"its plane; at most {limit:.3g} m is allowed, split it into triangles",
+                f"the face {corners} is not planar: a corner lies {off:.3g} m out of its plane; at most "
+                f"{limit:.3g} m is allowed, split it into triangles",
             )
 
 

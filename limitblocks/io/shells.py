@@ -53,10 +53,12 @@ def _in_range(points: Array, loops: Faces) -> bool:
 
 def _groups(name: str, points: Array, loops: Faces) -> list[list[int]]:
     """Return the faces of each solid."""
-    parts, closed = _parts(loops)
-    if closed.all():
-        return parts
-    used = np.unique(np.concatenate(loops))
+    corners = np.concatenate(loops)
+    used = np.unique(corners)
+    if len(used) < len(corners):  # else each face has vertices of its own
+        parts, closed = _parts(loops)
+        if closed.all():
+            return parts
     number = np.zeros(len(points), dtype=np.int64)
     distinct, place = np.unique(points[used], axis=0, return_inverse=True)
     number[used] = place.reshape(-1)
