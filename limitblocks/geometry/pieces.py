@@ -16,7 +16,6 @@ from limitblocks.geometry import polygon
 _CONVEX = 1e-12
 #: Grid on which an area is divided, relative to the root of the area; no round number, see `_canonical`.
 _GRID = 1e-7 * np.pi / 3.0
-_STRAIGHT = 4.0  # grid units
 
 Point = tuple[float, float]
 
@@ -25,8 +24,9 @@ def convex_pieces(shapes: Any, x_axis: Array, mirrored: Any, tolerance: float) -
     """Divide plane areas into convex pieces; convex ones stay as they are.
 
     Corners within `tolerance` of the line through their neighbours are left out of an area that is not
-    convex. It is divided along diagonals: those of the constrained Delaunay triangulation, less all that can
-    be left out, longest first (Hertel & Mehlhorn 1983: at most four times the least number of pieces).
+    convex, and count as straight in its pieces. It is divided along diagonals: those of the constrained
+    Delaunay triangulation, less all that can be left out, longest first (Hertel & Mehlhorn 1983: at most four
+    times the least number of pieces).
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ def _divided(shape: Any, x_axis: Array, mirrored: bool, tolerance: float) -> lis
     if _is_convex(clean):
         return [shapely.convex_hull(clean)]
     flat, origin = _canonical(clean, x_axis, mirrored, root * _GRID)
-    loops = _merged(_triangles(flat))
+    loops = _merged(_triangles(flat), tolerance / (root * _GRID))
     hulls = shapely.convex_hull([shapely.multipoints([origin[point] for point in loop]) for loop in loops])
     return list(hulls[shapely.area(hulls) > 1e-9 * root**2])
 
@@ -106,15 +106,15 @@ def _triangles(shape: Any) -> list[list[Point]]:
     return [loop if _cross(*loop) > 0.0 else loop[::-1] for loop in corners]
 
 
-def _merged(loops: list[list[Point]]) -> list[list[Point]]:
-    """Merge neighbouring loops as long as they stay convex, across their longest common sides first."""
+def _merged(loops: list[list[Point]], straight: float) -> list[list[Point]]:
+    """Merge neighbouring loops as long as they stay convex within `straight`, across long sides first."""
     sides = {side: k for k, loop in enumerate(loops) for side in pairwise([*loop, loop[0]])}
     common = [(u, v) for u, v in sides if u < v and (v, u) in sides]
     for u, v in sorted(common, key=lambda ends: (-_squared(*ends), ends)):
         k, other = sides[u, v], sides[v, u]
         left, right = _from(loops[k], v), _from(loops[other], u)
         # left runs from v to u, right from u to v
-        if min(_turn(left[-2], u, right[1]), _turn(right[-2], v, left[1])) < -_STRAIGHT:
+        if min(_turn(left[-2], u, right[1]), _turn(right[-2], v, left[1])) < -straight:
             continue
         loops[k], loops[other] = left + right[1:-1], []
         sides.update((side, k) for side in pairwise(right))

@@ -1,5 +1,7 @@
 """Bodies that are not convex, for the tests of blocks and contacts."""
 
+from collections import Counter
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -53,3 +55,21 @@ def moved(blocks, seed, shift=0.0):
     rng = np.random.default_rng(seed)
     rotation, translation = Rotation.random(rng=rng).as_matrix(), rng.uniform(-10, 10, 3) + shift
     return [block.moved(rotation, translation) for block in blocks], rotation, translation
+
+
+def joined(name, *blocks):
+    """One body of blocks that share whole faces: common vertices become one, faces between them go."""
+    points, place = np.unique(
+        np.concatenate([block.vertices for block in blocks]).round(9), axis=0, return_inverse=True
+    )
+    start = np.cumsum([0, *(len(block.vertices) for block in blocks)])
+    faces = [
+        tuple(place.ravel()[start[k] + v] for v in face)
+        for k, block in enumerate(blocks)
+        for face in block.faces
+    ]
+    count = Counter(frozenset(face) for face in faces)
+    faces = [face for face in faces if count[frozenset(face)] == 1]
+    used, local = np.unique(np.concatenate(faces), return_inverse=True)
+    parts = np.split(local, np.cumsum([len(face) for face in faces])[:-1])
+    return Block(name, points[used], [part.tolist() for part in parts])

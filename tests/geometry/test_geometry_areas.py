@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import shapely
 import shapely.affinity
-from bodies import PLUS, SQUARE, L, U, extruded, hollow, moved, regular, ring, triangulated
+from bodies import PLUS, SQUARE, L, U, extruded, hollow, joined, moved, regular, ring, triangulated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from test_geometry_contact import voronoi_blocks
 
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import Block, find_contacts, find_interfaces, polygon
@@ -198,6 +199,42 @@ def test_star_shaped_areas_at_random(seed):
     (x, y), (u, v) = np.roll(sides, 1, axis=0).T, sides.T
     turns = x * v - y * u
     assert len(found) <= 2 * (turns < 0).sum() + 1  # Hertel & Mehlhorn: two diagonals a reflex corner
+
+
+@pytest.mark.parametrize("form", [lambda block: block, triangulated])
+@pytest.mark.parametrize("seed", range(4))
+def test_rubble_of_pairs_of_cells_that_fills_a_cube(seed, form):
+    """Cells of a Voronoi diagram joined two by two: not convex, and they touch exactly, nowhere deeper."""
+    cells, areas = voronoi_blocks(30, seed)
+    group, expected = np.arange(30), {}
+    for (i, j), size in areas.items():
+        if (
+            group[i] == i
+            and group[j] == j
+            and not {i, j} & set(group[group != np.arange(30)])
+            and size > 0.02
+        ):
+            group[j] = i
+    for (i, j), size in areas.items():
+        ends = tuple(sorted({int(group[i]), int(group[j])}))
+        if len(ends) == 2:
+            expected[ends] = expected.get(ends, 0.0) + size
+    blocks = [
+        form(joined(str(k), *(cells[m] for m in np.flatnonzero(group == k))))
+        for k in np.unique(group).tolist()
+    ]
+    assert sum(not block.convex for block in blocks) >= 5
+    assert sum(block.volume for block in blocks) == pytest.approx(1.0)
+    blocks, _, _ = moved(blocks, seed)
+    contacts = find_contacts(blocks, None)
+    assert contacts.overlaps == ()
+    found = {}
+    for one in [*contacts.interfaces, *contacts.slivers]:
+        ends = tuple(sorted((int(one.block_i), int(one.block_j))))
+        found[ends] = found.get(ends, 0.0) + (area(one) if one in contacts.interfaces else one.area)
+    assert found.keys() <= expected.keys()
+    for ends, size in expected.items():
+        assert found.get(ends, 0.0) == pytest.approx(size, rel=1e-4, abs=1e-6)
 
 
 def test_chamfer_is_no_part_of_the_face_beside_it():
