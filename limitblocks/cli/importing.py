@@ -22,7 +22,13 @@ Output = Annotated[
 Friction = Annotated[float, typer.Option(help="Coefficient of friction of every interface.")]
 JointName = Annotated[str, typer.Option("--joint", metavar="NAME", help="What an interface can carry.")]
 Supports = Annotated[
-    list[str], typer.Option("--supports", metavar="NAME", help="A block or layer that does not move; repeat.")
+    list[str],
+    typer.Option(
+        "--supports",
+        metavar="NAME",
+        help="A block or layer that does not move; repeat. [default: those that FILE marks]",
+        show_default=False,
+    ),
 ]
 Live = Annotated[str, typer.Option(metavar="X,Y,Z", help="Direction of the mass-proportional live load.")]
 UnitWeights = Annotated[
@@ -30,6 +36,9 @@ UnitWeights = Annotated[
     typer.Option("--unit-weight", metavar="[LAYER=]N/M3", help="Of all blocks, or of a layer; repeat."),
 ]
 Units = Annotated[str | None, typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft.")]
+Thickness = Annotated[
+    float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
+]
 Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
 Gap = Annotated[
     float | None, typer.Option(help="Distance that counts as touching, in block lengths [default: 1e-3].")
@@ -42,19 +51,21 @@ Angle = Annotated[
 def import_blocks(
     file: BlocksFile,
     friction: Friction,
-    supports: Supports,
     live: Live,
     unit_weight: UnitWeights,
+    supports: Supports = [],  # noqa: B006 # typer wants a list, and nothing changes it
     joint: JointName = "OrdunaLourenco",
     units: Units = None,
+    thickness: Thickness = None,
     up: Up = None,
     gap: Gap = None,
     angle: Angle = None,
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Make a model file from blocks in OBJ, STL, PLY, glTF and other formats."""
+    """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
     with clean_errors():
+        from limitblocks.io.dxf_outlines import read_drawing
         from limitblocks.io.formats import read_blocks
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics import mass_proportional
@@ -62,7 +73,11 @@ def import_blocks(
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
         law, load = _joint(joint, friction), mass_proportional(_vector(live))
-        found = read_blocks(file, units=units, unit_weight=_unit_weight(unit_weight), up=up)
+        weight = _unit_weight(unit_weight)
+        if thickness is None:
+            found = read_blocks(file, units=units, unit_weight=weight, up=up)
+        else:
+            found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
         model, warnings = model_of(
             found, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
         )

@@ -1,5 +1,6 @@
 """Files in and out: the model file, the result file, and blocks in the formats of other programs."""
 
+from limitblocks.io.dxf_outlines import read_drawing
 from limitblocks.io.formats import read_blocks
 from limitblocks.io.glb import write_animation
 from limitblocks.io.imported import ImportedBlocks
@@ -14,6 +15,7 @@ __all__ = [
     "model_schema",
     "read",
     "read_blocks",
+    "read_drawing",
     "read_result",
     "write_animation",
     "write_blocks",

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from limitblocks.errors import ModelError
 from limitblocks.io import faults
-from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported
+from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported, read_bytes
 
 #: Module of limitblocks.io whose function `contents(path)` reads files with this suffix.
 READERS: dict[str, str] = {
@@ -16,6 +16,9 @@ READERS: dict[str, str] = {
     ".ply": "ply",
     ".glb": "gltf",
     ".gltf": "gltf",
+    ".dxf": "dxf",
+    ".3dm": "rhino",
+    ".json": "compas",
 }
 
 
@@ -60,5 +63,14 @@ def _contents(path: Path) -> Contents:
 
 
 def is_model_file(path: Path) -> bool:
-    """Return whether the file at `path` is a model file of limitblocks, by its suffix."""
-    return path.suffix.lower() in {"", ".json"}
+    """Return whether the file at `path` is a model file of limitblocks: JSON that is not of COMPAS."""
+    return path.suffix.lower() == "" or (path.suffix.lower() == ".json" and not _is_compas(path))
+
+
+def _is_compas(path: Path) -> bool:
+    """Return whether a file of JSON is of COMPAS: its objects have a "dtype", ours a "schema_version"."""
+    try:
+        data = read_bytes(path)
+    except ModelError:  # for the reader to say
+        return False
+    return b'"dtype"' in data and b'"schema_version"' not in data

@@ -23,6 +23,8 @@ from limitblocks.io.strict_json import LARGEST_FILE
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 MOST_SOLIDS = 100_000
+#: Layers, in small letters, whose blocks are supports unless the format says otherwise.
+SUPPORT_LAYERS = ("support", "supports")
 MOST_FACES = 1_000_000
 
 #: From axes with Y up to axes with Z up.
@@ -43,20 +45,28 @@ class ImportedBlocks:
         Layer, group or material of each block, by block name; empty text where the file has none.
     notes : tuple of str
         What was mended and renamed, a line each.
+    supports : tuple of str
+        Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
+        layer named "support" or "supports".
     """
 
     blocks: tuple[Block, ...]
     layers: Mapping[str, str]
     notes: tuple[str, ...]
+    supports: tuple[str, ...] = ()
 
 
 class Solid(NamedTuple):
-    """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file."""
+    """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file.
+
+    `support` says whether the file marks it so; None: its layer says it.
+    """
 
     name: str
     layer: str
     vertices: Any
     faces: Sequence[Sequence[int]]
+    support: bool | None = None
 
 
 class Contents(NamedTuple):
@@ -169,7 +179,13 @@ def imported(
             notes += said
     if wrong:
         raise ModelError(*wrong)
-    return ImportedBlocks(tuple(blocks), layers, tuple(notes))
+    supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
+    return ImportedBlocks(tuple(blocks), layers, tuple(notes), supports)
+
+
+def _is_support(solid: Solid) -> bool:
+    on_layer = solid.layer.strip().lower() in SUPPORT_LAYERS
+    return on_layer if solid.support is None else solid.support
 
 
 def _upright(up: str) -> Array:

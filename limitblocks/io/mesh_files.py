@@ -1,4 +1,4 @@
-"""Blocks out, as meshes that other programs read: OBJ, STL, PLY and GLB."""
+"""Blocks out, as meshes that other programs read."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.io.compas_writer import compas
+from limitblocks.io.dxf_writer import dxf
 from limitblocks.io.glb import glb
 from limitblocks.io.imported import ImportedBlocks
+from limitblocks.io.rhino_writer import rhino
 from limitblocks.io.written import write
 from limitblocks.model import Model
 
@@ -23,7 +26,9 @@ def write_blocks(
     The suffix says the format. OBJ keeps faces, names and every digit; STL (text) names and every digit,
     with triangles; PLY (binary) faces and every digit, no names; GLB names, with triangles in single
     precision about each block's centroid, and Y up as the format wants it. OBJ and GLB get the materials
-    "support" and "block" where a model is given, layers where blocks are that were read with them.
+    "support" and "block" where a model is given, layers where blocks are that were read with them. So do DXF
+    and 3dm (Rhino) as layers, with names and every digit. JSON is COMPAS JSON: an assembly with names,
+    supports and every digit.
 
     Raises
     ------
@@ -44,7 +49,7 @@ def write_blocks(
 def layers_of(blocks: Model | ImportedBlocks | Sequence[Block]) -> dict[str, str]:
     """Return the layer of each block by its name: support or block in a model; none if nothing is known."""
     if isinstance(blocks, ImportedBlocks):
-        return dict(blocks.layers)
+        return dict(blocks.layers) | dict.fromkeys(blocks.supports, "support")
     if isinstance(blocks, Model):
         supports = set(blocks.supports)
         return {block.name: "support" if block.name in supports else "block" for block in blocks.blocks}
@@ -109,4 +114,7 @@ _WRITERS: dict[str, Callable[[Sequence[Block], dict[str, str]], bytes]] = {
     ".stl": _stl,
     ".ply": _ply,
     ".glb": glb,
+    ".dxf": dxf,
+    ".3dm": rhino,
+    ".json": compas,
 }

@@ -133,3 +133,11 @@ def _flux(points: Array, shell: Faces) -> float:
     """Return three times the signed volume of a shell."""
     arms = points[[loop[0] for loop in shell]] - points[shell[0][0]]
     return float((area_vectors(points, shell) * arms).sum())
+
+
+def soup(loops: Sequence[Array]) -> tuple[Array, list[range]]:
+    """Return vertices (n, 3) and faces of polygons given by their corners (k, 3), which share no vertex."""
+    ends = np.cumsum([len(loop) for loop in loops])
+    return np.concatenate(loops), [
+        range(end - len(loop), end) for end, loop in zip(ends.tolist(), loops, strict=True)
+    ]

@@ -47,7 +47,8 @@ def read(
     joint : Joint, optional
         What every interface can carry.
     supports : str, iterable of str, or function of a Block, optional
-        Names of blocks or of layers, or what is true for a block that does not move.
+        Names of blocks or of layers, or what is true for a block that does not move; left out, the supports
+        that the file marks: :attr:`ImportedBlocks.supports`.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer.
     units : str, optional
@@ -109,6 +110,7 @@ def model_of(
     ModelError
         An argument is missing, a support is unknown, or the model is wrong.
     """
+    supports = supports or found.supports or None
     if joint is None or supports is None or live is None:
         given = {"joint": joint, "supports": supports, "live": live}
         missing = (key for key, value in given.items() if value is None)
