@@ -8,7 +8,6 @@ import numpy as np
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.arches import Ring
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
@@ -17,6 +16,7 @@ from limitblocks.structures.build import (
     refuse,
     refuse_not_positive,
 )
+from limitblocks.structures.rings import circular
 
 
 def barrel_vault(
@@ -58,7 +58,7 @@ def barrel_vault(
     """
     refuse_not_positive(length=length)
     refuse([] if stones >= 1 else [f"stones is {stones!r}, expected at least 1"])
-    ring = Ring.checked(radius, thickness, courses, embrace)
+    ring = circular(radius, thickness, courses, embrace)
     even = length / stones * np.arange(stones + 1.0)
     odd = np.array([0.0, *(even[:-1] + even[1:]) / 2, length])
     blocks = [
