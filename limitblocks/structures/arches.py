@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -15,24 +14,14 @@ from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
-    base,
     model_of,
-    pier,
     prism,
     refuse,
-    refuse_fewer,
     refuse_not_positive,
 )
 from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
+from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
 from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed
-
-
-class Piers(NamedTuple):
-    """Two piers of single blocks, flush with the intrados: width along X, number of blocks, their height, m."""
-
-    width: float
-    blocks: int
-    block_height: float = 0.4
 
 
 def arch(
@@ -135,8 +124,8 @@ def pointed_arch(
     Parameters
     ----------
     span, rise : float
-        Of the centreline, m; the rise is more than half the span. The centres lie (rise^2 - span^2 / 4) / span
-        beyond the middle: at the opposite springings, an equilateral arch, for rise = sqrt(3) / 2 span.
+        Of the centreline, m; the rise is more than half the span. The centres lie (rise^2 - span^2 / 4) /
+        span beyond the middle: at the opposite springings, an equilateral arch, for rise = sqrt(3) / 2 span.
     voussoirs : int
         An even number: half of them at either side.
     joint, thickness, stereotomy, facets, piers, fill, depth, unit_weight, direction
@@ -170,7 +159,7 @@ def elliptical_arch(
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "elliptical arch")
 
 
-def arch_on_piers(
+def archon_piers(
     joint: Joint,
     *,
     radius: float,
@@ -219,8 +208,8 @@ def _arch(
         ledges: list[tuple[str, Array]] = []
     else:
         piers = Piers(*piers)
-        ring = _on_piers(ring, piers)
-        below, supports, ledges = _pier_blocks(ring, piers, depth, unit_weight)
+        ring = on_piers(ring, piers)
+        below, supports, ledges = pier_blocks_of(ring, piers, depth, unit_weight)
     blocks = [
         prism(f"voussoir {k + 1}", outline, depth, unit_weight) for k, outline in enumerate(ring.voussoirs())
     ]
@@ -232,34 +221,3 @@ def _arch(
         level = float(ring.extrados[..., 1].max()) + fill.height
         extra = fill_loads(fill, [*surfaces, *ledges], level, depth, direction)
     return model_of([*below, *blocks], supports, joint, direction, name, extra)
-
-
-def _on_piers(ring: Ring, piers: Piers) -> Ring:
-    """The ring raised until its springings stand on the piers, or ModelError."""
-    refuse_not_positive(pier_width=piers.width, block_height=piers.block_height)
-    refuse_fewer(1, pier_blocks=piers.blocks)
-    across = float(ring.inner[0, 0] - ring.outer[0, 0])
-    if piers.width < across:
-        refuse([f"pier width is {piers.width!r}, expected at least the thickness {across!r}"])
-    return ring.raised(piers.blocks * piers.block_height - float(ring.inner[0, 1]))
-
-
-def _pier_blocks(
-    ring: Ring, piers: Piers, depth: float, unit_weight: float
-) -> tuple[list[Block], list[Block], list[tuple[str, Array]]]:
-    """Blocks of both piers, the base, and the edges of their tops beside the arch."""
-    inner, y = -float(ring.inner[0, 0]), (-depth / 2, depth / 2)
-    outer, top = inner + piers.width, piers.blocks * piers.block_height
-    foot = float(ring.outer[0, 1])  # where the extrados begins
-    blocks, ledges = [], []
-    for side, sign in (("left", -1), ("right", 1)):
-        x = sorted((sign * outer, sign * inner))
-        blocks += pier(f"{side} pier", x, y, piers.blocks, piers.block_height, unit_weight)
-        if foot - top > 1e-9 * piers.width:
-            shoulder = [(-outer, top), (-inner, top), ring.outer[0], (-outer, foot)]
-            outline = np.array(shoulder[:3] if ring.outer[0, 0] <= -outer else shoulder)
-            outline = outline if sign < 0 else outline[::-1] * (-1.0, 1.0)
-            blocks.append(prism(f"{side} skewback", outline, depth, unit_weight))
-        ledge = np.array([(-outer, foot), (ring.outer[0, 0], foot)])
-        ledges.append((blocks[-1].name, ledge if sign < 0 else ledge[::-1] * (-1.0, 1.0)))
-    return blocks, [base((-outer, outer), y, piers.block_height)], ledges

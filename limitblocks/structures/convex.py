@@ -20,7 +20,9 @@ def hull(name: str, corners: npt.ArrayLike, unit_weight: float | None = None) ->
     points = points[_first_of_each(points, tolerance)]
     middle = points.mean(axis=0)
     planes = ConvexHull(points - middle).equations
-    planes = planes[_first_of_each(planes / (1.0, 1.0, 1.0, size), 1e-7)]  # Qhull gives one plane to a triangle
+    planes = planes[
+        _first_of_each(planes / (1.0, 1.0, 1.0, size), 1e-7)
+    ]  # Qhull gives one plane to a triangle
     on = np.abs(planes[:, :3] @ (points - middle).T + planes[:, 3:]) <= 10 * tolerance
     extreme = on.sum(axis=0) >= 3  # the others lie on an edge or within a face
     points, on = points[extreme], on[:, extreme]
@@ -31,15 +33,15 @@ def hull(name: str, corners: npt.ArrayLike, unit_weight: float | None = None) ->
 def cut(
     name: str, normals: npt.ArrayLike, offsets: npt.ArrayLike, inside: Array, unit_weight: float | None = None
 ) -> Block:
-    """Return the body of the points x with `normals` (m, 3) @ x <= `offsets` (m,); `inside` is one of them."""
+    """Return the body of points x with `normals` (m, 3) @ x <= `offsets` (m,); `inside` is one of them."""
     rows = np.column_stack([np.asarray(normals, dtype=float), -np.asarray(offsets, dtype=float)])
     return hull(name, HalfspaceIntersection(rows, inside).intersections, unit_weight)
 
 
-def _first_of_each(rows: Array, tolerance: float) -> Array:
+def _first_of_each(rows: Array, tolerance: float) -> npt.NDArray[np.bool_]:
     """Return a mask (n,) of the rows that equal no row before them."""
     near = np.abs(rows[:, None] - rows[None]).max(axis=2) <= tolerance
-    return ~np.tril(near, -1).any(axis=1)
+    return np.asarray(~np.tril(near, -1).any(axis=1))
 
 
 def _turn(points: Array, face: npt.NDArray[np.int64], normal: Array) -> tuple[int, ...]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.mechanics import Load, force, mass_proportional
-from limitblocks.structures.build import refuse
+from limitblocks.mechanics import Load, force
+from limitblocks.structures.build import refuse, unit_vector
 
 
 class Fill(NamedTuple):
@@ -53,11 +54,10 @@ def fill_loads(
     direction : sequence of float
         Direction of the live load.
     """
-    (_, way), *_ = mass_proportional(direction).terms
-    push = fill.inertia * np.array(getattr(way, "direction"))  # noqa: B009
+    push = fill.inertia * unit_vector(direction)
     dead, live = [], []
     for name, points in surfaces:
-        for (x1, z1), (x2, z2) in zip(points, points[1:], strict=False):
+        for (x1, z1), (x2, z2) in pairwise(points.tolist()):
             top, end = level - z1, level - z2  # the fill over a facet is a trapezium
             mean = fill.unit_weight * depth * (top + end) / 2
             if mean * (x2 - x1) <= 0.0:

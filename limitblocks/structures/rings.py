@@ -65,8 +65,8 @@ class Profile(NamedTuple):
 class Ring(NamedTuple):
     """Ring of voussoirs with straight edges.
 
-    `inner` and `outer` (n + 1, 2) are the ends of the joints; `extrados` (n, facets + 1, 2) are the corners of
-    each voussoir along the extrados, from left to right, the ends of its joints included.
+    `inner` and `outer` (n + 1, 2) are the ends of the joints; `extrados` (n, facets + 1, 2) are the
+    corners of each voussoir along the extrados, from left to right, the ends of its joints included.
     """
 
     inner: Array
@@ -109,7 +109,7 @@ class Ring(NamedTuple):
 
     def raised(self, height: float) -> Ring:
         """Return the ring moved up by `height`, m."""
-        return Ring(*(points + (0.0, height) for points in self))
+        return Ring(*(np.add(points, (0.0, height)) for points in self))
 
     def voussoirs(self) -> list[Array]:
         """Return the outlines from the left springing to the right, (facets + 3, 2) each."""
