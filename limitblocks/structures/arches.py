@@ -159,7 +159,7 @@ def elliptical_arch(
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "elliptical arch")
 
 
-def archon_piers(
+def arch_on_piers(
     joint: Joint,
     *,
     radius: float,

@@ -20,9 +20,8 @@ def hull(name: str, corners: npt.ArrayLike, unit_weight: float | None = None) ->
     points = points[_first_of_each(points, tolerance)]
     middle = points.mean(axis=0)
     planes = ConvexHull(points - middle).equations
-    planes = planes[
-        _first_of_each(planes / (1.0, 1.0, 1.0, size), 1e-7)
-    ]  # Qhull gives one plane to a triangle
+    # Qhull gives one plane to a triangle
+    planes = planes[_first_of_each(planes / (1.0, 1.0, 1.0, size), 1e-7)]
     on = np.abs(planes[:, :3] @ (points - middle).T + planes[:, 3:]) <= 10 * tolerance
     extreme = on.sum(axis=0) >= 3  # the others lie on an edge or within a face
     points, on = points[extreme], on[:, extreme]

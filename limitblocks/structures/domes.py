@@ -162,11 +162,10 @@ def _stone(
     """
     normals: list[Array] = [_out(np.pi / 2, middle + sign * (half + np.pi / 2)) for sign in (-1, 1)]
     normals += [-_bed(beds[0], azimuth) for azimuth in below] + [_bed(beds[1], middle)]
-    faces = [_out(sum(beds) / 2, middle) * sign for sign in (-1, 1)]
-    straight = np.cos((beds[0] - beds[1]) / 2)  # a chord is that much nearer to the centre
-    offsets = [0.0] * len(normals) + [-shell[0] * straight, shell[1] * straight]
-    inside = _out(sum(beds) / 2, middle) * sum(shell) / 2 * straight
-    return cut(name, [*normals, *faces], offsets, inside, unit_weight)
+    outward = _out((beds[0] + beds[1]) / 2, middle)
+    low, high = np.cos((beds[0] - beds[1]) / 2) * np.array(shell)  # a chord is nearer to the centre
+    offsets = [*np.zeros(len(normals)), -low, high]
+    return cut(name, [*normals, -outward, outward], offsets, (low + high) / 2 * outward, unit_weight)
 
 
 def _key(polar: float, azimuths: Array, shell: tuple[float, float], unit_weight: float) -> Block:

@@ -132,7 +132,7 @@ def cantilever_stair(
     load = [
         force(
             f"tread {k + 1}",
-            unit_weight * (b - a) * length * rise * unit_vector(direction),
+            (unit_weight * (b - a) * length * rise * unit_vector(direction)).tolist(),
             at=((a + b) / 2, length / 2, (k + 0.5) * rise),
         )
         for k, (a, b) in enumerate(spans)
