@@ -72,6 +72,10 @@ def dome(
     bottom = embrace / 2
     top = oculus / 2 if oculus else bottom / (2 * courses + 1)
     polar = np.linspace(bottom, top, courses + 1)  # of the beds, from the springing up
+    slopes = 1 / np.tan(polar)
+    if running_bond and (slopes[1:] * np.cos(np.pi / stones) <= slopes[:-1]).any():
+        refuse([f"stones is {stones!r}, expected more for {courses} courses: at the ends of a stone the plane "
+                "of its upper bed would cross those of its lower bed"])  # fmt: skip
     polar = np.concatenate([[2 * polar[0] - polar[1]], polar])  # course 0 are the supports
     half, shell = np.pi / stones, (radius - thickness / 2, radius + thickness / 2)
     turn = half if running_bond else 0.0
@@ -170,10 +174,12 @@ def _stone(
 
 def _key(polar: float, azimuths: Array, shell: tuple[float, float], unit_weight: float) -> Block:
     """Closing stone on the planes that touch the cone of a polar angle at `azimuths`."""
-    normals = [*(-_bed(polar, azimuth) for azimuth in azimuths), (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)]
-    low, high = (side * np.cos(polar) for side in shell)
-    offsets = [*np.zeros(len(azimuths)), -low, high]
-    return cut("key", normals, offsets, np.array([0.0, 0.0, (low + high) / 2]), unit_weight)
+    up = np.array([0.0, 0.0, 1.0])
+    low, high = np.cos(polar) * np.array(shell)
+    beds = [-_bed(polar, azimuth) for azimuth in azimuths.tolist()]
+    return cut(
+        "key", [*beds, -up, up], [*np.zeros(len(beds)), -low, high], (low + high) / 2 * up, unit_weight
+    )
 
 
 def _out(polar: float, azimuth: float) -> Array:
