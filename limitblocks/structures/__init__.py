@@ -11,6 +11,7 @@ from limitblocks.structures.bond import Opening
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
 from limitblocks.structures.cross_vaults import groin_vault, pavilion_vault
 from limitblocks.structures.domes import dome, dome_lunes
+from limitblocks.structures.examples import EXAMPLES
 from limitblocks.structures.ferris_tin_loi import ferris_tin_loi_wall
 from limitblocks.structures.fills import Fill
 from limitblocks.structures.lintels import eccentric_lintel, portal
@@ -21,6 +22,7 @@ from limitblocks.structures.vaults import barrel_vault
 from limitblocks.structures.walls import two_leaf_wall, wall
 
 __all__ = [
+    "EXAMPLES",
     "Fill",
     "Opening",
     "Piers",

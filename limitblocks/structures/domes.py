@@ -74,8 +74,8 @@ def dome(
     polar = np.linspace(bottom, top, courses + 1)  # of the beds, from the springing up
     slopes = 1 / np.tan(polar)
     if running_bond and (slopes[1:] * np.cos(np.pi / stones) <= slopes[:-1]).any():
-        refuse([f"stones is {stones!r}, expected more for {courses} courses: at the ends of a stone the plane "
-                "of its upper bed would cross those of its lower bed"])  # fmt: skip
+        refuse([f"stones is {stones!r}, expected more for {courses} courses: at the ends of a stone the plane"
+                " of its upper bed would cross those of its lower bed"])  # fmt: skip
     polar = np.concatenate([[2 * polar[0] - polar[1]], polar])  # course 0 are the supports
     half, shell = np.pi / stones, (radius - thickness / 2, radius + thickness / 2)
     turn = half if running_bond else 0.0
