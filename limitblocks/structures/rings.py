@@ -38,10 +38,13 @@ class Profile(NamedTuple):
         """Angle at which the right half of a pointed arch meets the left one; 0 if it is not pointed."""
         return float(np.arcsin(self.shift / (self.half_axes[0] + offset)))
 
-    def joint_angles(self, voussoirs: int, springing: float) -> Array:
-        """Return the angles (n + 1,) of joints at equal distances along the centreline."""
+    def joint_angles(self, voussoirs: int, springing: float, thickness: float) -> Array:
+        """Return the angles (n + 1,) of joints at equal distances along the centreline.
+
+        Those of a pointed arch are at equal distances along the intrados, so that none crosses the apex.
+        """
         if self.shift:
-            half = np.linspace(-springing, -self.apex(), voussoirs // 2 + 1)
+            half = np.linspace(-springing, -self.apex(-thickness / 2), voussoirs // 2 + 1)
             return np.concatenate([half, -half[-2::-1]])
         a, b = self.half_axes
         if a == b:
@@ -86,13 +89,10 @@ class Ring(NamedTuple):
         """Return the ring about a centreline, or raise ModelError naming what makes it impossible."""
         _refuse_ring(thickness, voussoirs, stereotomy, facets)
         half = thickness / 2
-        inside = profile.joint_angles(voussoirs, springing)
+        inside = profile.joint_angles(voussoirs, springing, thickness)
         outside = inside.copy()
         if profile.shift:  # the joint at the apex is vertical
-            inside[voussoirs // 2] = -profile.apex(-half)
             outside[voussoirs // 2] = -profile.apex(half)
-            if inside[voussoirs // 2 - 1] >= inside[voussoirs // 2]:
-                refuse([f"voussoirs is {voussoirs!r}, expected fewer: the joints next to the apex cross it"])
         inner = profile.points(inside, -half)
         if stereotomy == "vertical":
             at = slice(1, -1)
