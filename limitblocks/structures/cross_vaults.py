@@ -16,6 +16,7 @@ from limitblocks.structures.build import (
     UNIT_WEIGHT,
     model_of,
     refuse,
+    refuse_fewer,
     refuse_not_positive,
 )
 from limitblocks.structures.convex import hull
@@ -62,6 +63,7 @@ def groin_vault(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(length=length, stone_length=stone_length)
+    refuse_fewer(2, courses=courses)
     ring, end = circular(radius, thickness, courses, embrace), length / 2
     feet = ring.skewbacks()
     reach = max(np.abs(outline[:, 0]).max() for outline in feet.values())
@@ -123,6 +125,7 @@ def pavilion_vault(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(stone_length=stone_length)
+    refuse_fewer(2, courses=courses)
     ring = circular(radius, thickness, courses, embrace)
     outlines = ring.voussoirs()[::-1]  # from the right springing up
     blocks = [

@@ -21,9 +21,7 @@ COUNTS = (25, 51, 101)
 
 
 def semicircle(thickness, voussoirs, friction=FRICTION):
-    return structures.arch(
-        lb.PointContact(friction), radius=1.0, thickness=thickness, voussoirs=voussoirs
-    )
+    return structures.arch(lb.PointContact(friction), radius=1.0, thickness=thickness, voussoirs=voussoirs)
 
 
 def lumped(model):
@@ -59,9 +57,7 @@ def extrapolated(counts, values):
 )
 def test_semicircle_converges_to_the_published_least_thickness(change, limit, printed):
     """With the square of the voussoirs' size; extrapolated, to the digits in print, or 5e-6."""
-    found = [
-        least_thickness(partial(semicircle, voussoirs=n), 1.01 * limit, change=change) for n in COUNTS
-    ]
+    found = [least_thickness(partial(semicircle, voussoirs=n), 1.01 * limit, change=change) for n in COUNTS]
     end = extrapolated(COUNTS, found)
     assert end == pytest.approx(limit, abs=printed)
     assert np.all(np.abs(np.array(found) / end - 1) * np.square(COUNTS) < 4.0)
