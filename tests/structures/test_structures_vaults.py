@@ -90,7 +90,7 @@ def test_thicker_vaults_are_stronger(name):
 @pytest.mark.parametrize(("courses", "stones"), [(1, 4), (4, 8), (5, 13)])
 @pytest.mark.parametrize(("radius", "embrace"), [(7.3, np.pi), (1.0, 2.0)])
 def test_dome_contacts(running_bond, oculus, courses, stones, radius, embrace):
-    """Meridian joints; two bed joints to a stone in running bond, one else; the key lies on all of the top."""
+    """Meridian joints; a stone has two bed joints in running bond, else one; the key lies on all below it."""
     model = structures.dome(
         JOINT, radius=radius, thickness=radius / 10, courses=courses, stones=stones, embrace=embrace,
         oculus=oculus, running_bond=running_bond,

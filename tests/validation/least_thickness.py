@@ -1,4 +1,4 @@
-"""Least thickness of arches and lunes: from blocks, by root finding, and from thrust lines, without blocks."""
+"""Least thickness of arches and lunes: from blocks, by root finding; from thrust lines, without blocks."""
 
 import numpy as np
 from scipy.integrate import cumulative_simpson
@@ -46,10 +46,10 @@ def stands(model):
 def thrust_line_margin(inner, outer, weight, moment):
     """Largest margin of a thrust line within half of a symmetrical arch, over its weight; negative: none.
 
-    Heyman's assumptions: no tension, no crushing, no sliding. `inner` and `outer` (n, 2) are the ends of the
-    cuts of the right half; `weight` and `moment` (n,) the weight from the crown to a cut, and its first moment
-    about the middle. The crown thrust H at the height M / H: moments about the ends of every cut have opposite
-    signs.
+    Heyman's assumptions: no tension, no crushing, no sliding. `inner` and `outer` (n, 2) are the ends of
+    the cuts of the right half; `weight` and `moment` (n,) the weight from the crown to a cut, and its first
+    moment about the middle. The crown thrust H acts at the height M / H: moments about the ends of every cut
+    have opposite signs.
     """
     total = weight[-1]
 

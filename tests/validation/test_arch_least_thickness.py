@@ -1,4 +1,4 @@
-"""Least thickness of arches of every shape, its convergence with the number of voussoirs, and its friction."""
+"""Least thickness of arches of every shape, its convergence with the voussoirs, and the friction needed."""
 
 from dataclasses import replace
 from functools import partial
