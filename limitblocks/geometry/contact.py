@@ -22,7 +22,7 @@ from limitblocks.geometry.overlap import refuse_overlaps
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
 #: Grid of the corners of interfaces, relative to the block length.
-GRID = 1e-9
+GRID = 1e-11
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
 
