@@ -13,6 +13,8 @@ from limitblocks.geometry.pieces import convex_pieces
 
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
+#: Grid of clipping, in block lengths.
+GRID = 1e-11
 #: Least area that is seen at all, relative to the least area of an interface.
 _SEEN = 1e-6
 
@@ -53,8 +55,10 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
     bounds = np.stack([shapely.bounds(first), shapely.bounds(second)])
     extent = np.maximum(bounds[..., 2:].min(axis=0) - bounds[..., :2].max(axis=0), 0.0)
     near = np.flatnonzero(extent.prod(axis=1) > _SEEN * least)  # spares clipping faces that meet at an edge
+    # on a grid: without, clipping loses or invents the area of faces that agree but for rounding
+    common = shapely.intersection(first[near], second[near], grid_size=GRID * length)
     # a common part that is not one polygon (a line, a point, nothing) has no area
-    parts, pair = shapely.get_parts(shapely.intersection(first[near], second[near]), return_index=True)
+    parts, pair = shapely.get_parts(common, return_index=True)
     keep = shapely.area(parts) > _SEEN * least[near[pair]]
     pair = near[pair[keep]]
     shape = parts[keep]
