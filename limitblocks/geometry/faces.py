@@ -54,7 +54,9 @@ def all_faces(blocks: Sequence[Block], points: Sequence[Array]) -> FaceTable:
     normal = np.concatenate([block.normals for block in blocks])
     area = np.concatenate([block.areas for block in blocks])
     block = np.repeat(np.arange(len(blocks)), number)
-    size = np.array([each.size for each in blocks])[block]
+    # of a cube the side; unlike the bounds the same in any position
+    reach = [np.linalg.norm(body - body.mean(axis=0), axis=1).max() for body in points]
+    size = 2.0 / np.sqrt(3.0) * np.array(reach)[block]
     label = regions(Surfaces(corners, face, beyond, normal * area[:, None], size))
     heads, region = np.unique(label, return_inverse=True)
     single = np.bincount(region) == 1

@@ -109,7 +109,9 @@ class _Body(NamedTuple):
     @classmethod
     def of(cls, block: Block, points: Array) -> _Body:
         # the greatest height, not the mean of the face: a face may be warped within its tolerance
-        offsets = (block.normals @ points.T).max(axis=1)
+        rows = max(1, _CHUNK // len(points))
+        parts = (block.normals[k : k + rows] for k in range(0, len(block.normals), rows))
+        offsets = np.concatenate([(part @ points.T).max(axis=1) for part in parts])
         once = block.mesh.start < block.mesh.end
         edges = points[block.mesh.end[once]] - points[block.mesh.start[once]]
         return cls(points, block.normals, offsets, edges)
@@ -122,11 +124,14 @@ def _face_depths(bodies: dict[int, _Body], pairs: Indices) -> Array:
     kinds, kind, count = np.unique(shapes, axis=0, return_inverse=True, return_counts=True)
     groups = np.split(kind.ravel().argsort(kind="stable"), count.cumsum()[:-1])
     for (faces, vertices), group in zip(kinds, groups, strict=True):
-        for part in np.array_split(group, 1 + group.size * faces * vertices // _CHUNK):
+        number = min(group.size, 1 + group.size * faces * vertices // _CHUNK)
+        for part in np.array_split(group, number):
             normals = np.array([bodies[i].normals for i in pairs[part, 0]])
             offsets = np.array([bodies[i].offsets for i in pairs[part, 0]])
-            others = np.array([bodies[j].points for j in pairs[part, 1]])
-            depths[part] = (offsets - (normals @ others.swapaxes(1, 2)).min(axis=2)).min(axis=1)
+            others = np.array([bodies[j].points for j in pairs[part, 1]]).swapaxes(1, 2)
+            rows = max(1, _CHUNK // vertices)  # a large body, face after face
+            lowest = [(normals[:, k : k + rows] @ others).min(axis=2) for k in range(0, faces, rows)]
+            depths[part] = (offsets - np.concatenate(lowest, axis=1)).min(axis=1)
     return depths
 
 

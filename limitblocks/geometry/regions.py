@@ -21,7 +21,7 @@ class Surfaces(NamedTuple):
     """Half-edges of all faces of many blocks, face after face: e half-edges, m faces.
 
     `corner` (e, 3) is where a half-edge starts, `face` and `beyond` (e,) are the faces on both sides of it.
-    `area_vector` (m, 3), m2, and `size` (m,), that of the block, m, are of faces.
+    `area_vector` (m, 3), m2, and `size` (m,), a length of the block, m, are of faces.
     """
 
     corner: Array
