@@ -17,6 +17,7 @@ from limitblocks.mechanics import LimitProblem
 
 LEAP = 0.03  # of the tolerance: the flow residual that a leap aims at
 FARTHEST = 300.0  # times the last step
+ALMOST = 1e-4  # flow residual below which steps that succeed end sooner than the fixed point
 
 
 class Reach(NamedTuple):
@@ -67,7 +68,7 @@ def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
     flow = evidence(problem, start, loading.dilatancy)["flow"]
     smooth = stage.kind == "step" and not stage.failures  # the next step is cheaper than a round
-    if flow >= (settings.close if smooth else settings.near):
+    if flow >= (settings.close if smooth else settings.near) or (smooth and flow < ALMOST):
         return Closing(None, np.inf)
     for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
         state, rounds = fixed_point(

@@ -114,7 +114,7 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
             report(one.stage)
         if found[-1].residuals.worst.value <= task.tolerance:
             return found
-        closing = closed(taken[-1], task.tolerance, settings)
+        closing = closed(reach, task.tolerance, settings) if len(taken) == 1 else Closing(None, np.inf)
         if closing.stage and closing.drift < kept.drift:
             budget = budget if kept.stage else min(budget, pace.used + settings.patience)
             kept = closing
