@@ -33,10 +33,10 @@ def find_interfaces(
 
     Two faces touch when their normals are opposed within `angle` and their planes lie within `gap` block
     lengths at every corner of the area common to both. Faces of a block that share an edge and lie in one
-    plane count as one face. Block length is the median over the blocks of the cube root of their volume. The
-    interface lies midway between the two planes. Areas below 1e-3 of the block length squared and of the
-    smaller face, whichever is less, are dropped; :func:`find_contacts` lists them. Contacts along an edge or
-    at a vertex give no interface.
+    plane, within half of both tolerances, count as one face. Block length is the median over the blocks of
+    the cube root of their volume. The interface lies midway between the two planes. Areas below 1e-3 of the
+    block length squared and of the smaller face, whichever is less, are dropped; :func:`find_contacts` lists
+    them. Contacts along an edge or at a vertex give no interface.
 
     A convex area is one interface. Any other is divided into convex polygons, an interface each; corners
     within `gap` block lengths of the line through their neighbours, and holes as small, are left out of it
@@ -100,7 +100,7 @@ def find_contacts(
     points = [block.vertices - centre for block in blocks]
     pairs = _neighbours(points, NEAR * tolerance)
     overlaps = find_overlaps(blocks, points, pairs, tolerance)
-    faces = all_faces(blocks, points)
+    faces = all_faces(blocks, points, tolerance / 2.0, angle / 2.0)
     seen = patches(faces, *opposed(faces, pairs, NEAR * tolerance, min(NEAR * angle, np.pi / 4)), length)
     whole = shapely.area(seen.shape) > seen.least
     close = np.abs(seen.gap) <= tolerance

@@ -41,8 +41,11 @@ class FaceTable(NamedTuple):
     number: Indices
 
 
-def all_faces(blocks: Sequence[Block], points: Sequence[Array]) -> FaceTable:
-    """Return the plane regions of `blocks`, whose vertices are `points` (n, 3) each, m."""
+def all_faces(blocks: Sequence[Block], points: Sequence[Array], flat: float, angle: float) -> FaceTable:
+    """Return the plane regions of `blocks`, whose vertices are `points` (n, 3) each, m.
+
+    Corners of a region lie within `flat`, m, of its plane, its faces within `angle`, rad.
+    """
     meshes = [block.mesh for block in blocks]
     number = np.array([len(mesh.first) for mesh in meshes])
     before = np.repeat(np.cumsum(number) - number, [len(mesh.face) for mesh in meshes])
@@ -54,10 +57,7 @@ def all_faces(blocks: Sequence[Block], points: Sequence[Array]) -> FaceTable:
     normal = np.concatenate([block.normals for block in blocks])
     area = np.concatenate([block.areas for block in blocks])
     block = np.repeat(np.arange(len(blocks)), number)
-    # of a cube the side; unlike the bounds the same in any position
-    reach = [np.linalg.norm(body - body.mean(axis=0), axis=1).max() for body in points]
-    size = 2.0 / np.sqrt(3.0) * np.array(reach)[block]
-    label = regions(Surfaces(corners, face, beyond, normal * area[:, None], size))
+    label = regions(Surfaces(corners, face, beyond, normal * area[:, None]), flat, angle)
     heads, region = np.unique(label, return_inverse=True)
     single = np.bincount(region) == 1
     # around each region, face after face: the half-edges with another region beyond

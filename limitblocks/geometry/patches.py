@@ -13,10 +13,10 @@ from limitblocks.geometry.pieces import convex_pieces
 
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
-#: Grid of clipping, in block lengths.
-GRID = 1e-11
 #: Least area that is seen at all, relative to the least area of an interface.
 _SEEN = 1e-6
+#: Grid on which doubtful intersections are made again, relative to the block length.
+_GRID = 1e-9
 
 
 class Patches(NamedTuple):
@@ -55,9 +55,8 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
     bounds = np.stack([shapely.bounds(first), shapely.bounds(second)])
     extent = np.maximum(bounds[..., 2:].min(axis=0) - bounds[..., :2].max(axis=0), 0.0)
     near = np.flatnonzero(extent.prod(axis=1) > _SEEN * least)  # spares clipping faces that meet at an edge
-    # on a grid: without, clipping loses or invents the area of faces that agree but for rounding
-    common = shapely.intersection(first[near], second[near], grid_size=GRID * length)
     # a common part that is not one polygon (a line, a point, nothing) has no area
+    common = common_areas(first[near], second[near], _SEEN * least[near], _GRID * length)
     parts, pair = shapely.get_parts(common, return_index=True)
     keep = shapely.area(parts) > _SEEN * least[near[pair]]
     pair = near[pair[keep]]
@@ -74,6 +73,19 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
         heights,
         2.0 * np.arcsin(np.minimum(away / 2.0, 1.0)),
     )
+
+
+def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:
+    """Return the intersections (m,) of polygons, right to the area `least` (m,).
+
+    GEOS 3.14 can return the whole of a polygon for its intersection with one that it only shares a side
+    with. The order of the corners matters to it, so all is done twice; where the areas differ, on a grid.
+    """
+    common = shapely.intersection(first, second)
+    again = shapely.intersection(shapely.normalize(first), shapely.normalize(second))
+    doubtful = np.abs(shapely.area(common) - shapely.area(again)) > least
+    common[doubtful] = shapely.intersection(first[doubtful], second[doubtful], grid_size=grid)
+    return common
 
 
 def _above(faces: FaceTable, face: Indices, place: Array, normal: Array) -> Array:

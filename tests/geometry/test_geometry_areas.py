@@ -14,6 +14,7 @@ from test_geometry_contact import voronoi_blocks
 
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import Block, find_contacts, find_interfaces, polygon
+from limitblocks.geometry.patches import common_areas
 from limitblocks.io.interfaces import interface_fault
 
 
@@ -235,6 +236,48 @@ def test_rubble_of_pairs_of_cells_that_fills_a_cube(seed, form):
     assert found.keys() <= expected.keys()
     for ends, size in expected.items():
         assert found.get(ends, 0.0) == pytest.approx(size, rel=1e-4, abs=1e-6)
+
+
+def test_polygons_that_share_a_side_have_no_common_area():
+    # GEOS 3.14 gives the whole triangle
+    triangle = """POLYGON ((-0.0335973787803959 -0.0606061820642776, 0.0671947575607918 0.0303034554064244,
+    -0.0335973787803959 0.0303027266578531, -0.0335973787803959 -0.0606061820642776))"""
+    other = """POLYGON ((-0.0335973787803959 -0.1515150907864083, -0.0335973787803959 -0.0606061820642776,
+    0.0671947575607918 0.0303034554064244, 0.0668499922401276 -0.0606069083259443,
+    -0.0335973787803959 -0.1515150907864083))"""
+    pair = [np.array([shapely.from_wkt(" ".join(text.split()))]) for text in (triangle, other)]
+    assert shapely.touches(*pair).all()
+    assert shapely.area(common_areas(*pair, np.array([1e-9]), 1e-9)) == pytest.approx([0.0], abs=1e-9)
+
+
+def wavy(name, low, high, n=12):
+    """Column of unit width between two surfaces Z = low(X, Y) and high(X, Y), in triangles."""
+    x, y = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, n)] * 2, indexing="ij"))
+    points = np.concatenate([np.column_stack([x, y, z(x, y)]) for z in (low, high)])
+    place = np.arange(n * n).reshape(n, n)
+    a, b, c, d = (place[i : n - 1 + i, j : n - 1 + j].ravel() for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    rim = np.concatenate([place[:, 0], place[-1, 1:], place[-2::-1, -1], place[0, -2:0:-1]])
+    on = np.roll(rim, -1)
+    up = n * n
+    sides = [(a, c, b), (a, d, c), (up + a, up + b, up + c), (up + a, up + c, up + d)]
+    sides += [(rim, on, up + on), (rim, up + on, up + rim)]
+    return Block(name, points, np.concatenate([np.column_stack(each) for each in sides]).tolist())
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+def test_curved_surfaces_in_small_triangles_touch_all_over(seed):
+    """Some triangles count as one face on one side, and on the other not: no area is lost or counts twice."""
+
+    def wave(x, y):
+        return 0.5 + 0.1 * np.sin(5 * x) * np.cos(4 * y)
+
+    blocks = [wavy("low", lambda x, y: 0 * x, wave), wavy("high", wave, lambda x, y: 0 * x + 1)]
+    top = [k for k, face in enumerate(blocks[0].faces) if min(face) >= 144]
+    if seed is not None:
+        blocks, _, _ = moved(blocks, seed, 1e5)
+    found = find_contacts(blocks, None)
+    assert sum(map(area, found.interfaces)) == pytest.approx(blocks[0].areas[top].sum(), rel=1e-4)
+    assert found.overlaps == ()
 
 
 def test_chamfer_is_no_part_of_the_face_beside_it():

@@ -124,7 +124,7 @@ def test_noise_on_a_wall_500_km_away(seed, form):
     found = find_contacts(blocks, None)  # accepts gaps of 0.13 mm
     assert ends(found.interfaces) <= ends(expected)
     lost = ends(expected) - ends(found.interfaces)
-    assert lost == (ends(found.near_misses) | ends(found.overlaps)) & ends(expected)
+    assert lost <= ends(found.near_misses) | ends(found.overlaps)
     wide = find_contacts(blocks, None, gap=5e-3)
     assert [(i.block_i, i.block_j) for i in wide.interfaces] == [(i.block_i, i.block_j) for i in expected]
     areas = [[float(polygon.areas(i.polygon)) for i in some] for some in (wide.interfaces, expected)]
