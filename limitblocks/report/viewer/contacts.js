@@ -1,0 +1,136 @@
+// Interfaces as one coloured mesh with letters, contact forces as arrows, and the thrust line.
+
+class Contacts {
+  constructor(scene, size) {
+    this.scene = scene;
+    this.size = size;
+    const { points, owners } = contactGeometry(scene);
+    this.rest = points;
+    this.owners = owners;
+    this.blocks = owners.map((k) => scene.interfaces[k].i);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", dynamic(points));
+    geometry.setAttribute("color", dynamic(points));
+    const material = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide });
+    this.mesh = new THREE.Mesh(geometry, material);
+    this.letters = new Letters(scene);
+    this.arrows = new THREE.InstancedMesh(arrowGeometry(), new THREE.MeshLambertMaterial(), scene.interfaces.length);
+    this.thrust = new THREE.InstancedMesh(rodGeometry(), new THREE.MeshBasicMaterial(), thrustCount(scene));
+    for (const object of [this.mesh, this.arrows, this.thrust]) object.frustumCulled = false;
+    this.thrust.renderOrder = 3;
+    this.thrust.material.depthTest = false;
+    this.thrust.material.transparent = true; // drawn after the opaque blocks
+    this.longest = 1;
+  }
+
+  move(step, amplitude) {
+    displace(this.scene, step, amplitude, this.rest, this.blocks, this.mesh.geometry);
+    this.step = step;
+    this.places = this.scene.interfaces.map((one, k) => this.place(one, k, amplitude));
+    this.aim();
+    this.letters.move(this.scene, step, amplitude);
+  }
+
+  // Point of application of an interface's force, moved along with block i.
+  place(one, k, amplitude) {
+    const centre = [0, 1, 2].map((a) => one.centroid[a] + (this.step.centres[3 * k + a] || 0));
+    const out = [0, 0, 0];
+    displacement(this.step, one.i, this.scene.blocks[one.i].centroid, ...centre, out);
+    return new THREE.Vector3(...centre.map((value, a) => value + amplitude * out[a]));
+  }
+
+  // Arrows end where the force acts; they are as long as `longest` at the largest force.
+  aim() {
+    const sizes = this.scene.interfaces.map((_, k) => Math.hypot(...this.force(k)));
+    this.largest = sizes.reduce((a, b) => Math.max(a, b), 0);
+    const matrix = new THREE.Matrix4();
+    let count = 0;
+    this.arrowOwners = [];
+    sizes.forEach((size, k) => {
+      const length = (this.longest * size) / this.largest;
+      if (!(size > 5e-3 * this.largest) || !Number.isFinite(length)) return;
+      const direction = new THREE.Vector3(...this.force(k)).multiplyScalar(1 / size);
+      if (direction.z > 1e-9) direction.negate(); // handed on downwards
+      const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction);
+      const tail = this.places[k].clone().addScaledVector(direction, -length);
+      matrix.compose(tail, turn, new THREE.Vector3(length, length, length));
+      this.arrows.setMatrixAt(count, matrix);
+      this.arrowOwners.push(k);
+      count += 1;
+    });
+    this.arrows.count = count;
+    this.arrows.instanceMatrix.needsUpdate = true;
+    this.layThrust(matrix);
+  }
+
+  force(k) {
+    return this.step.forces.subarray(3 * k, 3 * k + 3);
+  }
+
+  layThrust(matrix) {
+    let count = 0;
+    for (const chain of this.scene.chains) {
+      const ends = chain.filter((k) => Number.isFinite(this.step.centres[3 * k]));
+      for (let c = 0; c + 1 < ends.length; c++) {
+        const from = this.places[ends[c]];
+        const along = this.places[ends[c + 1]].clone().sub(from);
+        const length = along.length() || 1e-12;
+        const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
+        const width = 0.003 * this.size;
+        matrix.compose(from, turn, new THREE.Vector3(width, length, width));
+        this.thrust.setMatrixAt(count, matrix);
+        count += 1;
+      }
+    }
+    this.thrust.count = count;
+    this.thrust.instanceMatrix.needsUpdate = true;
+  }
+
+  paint(step, colourOf) {
+    const attribute = this.mesh.geometry.getAttribute("color");
+    const colours = this.scene.stateNames.map((name) => colourOf(stateSign(name).colour));
+    this.owners.forEach((k, v) => attribute.array.set(colours[step.states[k]], 3 * v));
+    attribute.needsUpdate = true;
+    this.letters.paint(this.scene, step, colourOf);
+  }
+
+  // Interface under a ray, with its distance.
+  hit(raycaster) {
+    const [hit] = raycaster.intersectObject(this.mesh);
+    return hit && { interface: this.owners[3 * hit.faceIndex], distance: hit.distance };
+  }
+}
+
+function contactGeometry(scene) {
+  const points = [];
+  const owners = [];
+  scene.interfaces.forEach((one, k) => {
+    const { corners } = one.outline;
+    const at = (c) => [0, 1, 2].map((a) => one.centroid[a] + corners[3 * c + a]);
+    for (let c = 1; c + 1 < corners.length / 3; c++) {
+      points.push(...at(0), ...at(c), ...at(c + 1));
+      owners.push(k, k, k);
+    }
+  });
+  return { points: Float32Array.from(points), owners };
+}
+
+function thrustCount(scene) {
+  return scene.chains.reduce((sum, chain) => sum + Math.max(chain.length - 1, 0), 0);
+}
+
+// Unit arrow from the origin along y, one mesh of shaft and head.
+function arrowGeometry() {
+  const shaft = new THREE.CylinderGeometry(0.022, 0.022, 0.76, 8, 1, true).translate(0, 0.38, 0);
+  const head = new THREE.CylinderGeometry(0, 0.075, 0.24, 12, 1).translate(0, 0.88, 0);
+  const geometry = new THREE.BufferGeometry();
+  for (const name of ["position", "normal"]) {
+    const parts = [shaft, head].map((part) => part.toNonIndexed().getAttribute(name).array);
+    geometry.setAttribute(name, new THREE.BufferAttribute(Float32Array.from([...parts[0], ...parts[1]]), 3));
+  }
+  return geometry;
+}
+
+function rodGeometry() {
+  return new THREE.CylinderGeometry(1, 1, 1, 8, 1).translate(0, 0.5, 0);
+}
