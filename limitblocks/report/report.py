@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
@@ -16,12 +14,12 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
-from limitblocks.report.comparison import NOT_UNIQUE, comparison
-from limitblocks.report.facts import assumptions, fact_rows, facts
+from limitblocks.report.comparison import comparison
+from limitblocks.report.facts import assumptions, facts
+from limitblocks.report.page import page
 from limitblocks.report.picture import Picture, mechanism_picture
 from limitblocks.report.sections import Section, section
 
-_FOLDER = Path(__file__).parent
 _MARK = '<meta name="generator" content="limitblocks '
 _MARK_WITHIN = 4096  # bytes from the start of the file
 _DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough
@@ -75,37 +73,19 @@ class Report:
     @cached_property
     def html(self) -> str:
         """The report as one HTML document without references to other files."""
-        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+        return page(self)
 
-        environment = Environment(
-            loader=FileSystemLoader(_FOLDER),
-            autoescape=True,
-            undefined=StrictUndefined,
-            trim_blocks=True,
-            lstrip_blocks=True,
-        )
-        style = (_FOLDER / "report.css").read_text(encoding="utf-8")
-        known = facts(self.model)
-        return environment.get_template("report.html").render(
-            title=self.title,
-            date=self.date,
-            sections=[(one, self._picture(one)) for one in self.sections],
-            comparison=comparison(self.results),
-            not_unique=NOT_UNIQUE,
-            warnings=[warning for one in self.sections for warning in one.warnings] + known["warnings"],
-            model=fact_rows(known),
-            assumptions=assumptions(self.model),
-            digest=self.model.digest,
-            versions=versions(),
-            style=style,
-            style_hash=base64.b64encode(hashlib.sha256(style.encode()).digest()).decode(),
-        )
-
-    def _picture(self, one: Section) -> Picture | None:
-        """The drawing of a section's mechanism, if this report draws that one."""
+    @cached_property
+    def drawn(self) -> Section | None:
+        """The section whose mechanism is drawn: one says enough."""
         kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
-        drawn = next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
-        return mechanism_picture(self.model, one.rates) if one is drawn and one.rates is not None else None
+        return next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
+
+    @cached_property
+    def picture(self) -> Picture | None:
+        """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
+        rates = self.drawn.rates if self.drawn else None
+        return None if rates is None else mechanism_picture(self.model, rates)
 
     def save(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
         """Write the report as HTML and return its path.

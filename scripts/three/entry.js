@@ -7,6 +7,7 @@ export {
   CylinderGeometry,
   DirectionalLight,
   DoubleSide,
+  DynamicDrawUsage,
   HemisphereLight,
   InstancedMesh,
   LineBasicMaterial,

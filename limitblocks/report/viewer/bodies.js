@@ -51,7 +51,7 @@ class Bodies {
     this.material.opacity = on ? opacity : 1;
     this.material.needsUpdate = true;
     this.edges.material.transparent = on;
-    this.edges.material.opacity = on ? 0.3 : 1;
+    this.edges.material.opacity = on ? Math.min(0.3, 0.3 * Math.sqrt(300 / this.scene.blocks.length)) : 1;
     this.edges.material.needsUpdate = true;
   }
 

@@ -1,5 +1,7 @@
 // Interfaces as one coloured mesh with letters, contact forces as arrows, and the thrust line.
 
+const LARGE = 0.9; // share of the forces that are smaller than the one drawn as long as a block
+
 class Contacts {
   constructor(scene, size) {
     this.scene = scene;
@@ -20,7 +22,7 @@ class Contacts {
     this.thrust.renderOrder = 3;
     this.thrust.material.depthTest = false;
     this.thrust.material.transparent = true; // drawn after the opaque blocks
-    this.longest = 1;
+    this.reference = 1;
   }
 
   move(step, amplitude) {
@@ -39,21 +41,25 @@ class Contacts {
     return new THREE.Vector3(...centre.map((value, a) => value + amplitude * out[a]));
   }
 
-  // Arrows end where the force acts; they are as long as `longest` at the largest force.
+  // Arrows end where the force acts; their lengths are in proportion to the forces.
   aim() {
     const sizes = this.scene.interfaces.map((_, k) => Math.hypot(...this.force(k)));
-    this.largest = sizes.reduce((a, b) => Math.max(a, b), 0);
+    const ordered = sizes.filter((size) => size > 0).sort((a, b) => a - b);
+    this.largest = ordered.length ? ordered[ordered.length - 1] : 0;
+    const large = ordered.length ? ordered[Math.floor(LARGE * (ordered.length - 1))] : 1;
+    const longest = Math.min((this.reference * this.largest) / large, 0.25 * this.size);
     const matrix = new THREE.Matrix4();
     let count = 0;
     this.arrowOwners = [];
     sizes.forEach((size, k) => {
-      const length = (this.longest * size) / this.largest;
-      if (!(size > 5e-3 * this.largest) || !Number.isFinite(length)) return;
+      const length = (longest * size) / this.largest;
+      if (!(length > 0.02 * this.reference)) return;
       const direction = new THREE.Vector3(...this.force(k)).multiplyScalar(1 / size);
       if (direction.z > 1e-9) direction.negate(); // handed on downwards
       const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction);
       const tail = this.places[k].clone().addScaledVector(direction, -length);
-      matrix.compose(tail, turn, new THREE.Vector3(length, length, length));
+      const width = length ** 0.6 * this.reference ** 0.4; // small forces stay visible
+      matrix.compose(tail, turn, new THREE.Vector3(width, length, width));
       this.arrows.setMatrixAt(count, matrix);
       this.arrowOwners.push(k);
       count += 1;

@@ -3,13 +3,13 @@
 function legendRows(scene, view) {
   const { layers, step, contacts } = view;
   const rows = [];
-  if (layers.blocks) {
+  if (layers.blocks && !layers.glass) {
     rows.push({ swatch: "stone", text: "free block" }, { swatch: "support", text: "support" });
     if (step && view.mode === "mechanism") rows.push({ swatch: "ramp", text: "moves: little to most" });
   }
   if (step && layers.before) rows.push({ swatch: "before", text: "before moving" });
   if (step && layers.forces) {
-    rows.push({ swatch: "arrow", text: `force handed on downwards; longest ${inUnits(contacts.largest, "N")}` });
+    rows.push({ swatch: "arrow", text: `contact force, drawn downwards; largest ${inUnits(contacts.largest, "N")}` });
   }
   if (step && layers.thrust && scene.chains.length) rows.push({ swatch: "thrust", text: "line of thrust" });
   if (step && layers.interfaces) rows.push(...stateRows(scene, step));

@@ -14,7 +14,7 @@ const LETTER_VERTEX = `
     vTint = tint;
     vec4 place = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * place;
-    gl_PointSize = clamp(size * focal / -place.z, 8.0 * ratio, 24.0 * ratio);
+    gl_PointSize = clamp(size * focal / -place.z, 9.0 * ratio, 26.0 * ratio);
   }`;
 const LETTER_FRAGMENT = `
   uniform sampler2D atlas;
@@ -59,7 +59,7 @@ class Letters {
     });
     const states = this.owners.map((k) => step.states[k]);
     const tints = states.flatMap((state) => colourOf(stateSign(scene.stateNames[state]).colour));
-    const sizes = this.owners.map((k) => 0.35 * outlineSize(scene.interfaces[k].outline.corners));
+    const sizes = this.owners.map((k) => 0.45 * outlineSize(scene.interfaces[k].outline.corners));
     const { geometry } = this.points;
     geometry.setAttribute("position", dynamic(new Float32Array(3 * this.owners.length)));
     geometry.setAttribute("cell", new THREE.BufferAttribute(Float32Array.from(states), 1));

@@ -29,17 +29,19 @@ const PALETTES = {
 
 // Colours after Okabe and Ito, told apart by colour-blind eyes; letters for those who see none.
 const STATES = {
-  open: { colour: "#ffffff", letters: "O" },
   stick: { colour: "#8f99a5", letters: "" },
+  open: { colour: "#56b4e9", letters: "O" },
   slide: { colour: "#0072b2", letters: "S" },
   twist: { colour: "#9a4fb0", letters: "T" },
-  "slide-twist": { colour: "#009e73", letters: "ST" },
+  "slide-twist": { colour: "#008f68", letters: "ST" },
   hinge: { colour: "#e69f00", letters: "H" },
-  crush: { colour: "#b3121d", letters: "C" },
+  "begins to flow": { colour: "#d55e00", letters: "F" },
+  "not evaluated": { colour: "#8f99a5", letters: "" },
 };
 
-const OTHER_STATE = { colour: "#555555", letters: "?" };
-
+// A hinge or crushing that also slides or twists: the letters say what else it does.
 function stateSign(name) {
-  return STATES[name] || OTHER_STATE;
+  if (STATES[name]) return STATES[name];
+  const letters = name.split("-").map((word) => word[0].toUpperCase());
+  return { colour: letters[0] === "C" ? "#b3121d" : "#d55e00", letters: letters.join("") };
 }

@@ -4,14 +4,13 @@ function readScene() {
   const data = JSON.parse(document.getElementById("scene").textContent);
   const { blocks, interfaces } = data;
   const support = new Set(blocks.support);
-  return {
+  const scene = {
     title: data.title,
     live: data.live,
     chains: data.chains,
     joints: data.joints,
     stateNames: data.states,
     modeNames: data.modes,
-    results: data.results.map((result) => ({ ...result, steps: result.steps.map(readStep) })),
     blocks: blocks.name.map((name, k) => ({
       name,
       support: support.has(k),
@@ -29,18 +28,39 @@ function readScene() {
       outline: data.outlines[interfaces.outline[k]],
     })),
   };
+  scene.results = data.results.map((result) => ({
+    ...result,
+    steps: result.steps.map((step) => readStep(step, scene.interfaces)),
+  }));
+  return scene;
 }
 
-function readStep(step) {
+function readStep(step, interfaces) {
   const numbers = (values) => Float64Array.from(values, (value) => (value === null ? NaN : value));
+  const stresses = numbers(step.stress_resultants);
+  const { forces, centres } = contactForces(interfaces, stresses);
   return {
     ...step,
     displacements: numbers(step.displacements),
-    stresses: numbers(step.stress_resultants),
-    forces: numbers(step.forces),
-    centres: numbers(step.centres),
     utilisation: numbers(step.utilisation),
+    stresses,
+    forces,
+    centres,
   };
+}
+
+// Force of block i on block j, global axes, and where it acts, (e1, e2) = (-M2, M1) / N off the centroid.
+function contactForces(interfaces, stresses) {
+  const forces = new Float64Array(3 * interfaces.length);
+  const centres = new Float64Array(3 * interfaces.length);
+  interfaces.forEach(({ outline: { axes } }, k) => {
+    const [V1, V2, N, M1, M2] = stresses.subarray(6 * k, 6 * k + 6);
+    for (let a = 0; a < 3; a++) {
+      forces[3 * k + a] = -(V1 * axes[a] + V2 * axes[3 + a] + N * axes[6 + a]);
+      centres[3 * k + a] = N < 0 ? (-M2 * axes[a] + M1 * axes[3 + a]) / N : NaN;
+    }
+  });
+  return { forces, centres };
 }
 
 // Displacement of the point (x, y, z) of a block: translation and rotation about the centroid, small.
@@ -55,15 +75,28 @@ function displacement(step, block, centroid, x, y, z, out) {
   out[2] = u[at + 2] + u[at + 3] * ry - u[at + 4] * rx;
 }
 
+// Box around the structure, and around where it is drawn at the usual scale.
 function boundingBox(scene) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
-  for (const block of scene.blocks) {
-    for (let k = 0; k < block.shape.vertices.length; k++) {
-      const value = block.centroid[k % 3] + block.shape.vertices[k];
-      low[k % 3] = Math.min(low[k % 3], value);
-      high[k % 3] = Math.max(high[k % 3], value);
+  const out = [0, 0, 0];
+  const include = (point, result) => {
+    const scale = result ? result.magnification : 0;
+    for (let a = 0; a < 3; a++) {
+      low[a] = Math.min(low[a], point[a] + scale * out[a]);
+      high[a] = Math.max(high[a], point[a] + scale * out[a]);
     }
-  }
+  };
+  scene.blocks.forEach((block, k) => {
+    const c = block.centroid;
+    for (let v = 0; v < block.shape.vertices.length; v += 3) {
+      const point = [0, 1, 2].map((a) => c[a] + block.shape.vertices[v + a]);
+      include(point);
+      for (const result of scene.results) {
+        displacement(result.steps[result.steps.length - 1], k, c, ...point, out);
+        include(point, result);
+      }
+    }
+  });
   return { low, high, diagonal: Math.hypot(...high.map((value, k) => value - low[k])) };
 }

@@ -6,7 +6,7 @@ const VIEWS = {
   side: [1, 0, 0],
   top: [0, -1e-4, 1],
 };
-const FIELD_OF_VIEW = 28; // degrees
+const FIELD_OF_VIEW = 20; // degrees
 
 class Stage {
   constructor(canvas, box) {
@@ -17,9 +17,9 @@ class Stage {
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, box.diagonal / 200, box.diagonal * 30);
     this.camera.up.set(0, 0, 1);
-    this.sky = new THREE.HemisphereLight("#ffffff", "#8a8f96", 1.7);
+    this.sky = new THREE.HemisphereLight("#ffffff", "#a39c93", 1.9);
     this.sky.position.set(0, 0, 1);
-    this.lamp = new THREE.DirectionalLight("#ffffff", 1.9);
+    this.lamp = new THREE.DirectionalLight("#fffaf2", 2.2);
     this.camera.add(this.lamp);
     this.lamp.position.set(-0.6, 0.9, 1);
     this.lamp.target = this.camera;
@@ -56,12 +56,8 @@ class Stage {
     const middle = new THREE.Vector3(...low.map((value, k) => (value + high[k]) / 2));
     const tall = Math.tan((FIELD_OF_VIEW * Math.PI) / 360) * 0.92;
     const wide = tall * this.camera.aspect;
-    let distance = 0;
-    for (let corner = 0; corner < 8; corner++) {
-      const at = new THREE.Vector3(...low.map((value, k) => ((corner >> k) & 1 ? high[k] : value))).sub(middle);
-      const reach = Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(up)) / tall);
-      distance = Math.max(distance, reach + at.dot(towards));
-    }
+    const corners = boxCorners(this.box).map((corner) => corner.sub(middle));
+    const distance = fit(corners, middle, { towards, right, up, wide, tall });
     this.controls.target.copy(middle);
     this.camera.position.copy(middle).addScaledVector(towards, distance);
     this.controls.update();
@@ -135,6 +131,31 @@ class Stage {
     this.drawNow(); // what was drawn before is gone by now
     this.canvas.toBlob((blob) => saveBlob(blob, name));
   }
+}
+
+function boxCorners({ low, high }) {
+  return [...Array(8).keys()].map(
+    (corner) => new THREE.Vector3(...low.map((value, k) => ((corner >> k) & 1 ? high[k] : value))),
+  );
+}
+
+// Least distance at which all corners are seen; moves `middle` so that they fill the picture evenly.
+function fit(corners, middle, { towards, right, up, wide, tall }) {
+  let distance = 0;
+  for (let round = 0; round < 4; round++) {
+    distance = 0;
+    for (const at of corners) {
+      const reach = Math.max(Math.abs(at.dot(right)) / wide, Math.abs(at.dot(up)) / tall);
+      distance = Math.max(distance, reach + at.dot(towards));
+    }
+    for (const axis of [right, up]) {
+      const slopes = corners.map((at) => at.dot(axis) / (distance - at.dot(towards)));
+      const shift = axis.clone().multiplyScalar(((Math.max(...slopes) + Math.min(...slopes)) / 2) * distance);
+      middle.add(shift);
+      corners.forEach((at) => at.sub(shift));
+    }
+  }
+  return distance * 1.03;
 }
 
 function saveBlob(blob, name) {

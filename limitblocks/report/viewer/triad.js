@@ -4,22 +4,26 @@ const SVG = "http://www.w3.org/2000/svg";
 
 class Triad {
   constructor(holder, live) {
+    const drawing = document.createElementNS(SVG, "svg");
+    drawing.setAttribute("viewBox", "-78 -66 156 132");
+    holder.append(drawing);
     this.rods = [
       ["X", [1, 0, 0], "x"],
       ["Y", [0, 1, 0], "y"],
       ["Z", [0, 0, 1], "z"],
       ...(live ? [["live", live, "live"]] : []),
-    ].map(([label, vector, kind]) => ({ vector: new THREE.Vector3(...vector), ...rod(holder, label, kind) }));
+    ].map(([label, vector, kind]) => ({ vector: new THREE.Vector3(...vector), ...rod(drawing, label, kind) }));
   }
 
   turn(camera) {
     const flat = this.rods.map(({ vector }) => vector.clone().transformDirection(camera.matrixWorldInverse));
     this.rods.forEach(({ line, text, group }, k) => {
       const reach = 34;
+      const label = text.textContent === "live" ? 1.9 : 1.32; // it may lie along an axis
       line.setAttribute("x2", reach * flat[k].x);
       line.setAttribute("y2", -reach * flat[k].y);
-      text.setAttribute("x", 1.32 * reach * flat[k].x);
-      text.setAttribute("y", -1.32 * reach * flat[k].y + 4);
+      text.setAttribute("x", label * reach * flat[k].x);
+      text.setAttribute("y", -label * reach * flat[k].y + 4);
       group.setAttribute("opacity", flat[k].z < -0.3 ? 0.55 : 1);
     });
   }

@@ -31,7 +31,7 @@ class Viewer {
     this.triad = new Triad(root.querySelector(".triad"), scene.live);
     this.stage.afterDraw.push(() => this.triad.turn(this.stage.camera));
     this.card = new Card(root.querySelector(".card"), (picked) => this.pick(picked));
-    this.arrowLength = arrowLength(scene, box);
+    this.arrowLength = arrowLength(scene);
     this.resultAt = 0;
     this.stepAt = this.result ? this.result.steps.length - 1 : 0;
     this.scale = 1;
@@ -107,7 +107,7 @@ class Viewer {
 
   move() {
     if (this.step) {
-      this.contacts.longest = this.arrowLength * this.arrowScale;
+      this.contacts.reference = this.arrowLength * this.arrowScale;
       this.bodies.move(this.step, this.drawnAmplitude);
       this.contacts.move(this.step, this.drawnAmplitude);
     }
@@ -191,8 +191,8 @@ function blockColours(viewer, palette) {
   });
 }
 
-function arrowLength(scene, box) {
+// Length drawn for a large force, but not the largest: about a block.
+function arrowLength(scene) {
   const free = scene.blocks.filter((block) => !block.support);
-  const mean = free.reduce((sum, block) => sum + Math.cbrt(block.volume), 0) / Math.max(free.length, 1);
-  return Math.min(0.25 * box.diagonal, 2.5 * mean);
+  return free.reduce((sum, block) => sum + Math.cbrt(block.volume), 0) / Math.max(free.length, 1);
 }

@@ -1,0 +1,95 @@
+"""The interfaces that a result puts to use, as rows to read, and all of them for programs."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.bounds import Bounds
+from limitblocks.analysis.interface_states import InterfaceStates, interface_states
+from limitblocks.analysis.results import LoadPath, Nonassociated
+from limitblocks.arrays import Array
+from limitblocks.model import Model
+from limitblocks.report.scene import short
+
+#: Interfaces listed, those first that use most of their strength.
+MOST = 300
+COMPONENTS = ("V1", "V2", "N", "M1", "M2", "T")
+
+
+class Cell(NamedTuple):
+    """Text of a cell, and the number it sorts by; None for text."""
+
+    text: str
+    value: float | None = None
+
+
+class Active(NamedTuple):
+    """Interfaces that do not stick: title of the result, heads, rows, how many there are of how many."""
+
+    title: str
+    heads: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    active: int
+    interfaces: int
+
+
+HEADS = (
+    "Interface", "State", "Utilisation", "N, kN", "V1, kN", "V2, kN", "M1, kN m", "M2, kN m", "T, kN m",
+    "Active modes",
+)  # fmt: skip
+
+
+def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
+    """Return the interfaces that do not stick at collapse; None for a result without a mechanism."""
+    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+        return None
+    states = interface_states(model, result)
+    active = np.array([word != "stick" for word in states.state], dtype=bool)
+    order = np.argsort(-states.utilisation, kind="stable")
+    shown = [k for k in order.tolist() if active[k]]
+    rows = tuple(_row(states, k) for k in shown[:MOST])
+    return Active(title, HEADS, rows, len(shown), len(states.names))
+
+
+def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
+    """Return a dictionary an interface, SI units, for JSON; empty for a result without a mechanism."""
+    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+        return []
+    states = interface_states(model, result)
+    return [
+        {
+            "name": name,
+            "joint": repr(interface.joint),
+            "state": states.state[k],
+            "utilisation": float(states.utilisation[k]),
+            "active_modes": list(states.active_modes[k]),
+            "stress_resultants": short(states.stress_resultants[k]),
+            "force": short(states.force[k]),
+            "centre_of_pressure": short(states.centre_of_pressure[k]),
+        }
+        for k, (name, interface) in enumerate(zip(states.names, model.interfaces, strict=True))
+    ]
+
+
+def _row(states: InterfaceStates, k: int) -> tuple[Cell, ...]:
+    Q = dict(zip(COMPONENTS, _clean(states.stress_resultants[k], states).tolist(), strict=True))
+    numbers = [Q[name] / 1e3 for name in ("N", "V1", "V2", "M1", "M2", "T")]
+    used = float(states.utilisation[k])
+    return (
+        Cell(states.names[k]),
+        Cell(states.state[k]),
+        Cell(f"{used:.3f}", used),
+        *(Cell(f"{value:.4g}", value) for value in numbers),
+        Cell(", ".join(states.active_modes[k]) or "none"),
+    )
+
+
+def _clean(Q: Array, states: InterfaceStates) -> Array:
+    """Without the noise of the solver: what is below 1e-7 of the largest of its kind is 0."""
+    forces, moments = (
+        np.abs(states.stress_resultants[:, :3]).max(),
+        np.abs(states.stress_resultants[:, 3:]).max(),
+    )
+    return np.where(np.abs(Q) > 1e-7 * np.repeat([forces, moments], 3), Q, 0.0)
