@@ -32,7 +32,7 @@ from limitblocks.joints import (
 )
 from limitblocks.mechanics import Load, force, mass_proportional, moment, self_weight
 from limitblocks.model import Model
-from limitblocks.report import Report, report
+from limitblocks.report import Report, report, report_schema
 
 __version__ = "0.1.0"
 
@@ -80,6 +80,7 @@ __all__ = [
     "read",
     "read_result",
     "report",
+    "report_schema",
     "self_weight",
     "structures",
     "write_result",

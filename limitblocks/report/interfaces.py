@@ -11,11 +11,10 @@ from limitblocks.analysis.interface_states import InterfaceStates, interface_sta
 from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
 from limitblocks.model import Model
-from limitblocks.report.scene import short
+from limitblocks.report.scene import short, without_noise
 
 #: Interfaces listed, those first that use most of their strength.
 MOST = 300
-COMPONENTS = ("V1", "V2", "N", "M1", "M2", "T")
 
 
 class Cell(NamedTuple):
@@ -49,7 +48,8 @@ def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
     active = np.array([word != "stick" for word in states.state], dtype=bool)
     order = np.argsort(-states.utilisation, kind="stable")
     shown = [k for k in order.tolist() if active[k]]
-    rows = tuple(_row(states, k) for k in shown[:MOST])
+    resultants = without_noise(states.stress_resultants)
+    rows = tuple(_row(states, resultants[k], k) for k in shown[:MOST])
     return Active(title, HEADS, rows, len(shown), len(states.names))
 
 
@@ -73,23 +73,13 @@ def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
     ]
 
 
-def _row(states: InterfaceStates, k: int) -> tuple[Cell, ...]:
-    Q = dict(zip(COMPONENTS, _clean(states.stress_resultants[k], states).tolist(), strict=True))
-    numbers = [Q[name] / 1e3 for name in ("N", "V1", "V2", "M1", "M2", "T")]
+def _row(states: InterfaceStates, resultants: Array, k: int) -> tuple[Cell, ...]:
+    V1, V2, N, M1, M2, T = (resultants / 1e3).tolist()
     used = float(states.utilisation[k])
     return (
         Cell(states.names[k]),
         Cell(states.state[k]),
         Cell(f"{used:.3f}", used),
-        *(Cell(f"{value:.4g}", value) for value in numbers),
+        *(Cell(f"{value:.4g}", value) for value in (N, V1, V2, M1, M2, T)),
         Cell(", ".join(states.active_modes[k]) or "none"),
     )
-
-
-def _clean(Q: Array, states: InterfaceStates) -> Array:
-    """Without the noise of the solver: what is below 1e-7 of the largest of its kind is 0."""
-    forces, moments = (
-        np.abs(states.stress_resultants[:, :3]).max(),
-        np.abs(states.stress_resultants[:, 3:]).max(),
-    )
-    return np.where(np.abs(Q) > 1e-7 * np.repeat([forces, moments], 3), Q, 0.0)

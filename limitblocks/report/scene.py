@@ -54,6 +54,13 @@ def short(values: Any, noise: float = 0.0) -> list[float | None]:
     ]
 
 
+def without_noise(resultants: Array) -> Array:
+    """Return resultants (m, 6) with 0 for forces and moments below 1e-7 of the largest of their kind."""
+    sizes = np.abs(resultants)
+    forces, moments = sizes[:, :3].max(initial=0.0), sizes[:, 3:].max(initial=0.0)
+    return np.where(sizes > NOISE * np.repeat([forces, moments], 3), resultants, 0.0)
+
+
 def chains(model: Model) -> list[list[int]]:
     """Return the interfaces of each chain of blocks, from a support on; none if the blocks branch."""
     supports, at = set(model.supports), dict[str, list[int]]()
@@ -181,7 +188,7 @@ def _collapse(label: str, moved: Array, states: InterfaceStates, words: _Words) 
     return {
         "label": label,
         "displacements": short(moved, NOISE),
-        "stress_resultants": _resultants(states.stress_resultants),
+        "stress_resultants": short(without_noise(states.stress_resultants)),
         "states": [words.states.index(word) for word in states.state],
         "utilisation": short(states.utilisation.round(4)),
         "modes": [[words.modes.index(mode) for mode in modes] for modes in states.active_modes],
@@ -197,18 +204,11 @@ def _before(model: Model, label: str, step: PathStep, words: _Words) -> dict[str
     return {
         "label": label,
         "displacements": short(step.displacements, NOISE),
-        "stress_resultants": _resultants(step.stress_resultants),
+        "stress_resultants": short(without_noise(step.stress_resultants)),
         "states": [words.states.index(BEGINS if name in begun else UNKNOWN) for name in names],
         "utilisation": [None] * len(names),
         "modes": [[known[mode] for mode in begun.get(name, ()) if mode in known] for name in names],
     }
-
-
-def _resultants(values: Array) -> list[float | None]:
-    """Forces and moments, each without its noise."""
-    forces, moments = (short(values[:, columns], NOISE) for columns in ([0, 1, 2], [3, 4, 5]))
-    pairs = zip(np.reshape(forces, (-1, 3)).tolist(), np.reshape(moments, (-1, 3)).tolist(), strict=True)
-    return [value for force, moment in pairs for value in (*force, *moment)]
 
 
 def _weight(unit_weight: float | None, volume: float) -> float:
