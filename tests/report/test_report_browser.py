@@ -78,6 +78,7 @@ def open_page(chromium, file):
 def page(open_page, file):
     """The report as it was opened, and the assurance that nothing went wrong or out."""
     open_page.emulate_media(media="screen")
+    open_page.locator("canvas").press("Escape")
     open_page.locator("[name=result]").select_option("0")
     show(open_page, "structure")
     show(open_page, "mechanism")
