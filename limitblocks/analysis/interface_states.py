@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from limitblocks.analysis.results import LoadPath
+from limitblocks.analysis.utilisation import utilisation
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import Interface
-from limitblocks.joints.rows import hinge_gradients
 from limitblocks.mechanics import LimitProblem
 from limitblocks.model import Model
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the mean block weight: a contact force below it counts as none
-NOISE = 1e-9  # of the mean block weight: a strength below it counts as none
 HINGING = {"hinge", "crush", "open"}  # modes whose rows open one side of an interface
 
 
@@ -73,9 +74,7 @@ class InterfaceStates:
         Force that block i exerts on block j, global axes, N; block i feels the opposite.
     utilisation : Array, shape (m,)
         How much of the strength is used, N held, from 0 to 1 on the yield surface; see
-        :meth:`limitblocks.joints.queries.Queries.utilisation`. Where the rows act on the forces of points
-        (PointContact) it is the friction in use over that available, summed over the points, or how far
-        the centre of pressure is on its way to the edge, whichever is more. 0 without a force.
+        :func:`limitblocks.analysis.utilisation.utilisation`. 0 without a force.
     """
 
     names: tuple[str, ...]
@@ -127,7 +126,7 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
         stress_resultants=read_only(Q),
         centre_of_pressure=read_only(centroid + np.einsum("ma,mab->mb", e, axes[:, :2])),
         force=read_only(-np.einsum("ma,mab->mb", Q[:, :3], axes)),
-        utilisation=read_only(np.where(loaded, _utilisation(model, found), 0.0)),
+        utilisation=read_only(np.where(loaded, utilisation(model, found.generalised_stresses), 0.0)),
     )
 
 
@@ -172,11 +171,11 @@ def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tu
 
 
 def _states(
-    interfaces: tuple[Interface, ...],
+    interfaces: Sequence[Interface],
     dq: Array,
     e: Array,
     modes: tuple[tuple[str, ...], ...],
-    loaded: Array,
+    loaded: npt.NDArray[np.bool_],
     least: float,
 ) -> tuple[str, ...]:
     """Name the motion of each interface; `e` (m, 2) is NaN without a normal force."""
@@ -200,49 +199,3 @@ def _states(
         else "-".join(word for word, moves in zip(motions, row, strict=True) if moves) or "stick"
         for free, *row in table
     )
-
-
-def _utilisation(model: Model, found: Collapse) -> Array:
-    """Utilisation of each interface, shape (m,), from 0 to 1."""
-    problem = model.problem
-    x = found.generalised_stresses / problem.stress_units
-    V1, V2, N = (problem.resultants[k::6].tocsr() for k in range(3))
-    normal = np.zeros(len(x))
-    normal[N.indices] = 1.0
-    share = _shares(problem, problem.F @ (x * normal) + problem.g, problem.F @ (x * (1.0 - normal)))
-    used = np.zeros(len(problem.interfaces))
-    np.maximum.at(used, _first_rows(problem), share)
-    points = np.flatnonzero(np.diff(N.indptr) > 1)  # rows that act on the forces of points
-    if len(points):
-        sizes = np.hypot(x[V1.indices], x[V2.indices])
-        owner = np.repeat(np.arange(len(used)), np.diff(V1.indptr))
-        friction = np.bincount(owner, weights=sizes, minlength=len(used))[points]
-        used[points] = _ratio(friction, problem.friction[points] * -(N @ x)[points])
-        for k in points.tolist():
-            Q, h = found.stress_resultants[k], hinge_gradients(model.interfaces[k].polygon[None])[0]
-            used[k] = max(used[k], float(_ratio((h[:, 3:] @ Q[3:]).max(), -Q[2])))
-    return np.clip(used, 0.0, 1.0)
-
-
-def _first_rows(problem: LimitProblem) -> Array:
-    """Interface of each linear row and of each cone."""
-    cones = [first + size * np.arange(count) for first, count, size in problem.cones.blocks]
-    return np.asarray(problem.row_interface[np.concatenate([np.arange(problem.cones.linear), *cones])])
-
-
-def _shares(problem: LimitProblem, held: Array, rest: Array) -> Array:
-    """Least s >= 0 of each linear row and each cone for which s held + rest is in it: 1 at yield."""
-    n = problem.cones.linear
-    parts = [_ratio(-rest[:n], held[:n])]
-    for first, count, size in problem.cones.blocks:
-        a, b = (v[first : first + count * size].reshape(count, size) for v in (held, rest))
-        signs = np.r_[1.0, -np.ones(size - 1)]
-        aa, ab, bb = (a * a) @ signs, (a * b) @ signs, (b * b) @ signs
-        parts.append(_ratio(np.sqrt(np.maximum(ab**2 - aa * bb, 0.0)) - ab, aa))
-    return np.concatenate(parts)
-
-
-def _ratio(used: Any, available: Any) -> Array:
-    """Quotient in 0 to 1; where nothing is available it is 1 if anything is used."""
-    safe = np.where(available > NOISE, available, 1.0)
-    return np.where(available > NOISE, np.clip(used / safe, 0.0, 1.0), used > NOISE).astype(float)

@@ -14,7 +14,7 @@ from limitblocks.model import Model
 from limitblocks.report.scene import short, without_noise
 
 #: Interfaces listed, those first that use most of their strength.
-MOST = 300
+MOST = 200
 
 
 class Cell(NamedTuple):

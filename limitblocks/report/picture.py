@@ -11,12 +11,13 @@ import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import polyhedron
+from limitblocks.geometry.painter import Body, painting_order, placed
 from limitblocks.model import Model
-from limitblocks.report.painter import Body, painting_order, placed
 
 WIDTH, MARGIN = 1000.0, 12.0  # user units of the SVG
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
 TURN = 0.25  # largest rotation drawn, rad: the drawing is linear in it
+MOST_GHOSTS = 500  # more moving blocks, and only the outline around them shows where they were
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 SHADES = 4
 LIGHT = np.array([-0.35, -0.5, 0.8])
@@ -85,12 +86,13 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
     names = [block.name for block in model.blocks]
     drawn = [_drawn(*each, view, page) for each in zip(names, kinds, faces, after, strict=True)]
     shown = np.flatnonzero(moving).tolist()
-    ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in shown]
+    ghostly = shown if len(shown) <= MOST_GHOSTS else []
+    ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in ghostly]
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
     return Picture(
         height=page.height,
         blocks=tuple(drawn[k] for k in painting_order(after, view[2])),
-        ghosts=tuple(ghosts[k] for k in painting_order([before[k] for k in shown], view[2])),
+        ghosts=tuple(ghosts[k] for k in painting_order([before[k] for k in ghostly], view[2])),
         outline=_outline([before[k] for k in shown], view, page),
         axes=_axes(live, view),
         magnification=scale,

@@ -19,7 +19,7 @@ from limitblocks.report.picture import magnification
 SCENE_VERSION = 1
 DIGITS = 6  # of displacements, stress resultants and coordinates
 NOISE = 1e-7  # of the largest of its kind: shown as zero
-MOST_NUMBERS = 250_000  # of the steps of a load path; longer ones are thinned out
+MOST_NUMBERS = 120_000  # of the steps of a load path; longer ones are thinned out
 BEGINS = "begins to flow"
 UNKNOWN = "not evaluated"
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.report import painter, picture
+from limitblocks.geometry import painter
+from limitblocks.report import picture
 from limitblocks.report.facts import facts
 
 
@@ -39,6 +40,21 @@ def grid(across, up, slide):
     rates = np.zeros((len(blocks), 6))
     rates[1:, 0] = slide
     return model, rates
+
+
+def nonassociated(bounds):
+    names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+    state = {name: getattr(bounds, name) for name in (*names, "residuals", "digest")}
+    return lb.Nonassociated(
+        load_factor=0.2,
+        frictionless=0.1,
+        associated=0.3,
+        status=lb.Status.CONVERGED,
+        history=(),
+        dilatancy=0.0,
+        tolerance=1e-6,
+        **state,
+    )
 
 
 class Checked(HTMLParser):
@@ -194,7 +210,12 @@ def test_two_thousand_blocks_stay_under_three_megabytes(bounds):
         flow_multipliers=random.random(model.problem.F.shape[0]),
         digest=model.digest,
     )
-    report = lb.report(model, full)
+    end = nonassociated(full)
+    steps = [
+        lb.PathStep(0.1 * k, end.stress_resultants, k * end.displacement_rates, (), {"yield": 0.0}, "step")
+        for k in range(20)
+    ]
+    report = lb.report(model, full, end, lb.LoadPath(tuple(steps), end))
     assert len(report.picture.blocks) == 2001
     assert len(report.html.encode()) < 3e6
 
