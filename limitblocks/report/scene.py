@@ -17,7 +17,8 @@ from limitblocks.model import Model
 from limitblocks.report.picture import magnification
 
 SCENE_VERSION = 1
-DIGITS = 6  # of displacements, stress resultants and coordinates
+DIGITS = 6  # of coordinates and stress resultants
+DRAWN_DIGITS = 4  # of what is drawn more than read: displacements, and forces before collapse
 NOISE = 1e-7  # of the largest of its kind: shown as zero
 MOST_NUMBERS = 120_000  # of the steps of a load path; longer ones are thinned out
 BEGINS = "begins to flow"
@@ -44,12 +45,12 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     }
 
 
-def short(values: Any, noise: float = 0.0) -> list[float | None]:
-    """Return numbers, flattened, with six digits; those below `noise` of the largest are 0, NaN is None."""
+def short(values: Any, noise: float = 0.0, digits: int = DIGITS) -> list[float | None]:
+    """Return numbers, flattened, with few digits; those below `noise` of the largest are 0, NaN is None."""
     flat = np.asarray(values, dtype=float).ravel()
     least = noise * np.nanmax(np.abs(flat), initial=0.0)
     return [
-        None if not np.isfinite(value) else 0 if abs(value) <= least else _shortest(value)
+        None if not np.isfinite(value) else 0 if abs(value) <= least else _shortest(value, digits)
         for value in flat.tolist()
     ]
 
@@ -187,7 +188,7 @@ def _path(model: Model, path: LoadPath, states: InterfaceStates, words: _Words) 
 def _collapse(label: str, moved: Array, states: InterfaceStates, words: _Words) -> dict[str, Any]:
     return {
         "label": label,
-        "displacements": short(moved, NOISE),
+        "displacements": short(moved, NOISE, DRAWN_DIGITS),
         "stress_resultants": short(without_noise(states.stress_resultants)),
         "states": [words.states.index(word) for word in states.state],
         "utilisation": short(states.utilisation.round(4)),
@@ -203,8 +204,8 @@ def _before(model: Model, label: str, step: PathStep, words: _Words) -> dict[str
     known = {mode: k for k, mode in enumerate(words.modes)}
     return {
         "label": label,
-        "displacements": short(step.displacements, NOISE),
-        "stress_resultants": short(without_noise(step.stress_resultants)),
+        "displacements": short(step.displacements, NOISE, DRAWN_DIGITS),
+        "stress_resultants": short(without_noise(step.stress_resultants), 0.0, DRAWN_DIGITS),
         "states": [words.states.index(BEGINS if name in begun else UNKNOWN) for name in names],
         "utilisation": [None] * len(names),
         "modes": [[known[mode] for mode in begun.get(name, ()) if mode in known] for name in names],
@@ -215,6 +216,6 @@ def _weight(unit_weight: float | None, volume: float) -> float:
     return np.nan if unit_weight is None else unit_weight * volume
 
 
-def _shortest(value: float) -> float:
-    brief = float(f"{value:.{DIGITS}g}")
+def _shortest(value: float, digits: int) -> float:
+    brief = float(f"{value:.{digits}g}")
     return int(brief) if brief.is_integer() else brief

@@ -82,7 +82,7 @@ def test_load_path_has_its_steps_and_long_ones_are_thinned_out(arch, results, sh
     for step, given in zip(path.steps, steps, strict=True):
         assert f"{step.load_factor:.6g}" in given["label"]
         size = np.abs(step.displacements).max()
-        assert np.allclose(rows(given["displacements"], 6), step.displacements, atol=1e-5 * size)
+        assert np.allclose(rows(given["displacements"], 6), step.displacements, atol=1e-3 * size)
     monkeypatch.setattr(sys.modules[scene.__module__], "MOST_NUMBERS", 1)
     thin = scene(arch, results, "arch")["results"][1]["steps"]
     last = len(path.steps) - 1
@@ -97,8 +97,8 @@ def test_largest_movement_is_drawn_at_eight_hundredths_of_the_size(arch, results
         np.linalg.norm(rate[:3] + np.cross(rate[3:], block.vertices - block.centroid), axis=1).max()
         for block, rate in zip(arch.blocks, rates, strict=True)
     )
-    assert moved <= 0.08 * np.linalg.norm(np.ptp(corners, axis=0)) * (1 + 1e-5)
-    assert np.abs(rates[:, 3:]).max() <= 0.25 * (1 + 1e-5)
+    assert moved <= 0.08 * np.linalg.norm(np.ptp(corners, axis=0)) * (1 + 1e-3)
+    assert np.abs(rates[:, 3:]).max() <= 0.25 * (1 + 1e-3)
 
 
 def test_thrust_line_runs_from_support_to_support(arch):
