@@ -9,6 +9,7 @@ from limitblocks.report import assets
 from limitblocks.report.comparison import NOT_UNIQUE, comparison
 from limitblocks.report.facts import assumptions, fact_rows, facts
 from limitblocks.report.interfaces import active_interfaces
+from limitblocks.report.picture import Picture
 from limitblocks.report.scene import scene
 
 if TYPE_CHECKING:
@@ -58,17 +59,32 @@ def page(report: Report) -> str:
         policy=assets.policy(),
         scene=Markup(assets.json_in_html(shown)),
         moving=moving,
+        main=report.drawn,
         drawn=report.picture is not None,
         layers=[layer for layer in LAYERS if moving or layer[0] in _PLAIN_LAYERS],
-        summary=summary(known, moving),
+        chosen=_chosen(report),
+        summary=summary(known, moving, report.picture),
     )
 
 
-def summary(known: dict[str, Any], moving: list[str]) -> str:
-    """Return the picture in a sentence, for those who do not see it."""
-    said = f"3D picture of {known['free_blocks']} blocks on {len(known['supports'])} supports"
+def summary(known: dict[str, Any], moving: list[str], drawn: Picture | None) -> str:
+    """Return the picture in a sentence or two, for those who do not see it."""
+    supports = len(known["supports"])
+    said = f"3D picture of {known['free_blocks']} blocks on {supports} support{'s' * (supports > 1)}"
     said += f" with {known['interfaces']} interfaces"
-    return said + (f"; mechanism and contact forces of: {', '.join(moving)}" if moving else "")
+    if drawn is None:
+        return said
+    count = sum(block.kind == "moving" for block in drawn.blocks)
+    return (
+        f"{said}; mechanism and contact forces of: {', '.join(moving)}. "
+        f"{count} blocks move, {drawn.largest} most; the tables below have the numbers."
+    )
+
+
+def _chosen(report: Report) -> int:
+    """Place in the viewer of the result whose load factor heads the report."""
+    moving = [one for one in report.sections if one.rates is not None]
+    return moving.index(report.drawn) if report.drawn else 0
 
 
 def _sections(report: Report) -> Any:

@@ -63,6 +63,7 @@ class Bodies {
 
   // Largest displacement of each block in a step, over the largest of all.
   travel(step) {
+    if (step.travel) return step.travel;
     const out = [0, 0, 0];
     const sizes = this.scene.blocks.map((block, k) => {
       let most = 0;
@@ -75,7 +76,8 @@ class Bodies {
       return most;
     });
     const largest = sizes.reduce((a, b) => Math.max(a, b), 0);
-    return sizes.map((size) => (largest > 0 ? size / largest : 0));
+    step.travel = sizes.map((size) => (largest > 0 ? size / largest : 0));
+    return step.travel;
   }
 }
 

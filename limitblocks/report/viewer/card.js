@@ -19,12 +19,16 @@ function inUnits(value, unit) {
   return Math.abs(value) >= 1000 ? `${digits(value / 1000)} k${unit}` : `${digits(value)} ${unit}`;
 }
 
+function place(point) {
+  return Number.isFinite(point[0]) ? `${point.map((x) => Number(x.toFixed(5))).join(", ")} m` : "–";
+}
+
 function blockCard(scene, k, result, step) {
   const block = scene.blocks[k];
   const rows = [["Kind", block.support ? "support" : "free block"]];
   if (block.weight !== null) rows.push(["Weight", inUnits(block.weight, "N")]);
   rows.push(["Volume", `${digits(block.volume)} m³`]);
-  rows.push(["Centroid", `${block.centroid.map(digits).join(", ")} m`]);
+  rows.push(["Centroid", place(block.centroid)]);
   if (step) {
     const u = [...step.displacements.subarray(6 * k, 6 * k + 6)];
     rows.push([result.moves, `${u.slice(0, 3).map(digits).join(", ")} m`]);
@@ -51,9 +55,9 @@ function interfaceCard(scene, k, result, step) {
     rows.push(["V1", inUnits(V1, "N")], ["V2", inUnits(V2, "N")], ["T", inUnits(T, "N m")]);
     rows.push(["M1", inUnits(M1, "N m")], ["M2", inUnits(M2, "N m")]);
     const centre = [0, 1, 2].map((a) => one.centroid[a] + step.centres[3 * k + a]);
-    rows.push(["Centre of pressure", Number.isFinite(centre[0]) ? `${centre.map(digits).join(", ")} m` : "–"]);
+    rows.push(["Centre of pressure", place(centre)]);
   } else {
-    rows.push(["Centroid", `${one.centroid.map(digits).join(", ")} m`]);
+    rows.push(["Centroid", place(one.centroid)]);
   }
   const links = [one.i, one.j].map((at) => [scene.blocks[at].name, { block: at }]);
   return { kind: "Interface", name: one.name, rows, linked: "Blocks", links };

@@ -25,12 +25,30 @@ class Contacts {
     this.reference = 1;
   }
 
-  move(step, amplitude) {
-    displace(this.scene, step, amplitude, this.rest, this.blocks, this.mesh.geometry);
+  // Follows the blocks; what is not shown stays where it is.
+  move(step, amplitude, layers) {
     this.step = step;
+    this.largest = this.measure(step).largest;
+    if (layers.interfaces || layers.letters || layers.forces) {
+      displace(this.scene, step, amplitude, this.rest, this.blocks, this.mesh.geometry);
+    }
+    if (layers.letters) this.letters.move(this.scene, step, amplitude);
+    if (!layers.forces && !layers.thrust) return;
     this.places = this.scene.interfaces.map((one, k) => this.place(one, k, amplitude));
-    this.aim();
-    this.letters.move(this.scene, step, amplitude);
+    if (layers.forces) this.aim();
+    if (layers.thrust) this.layThrust();
+  }
+
+  // Sizes of the forces of a step: each, the largest, and a large one that many come near.
+  measure(step) {
+    if (!step.sizes) {
+      const each = this.scene.interfaces.map((_, k) => Math.hypot(...this.force(k)));
+      const ordered = each.filter((size) => size > 0).sort((x, y) => x - y);
+      const largest = ordered.length ? ordered[ordered.length - 1] : 0;
+      const large = ordered.length ? ordered[Math.floor(LARGE * (ordered.length - 1))] : 1;
+      step.sizes = { each, largest, large };
+    }
+    return step.sizes;
   }
 
   // Point of application of an interface's force, moved along with block i.
@@ -43,16 +61,12 @@ class Contacts {
 
   // Arrows end where the force acts; their lengths are in proportion to the forces.
   aim() {
-    const sizes = this.scene.interfaces.map((_, k) => Math.hypot(...this.force(k)));
-    const ordered = sizes.filter((size) => size > 0).sort((a, b) => a - b);
-    this.largest = ordered.length ? ordered[ordered.length - 1] : 0;
-    const large = ordered.length ? ordered[Math.floor(LARGE * (ordered.length - 1))] : 1;
-    const longest = Math.min((this.reference * this.largest) / large, 0.25 * this.size);
+    const { each, largest, large } = this.measure(this.step);
+    const longest = Math.min((this.reference * largest) / large, 0.25 * this.size);
     const matrix = new THREE.Matrix4();
     let count = 0;
-    this.arrowOwners = [];
-    sizes.forEach((size, k) => {
-      const length = (longest * size) / this.largest;
+    each.forEach((size, k) => {
+      const length = (longest * size) / largest;
       if (!(length > 0.02 * this.reference)) return;
       const direction = new THREE.Vector3(...this.force(k)).multiplyScalar(1 / size);
       if (direction.z > 1e-9) direction.negate(); // handed on downwards
@@ -61,19 +75,18 @@ class Contacts {
       const width = length ** 0.6 * this.reference ** 0.4; // small forces stay visible
       matrix.compose(tail, turn, new THREE.Vector3(width, length, width));
       this.arrows.setMatrixAt(count, matrix);
-      this.arrowOwners.push(k);
       count += 1;
     });
     this.arrows.count = count;
     this.arrows.instanceMatrix.needsUpdate = true;
-    this.layThrust(matrix);
   }
 
   force(k) {
     return this.step.forces.subarray(3 * k, 3 * k + 3);
   }
 
-  layThrust(matrix) {
+  layThrust() {
+    const matrix = new THREE.Matrix4();
     let count = 0;
     for (const chain of this.scene.chains) {
       const ends = chain.filter((k) => Number.isFinite(this.step.centres[3 * k]));
@@ -92,12 +105,12 @@ class Contacts {
     this.thrust.instanceMatrix.needsUpdate = true;
   }
 
-  paint(step, colourOf) {
+  paint(step, colourOf, picked, pickedColour) {
     const attribute = this.mesh.geometry.getAttribute("color");
+    const chosen = colourOf(pickedColour);
     const colours = this.scene.stateNames.map((name) => colourOf(stateSign(name).colour));
-    this.owners.forEach((k, v) => attribute.array.set(colours[step.states[k]], 3 * v));
+    this.owners.forEach((k, v) => attribute.array.set(k === picked ? chosen : colours[step.states[k]], 3 * v));
     attribute.needsUpdate = true;
-    this.letters.paint(this.scene, step, colourOf);
   }
 
   // Interface under a ray, with its distance.

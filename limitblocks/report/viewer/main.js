@@ -5,7 +5,7 @@ function startViewer(scene) {
   root.hidden = false; // the canvas needs its size
   let viewer;
   try {
-    viewer = new Viewer(root, scene);
+    viewer = new Viewer(root, scene, Number(root.querySelector("[name=result]").value));
   } catch (error) {
     root.hidden = true;
     document.getElementById("no-webgl").hidden = false;

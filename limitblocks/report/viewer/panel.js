@@ -26,8 +26,8 @@ class Panel {
     for (const input of root.querySelectorAll("[name=layer]")) {
       input.addEventListener("change", () => {
         viewer.layers[input.value] = input.checked;
+        viewer.move();
         viewer.paint();
-        viewer.stage.draw();
       });
     }
     root.querySelector("[name=result]").addEventListener("change", (event) => {

@@ -19,11 +19,11 @@ class Triad {
     const flat = this.rods.map(({ vector }) => vector.clone().transformDirection(camera.matrixWorldInverse));
     this.rods.forEach(({ line, text, group }, k) => {
       const reach = 34;
-      const label = text.textContent === "live" ? 1.9 : 1.32; // it may lie along an axis
+      const below = text.textContent === "live" ? 18 : 4; // it may lie along an axis
       line.setAttribute("x2", reach * flat[k].x);
       line.setAttribute("y2", -reach * flat[k].y);
-      text.setAttribute("x", label * reach * flat[k].x);
-      text.setAttribute("y", -label * reach * flat[k].y + 4);
+      text.setAttribute("x", 1.32 * reach * flat[k].x);
+      text.setAttribute("y", -1.32 * reach * flat[k].y + below);
       group.setAttribute("opacity", flat[k].z < -0.3 ? 0.55 : 1);
     });
   }

@@ -8,7 +8,7 @@ const MODES = {
 };
 
 class Viewer {
-  constructor(root, scene) {
+  constructor(root, scene, resultAt) {
     this.root = root;
     this.scene = scene;
     const box = boundingBox(scene);
@@ -32,7 +32,7 @@ class Viewer {
     this.stage.afterDraw.push(() => this.triad.turn(this.stage.camera));
     this.card = new Card(root.querySelector(".card"), (picked) => this.pick(picked));
     this.arrowLength = arrowLength(scene);
-    this.resultAt = 0;
+    this.resultAt = resultAt;
     this.stepAt = this.result ? this.result.steps.length - 1 : 0;
     this.scale = 1;
     this.arrowScale = 1;
@@ -80,10 +80,10 @@ class Viewer {
     const { step } = this;
     if (step) {
       this.bodies.showBefore(step);
-      this.contacts.paint(step, linear);
+      this.contacts.letters.paint(this.scene, step, linear);
     }
-    this.paint();
     this.move();
+    this.paint();
     this.showCard();
   }
 
@@ -96,6 +96,7 @@ class Viewer {
     this.contacts.thrust.material.color.set(palette.thrust);
     this.marker.lines.material.color.set(palette.ink);
     this.bodies.paint(blockColours(this, palette));
+    if (this.step) this.contacts.paint(this.step, linear, this.picked && this.picked.interface, palette.picked);
     this.bodies.translucent(this.layers.glass, theme() === "dark" ? 0.16 : 0.22);
     for (const [layer, objects] of Object.entries(this.objects)) {
       for (const object of objects) {
@@ -109,7 +110,7 @@ class Viewer {
     if (this.step) {
       this.contacts.reference = this.arrowLength * this.arrowScale;
       this.bodies.move(this.step, this.drawnAmplitude);
-      this.contacts.move(this.step, this.drawnAmplitude);
+      this.contacts.move(this.step, this.drawnAmplitude, this.layers);
     }
     const optics = this.stage.optics();
     const { uniforms } = this.contacts.letters.points.material;
