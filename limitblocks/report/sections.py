@@ -14,7 +14,7 @@ from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
-from limitblocks.report.curve import Curve, path_curve
+from limitblocks.report.curve import Curve, convergence_curve, path_curve
 
 _ACTIVE_SHOWN = 4
 
@@ -154,6 +154,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
         tolerance=result.tolerance,
         rates=result.displacement_rates,
         warnings=(() if result.converged else (result.status.value,)) + _loose(result.tolerance),
+        curve=convergence_curve(result.history),
     )
 
 
