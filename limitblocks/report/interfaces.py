@@ -13,7 +13,7 @@ from limitblocks.arrays import Array
 from limitblocks.model import Model
 from limitblocks.report.scene import short, without_noise
 
-#: Interfaces listed, those first that use most of their strength.
+#: Interfaces listed, those first that use most of their strength and are compressed most.
 MOST = 200
 
 
@@ -46,7 +46,7 @@ def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
         return None
     states = interface_states(model, result)
     active = np.array([word != "stick" for word in states.state], dtype=bool)
-    order = np.argsort(-states.utilisation, kind="stable")
+    order = np.lexsort((states.stress_resultants[:, 2], -states.utilisation.round(3)))  # then most compressed
     shown = [k for k in order.tolist() if active[k]]
     resultants = without_noise(states.stress_resultants)
     rows = tuple(_row(states, resultants[k], k) for k in shown[:MOST])

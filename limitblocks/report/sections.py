@@ -162,7 +162,7 @@ def _path(model: Model, path: LoadPath) -> Section:
     end = _nonassociated(model, path.collapse)
     last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
     return Section(
-        title="Load path",
+        title="Load path" if path.collapse.converged else "Load path, not converged",
         meaning=(
             "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
             f"step is in equilibrium and within the yield surface, and the last {last}, Eqs (54)-(59). "

@@ -118,6 +118,7 @@ def test_what_did_not_converge_is_not_sold_as_a_solution():
         assert "not converged, so not proven" in text
         assert Status.OUT_OF_STEPS.value in text
         assert "do not yet satisfy" in text or "is not yet a collapse" in text
+        assert re.search(r"load factor α, (load path|non-associated state), not converged", text)
 
 
 def test_failed_check_is_told_apart():

@@ -82,7 +82,7 @@ class Bodies {
 }
 
 function dynamic(values) {
-  const attribute = new THREE.BufferAttribute(Float32Array.from(values), 3);
+  const attribute = new THREE.BufferAttribute(new Float32Array(values), 3);
   attribute.setUsage(THREE.DynamicDrawUsage);
   return attribute;
 }
@@ -107,41 +107,55 @@ function displace(scene, step, amplitude, rest, owners, geometry) {
   geometry.boundingSphere = null;
 }
 
-// Triangles with a normal a face, and the edges, each once.
+// Triangles with a normal a face, and the edges, each once: of each shape, then copied to its blocks.
 function bodyGeometry(scene) {
+  const parts = new Map();
+  for (const { shape } of scene.blocks) if (!parts.has(shape)) parts.set(shape, shapeGeometry(shape));
+  const of = (key) => scene.blocks.map((block, k) => ({ at: block.centroid, values: parts.get(block.shape)[key], k }));
+  const bodies = copies(of("points"));
+  const edges = copies(of("lines"));
+  const normals = copies(of("normals").map((copy) => ({ ...copy, at: [0, 0, 0] })));
+  return {
+    points: bodies.points,
+    normals: normals.points,
+    owners: bodies.owners,
+    lines: edges.points,
+    lineOwners: edges.owners,
+  };
+}
+
+// Points of all copies, each moved to its place, and whose they are.
+function copies(list) {
+  const count = list.reduce((sum, { values }) => sum + values.length, 0);
+  const points = new Float32Array(count);
+  const owners = new Uint32Array(count / 3);
+  let next = 0;
+  for (const { at, values, k } of list) {
+    owners.fill(k, next / 3, (next + values.length) / 3);
+    for (let v = 0; v < values.length; v++) points[next + v] = at[v % 3] + values[v];
+    next += values.length;
+  }
+  return { points, owners };
+}
+
+function shapeGeometry({ vertices, faces }) {
   const points = [];
   const normals = [];
-  const owners = [];
   const lines = [];
-  const lineOwners = [];
-  scene.blocks.forEach((block, k) => {
-    const at = (v) => [0, 1, 2].map((a) => block.centroid[a] + block.shape.vertices[3 * v + a]);
-    for (const face of block.shape.faces) {
-      const corners = face.map(at);
-      const normal = faceNormal(corners);
-      for (let c = 1; c + 1 < corners.length; c++) {
-        for (const corner of [corners[0], corners[c], corners[c + 1]]) {
-          points.push(...corner);
-          normals.push(...normal);
-          owners.push(k);
-        }
-      }
-      face.forEach((from, c) => {
-        const to = face[(c + 1) % face.length];
-        if (from < to) {
-          lines.push(...at(from), ...at(to));
-          lineOwners.push(k, k);
-        }
-      });
+  const at = (v) => vertices.slice(3 * v, 3 * v + 3);
+  for (const face of faces) {
+    const corners = face.map(at);
+    const normal = faceNormal(corners);
+    for (let c = 1; c + 1 < corners.length; c++) {
+      points.push(...corners[0], ...corners[c], ...corners[c + 1]);
+      normals.push(...normal, ...normal, ...normal);
     }
-  });
-  return {
-    points: Float32Array.from(points),
-    normals: Float32Array.from(normals),
-    owners: Uint32Array.from(owners),
-    lines: Float32Array.from(lines),
-    lineOwners: Uint32Array.from(lineOwners),
-  };
+    face.forEach((from, c) => {
+      const to = face[(c + 1) % face.length];
+      if (from < to) lines.push(...at(from), ...at(to));
+    });
+  }
+  return { points, normals, lines };
 }
 
 // Newell's normal of a plane polygon, of length 1.

@@ -121,17 +121,17 @@ class Contacts {
 }
 
 function contactGeometry(scene) {
+  const parts = new Map();
+  for (const { outline } of scene.interfaces) if (!parts.has(outline)) parts.set(outline, fan(outline.corners));
+  return copies(scene.interfaces.map((one, k) => ({ at: one.centroid, values: parts.get(one.outline), k })));
+}
+
+// Triangles of a convex polygon.
+function fan(corners) {
+  const at = (c) => corners.slice(3 * c, 3 * c + 3);
   const points = [];
-  const owners = [];
-  scene.interfaces.forEach((one, k) => {
-    const { corners } = one.outline;
-    const at = (c) => [0, 1, 2].map((a) => one.centroid[a] + corners[3 * c + a]);
-    for (let c = 1; c + 1 < corners.length / 3; c++) {
-      points.push(...at(0), ...at(c), ...at(c + 1));
-      owners.push(k, k, k);
-    }
-  });
-  return { points: Float32Array.from(points), owners };
+  for (let c = 1; c + 1 < corners.length / 3; c++) points.push(...at(0), ...at(c), ...at(c + 1));
+  return points;
 }
 
 function thrustCount(scene) {
