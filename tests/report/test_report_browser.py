@@ -63,15 +63,19 @@ def open_page(chromium, file):
     browser = chromium.launch(executable_path=FOUND, args=[*FLAGS, *SOFTWARE])
     page = browser.new_page(viewport={"width": 900, "height": 800}, color_scheme="light")
     page.set_default_timeout(10_000)
+    watch(page)
+    page.goto(file.as_uri())
+    page.wait_for_selector("#viewer[data-ready]")
+    yield page
+    browser.close()
+
+
+def watch(page):
     page.faults, page.requests = [], []
     page.on("console", lambda message: page.faults.append(message.text))
     page.on("pageerror", lambda error: page.faults.append(str(error)))
     page.on("dialog", lambda dialog: (page.faults.append("dialog"), dialog.dismiss()))
     page.on("request", lambda request: page.requests.append(request.url))
-    page.goto(file.as_uri())
-    page.wait_for_selector("#viewer[data-ready]")
-    yield page
-    browser.close()
 
 
 @pytest.fixture
@@ -286,6 +290,20 @@ def test_print_shows_the_drawing_in_place_of_the_canvas(page):
     page.emulate_media(media="print")
     assert not page.locator("canvas").is_visible()
     assert page.locator("figure.static svg").is_visible()
+
+
+def test_model_without_results_is_shown(open_page, model, tmp_path):
+    page = open_page.context.browser.new_page()
+    watch(page)
+    page.goto(lb.report(model).save(tmp_path / "model.html").as_uri())
+    page.wait_for_selector("#viewer[data-ready]")
+    page.locator("canvas").press("n")
+    page.locator("canvas").press(" ")
+    assert card(page)[0] == "ground"
+    assert page.locator("[name=mode]").count() == 1
+    assert not page.locator("[name=play]").is_visible()
+    assert page.faults == []
+    page.close()
 
 
 def test_without_webgl_the_drawing_remains(chromium, file):
