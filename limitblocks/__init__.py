@@ -3,14 +3,15 @@
 from importlib import import_module
 from typing import Any
 
-from limitblocks import structures
+from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.interface_states import InterfaceStates, interface_states
 from limitblocks.analysis.load_path import load_path
-from limitblocks.analysis.loading import Settings
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
 from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.analysis.settings import Settings
 from limitblocks.errors import (
     CheckFailed,
     GeometryError,
@@ -23,8 +24,19 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import model_schema, read, read_result, write_result
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_drawing,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+    write_vtu,
+)
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -34,7 +46,21 @@ from limitblocks.joints import (
     effective_strength,
     interface,
 )
-from limitblocks.mechanics import Load, force, mass_proportional, moment, self_weight
+from limitblocks.mechanics import (
+    Load,
+    Tilting,
+    added_mass,
+    compass,
+    fill,
+    force,
+    line_load,
+    mass_proportional,
+    moment,
+    pressure,
+    self_weight,
+    tilting,
+    top_force,
+)
 from limitblocks.model import Model
 from limitblocks.report import Report, report, report_schema
 
@@ -46,8 +72,11 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
+    "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "ImportedBlocks",
     "Interface",
     "InterfaceStates",
     "Iteration",
@@ -69,27 +98,44 @@ __all__ = [
     "SolveError",
     "SolverFailure",
     "Status",
+    "Tilting",
     "UnlimitedLoad",
     "YieldRows",
+    "added_mass",
     "bounds",
     "check_mcp",
+    "compass",
+    "diagnose",
     "effective_strength",
+    "fill",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
     "interface_states",
+    "line_load",
     "load_path",
     "mass_proportional",
     "model_schema",
     "moment",
     "nonassociated",
+    "pressure",
     "read",
+    "read_blocks",
+    "read_drawing",
     "read_result",
     "report",
     "report_schema",
     "self_weight",
     "structures",
+    "studies",
+    "tilting",
+    "top_force",
+    "units",
+    "write_animation",
+    "write_blocks",
     "write_result",
+    "write_vtu",
 ]
 
 

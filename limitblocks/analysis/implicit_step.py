@@ -169,6 +169,7 @@ class Newton:
         return 0.0
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")  # a point that ran away is not accepted
 def implicit_step(loading: Loading, iterations: int) -> StepResult:
     """Solve one step by the interior-point method from a cold start."""
     p = loading.problem

@@ -7,18 +7,12 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from limitblocks.analysis.bounds import TOLERANCE
-from limitblocks.analysis.loading import Settings, Stage, stages
-from limitblocks.analysis.nonassociated import (
-    bracket,
-    finished,
-    initial,
-    iteration,
-    load_scale,
-    refuse_unlimited,
-    start_stresses,
-)
-from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep
-from limitblocks.analysis.states import State
+from limitblocks.analysis.loading import stages
+from limitblocks.analysis.nonassociated import finished, initial, iteration
+from limitblocks.analysis.results import Iteration, LoadPath, PathStep
+from limitblocks.analysis.settings import Settings
+from limitblocks.analysis.start import Start, bracket, load_scale, refuse_unlimited, start_stresses
+from limitblocks.analysis.states import Stage, State
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.joints.base import Joint, joint_of
@@ -32,6 +26,7 @@ STEPS = Settings(
     first=0.05,
     growth=2.0,
     retries=((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2)),
+    leap=0,
     budget=3000,
 )
 
@@ -43,7 +38,7 @@ def load_path(
     *,
     dilatancy: float = 0.0,
     tolerance: float = TOLERANCE,
-    start: Nonassociated | None = None,
+    start: Start | None = None,
     stiffness: Stiffness | Mapping[Joint, Stiffness] | None = None,
     settings: Settings = STEPS,
     progress: Callable[[Iteration], None] | None = None,
@@ -61,8 +56,9 @@ def load_path(
     ----------
     model, dilatancy, tolerance, settings, progress, throw
         As for :func:`limitblocks.nonassociated`.
-    start : Nonassociated, optional
-        State to start from, in place of that of the permanent loads.
+    start : Nonassociated, Bounds or array_like, shape (s,), optional
+        State to start from, in place of that of the permanent loads; as for
+        :func:`limitblocks.nonassociated`.
     stiffness : (float, float) or mapping from joints to (float, float), optional
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
         only the displacements. Without it both are one mean block weight per block length cubed, and
@@ -72,7 +68,7 @@ def load_path(
     ------
     ModelError
         If a stiffness is not positive or a joint has none, the dilatancy is out of range, or `start` belongs
-        to another model.
+        to another model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     NotConverged
@@ -85,8 +81,8 @@ def load_path(
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     x0 = start_stresses(model, weights, start)
     enclosing = bracket(model)
-    refuse_unlimited(problem, enclosing[1], dilatancy)
-    scale = load_scale(problem, enclosing[1])
+    refuse_unlimited(problem, enclosing.associated, dilatancy)
+    scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
     def record(stage: Stage) -> None:

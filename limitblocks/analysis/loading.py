@@ -1,84 +1,28 @@
-"""Outer loop: implicit steps from the permanent loads to collapse, closed by the fixed point."""
+"""Outer loop: implicit steps from the permanent loads to collapse, closed by a leap or the fixed point."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.fixed_point import fixed_point, nearest_stresses
-from limitblocks.analysis.implicit_step import Loading, Point, StepResult, implicit_step
+from limitblocks.analysis.closing import Closing, Reach, closed, evidence, leap, reached
+from limitblocks.analysis.implicit_step import Loading, implicit_step
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.mcp import mcp_residuals
-from limitblocks.analysis.residuals import SMALL_LOAD, Residuals
-from limitblocks.analysis.states import State
+from limitblocks.analysis.settings import Settings
+from limitblocks.analysis.states import Stage
 from limitblocks.arrays import Array
 from limitblocks.mechanics import LimitProblem
 
 log = logging.getLogger(__name__)
 
-
-@dataclass(frozen=True)
-class Settings:
-    """How the outer loop steps; all numbers are dimensionless.
-
-    Attributes
-    ----------
-    first : float
-        First step, as the load factor it would add to elastic joints over the associated load factor.
-    growth : float
-        Steps grow by this factor after a success, and shrink by it where every retry failed.
-    longest, last : float
-        Longest step until the flow residual is 1e-3, and after that.
-    retries : tuple of (float, float)
-        (divisor of the step, viscosity of the multipliers) tried in turn; the first is the plain
-        quasi-static step, a divisor above one a smaller step, a viscosity a jump across a snap.
-    near, close : float
-        Flow residual below which the fixed point is tried, where steps fail and where they do not.
-    drift : float
-        Change of the load factor, relative, up to which the fixed point belongs to the state it started
-        from; farther solutions are kept in case the steps find nothing better.
-    rounds : int
-        Rounds of the fixed point.
-    iterations, budget, patience : int
-        Newton iterations of one step, of all together, and after the first solution kept.
-    """
-
-    first: float = 0.4
-    growth: float = 3.0
-    longest: float = 50.0
-    last: float = 5e3
-    retries: tuple[tuple[float, float], ...] = ((1.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2))
-    near: float = 0.1
-    close: float = 1e-2
-    drift: float = 1e-3
-    rounds: int = 10
-    iterations: int = 60
-    budget: int = 1000
-    patience: int = 300
-
-
-@dataclass(frozen=True, eq=False)
-class Stage:
-    """One accepted state of the outer loop.
-
-    `kind` is "step" (quasi-static), "jump" (a step with viscosity) or "fixed point"; `inner` counts Newton
-    iterations or rounds, `failures` the attempts that failed before it.
-    """
-
-    state: State
-    residuals: Residuals
-    rho: float
-    kind: str
-    inner: int
-    failures: int
-
-
 Progress = Callable[[Stage], None]
+AGAIN = 0.25  # of the flow residual where the last leap was tried: from here the next is worth its cost
 
 
 def stages(
@@ -95,39 +39,23 @@ def stages(
 
     `scale` is the load factor that steps are measured by, the associated one.
     """
-    unit = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
-    blocks = InterfaceBlocks(problem)
-    x, y = x0, np.zeros(len(problem.g))
+    first = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
     found: list[Stage] = []
-    kept: tuple[Stage, float] | None = None
-    rho, level, failures, used, budget = unit / settings.first, 0, 0, 0, settings.budget
-    while used < budget:
-        factor, viscosity = settings.retries[level]
-        size = factor * rho
-        loading = Loading(problem, blocks, weights, x, y, size, viscosity / size, dilatancy)
-        result = implicit_step(loading, settings.iterations)
-        used += max(result.iterations, 1)
-        if not result.accepted:
-            log.info("step rho %.2g viscosity %.0e failed after %d", size, viscosity, result.iterations)
-            failures, level = failures + 1, level + 1
-            if level == len(settings.retries):
-                rho, level = settings.growth * rho, min(1, level - 1)
-            continue
-        stage = _stage(loading, result, "jump" if viscosity else "step", failures)
-        found.append(stage)
-        _report(stage, progress)
-        closed = _closed(loading, stage, result.point, tolerance, settings)
-        if stage.residuals.worst.value <= tolerance or (closed and closed[1] <= settings.drift):
-            return [*found, closed[0]] if closed else found
-        if closed and (kept is None or closed[1] < kept[1]):
-            budget = min(budget, used + settings.patience) if kept is None else budget
-            kept = closed
-        x, y, rho = result.point.x, result.point.y, size
-        if not failures:
-            longest = settings.last if stage.residuals["flow"] < 1e-3 else settings.longest
-            rho = max(rho / settings.growth, unit / longest)
-        level, failures = max(0, level - 1) if viscosity else 0, 0
-    return [*found, kept[0]] if kept else found
+
+    def judged(stage: Stage) -> Stage:
+        return replace(stage, residuals=evidence(problem, stage.state, dilatancy))
+
+    def report(stage: Stage) -> None:
+        _log(stage)
+        if progress is not None:
+            progress(judged(stage))
+
+    for share in settings.turning:
+        partial = replace(problem, pivot=share * problem.pivot)
+        task = _Task(partial, InterfaceBlocks(problem), weights, dilatancy, tolerance, settings, first)
+        followed = _followed(task, found[-1].state.x if found else x0, report)
+        found += [judged(stage) for stage in followed]
+    return found
 
 
 def elastic_work(problem: LimitProblem, weights: Array) -> float:
@@ -138,43 +66,103 @@ def elastic_work(problem: LimitProblem, weights: Array) -> float:
     return float(problem.live @ linalg.spsolve(sparse.csc_array(K), problem.live))
 
 
-def _closed(
-    loading: Loading, stage: Stage, z: Point, tolerance: float, settings: Settings
-) -> tuple[Stage, float] | None:
-    """The solution that the fixed point finds near a state, and how far the load factor drifts to it."""
-    start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
-    flow = _evidence(problem, start, loading.dilatancy)["flow"]
-    smooth = stage.kind == "step" and not stage.failures  # the next step is cheaper than a round
-    if flow >= (settings.close if smooth else settings.near) or stage.residuals.worst.value <= tolerance:
-        return None
-    for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
-        state, rounds = fixed_point(
-            problem, from_state, loading.weights, loading.dilatancy, tolerance, settings.rounds
-        )
-        if state is not None:
-            drift = abs(state.load_factor - start.load_factor) / max(abs(start.load_factor), SMALL_LOAD)
-            evidence = _evidence(problem, state, loading.dilatancy)
-            return Stage(state, evidence, loading.rho, "fixed point", rounds, 0), drift
-    return None
+class _Task(NamedTuple):
+    """What stays the same from step to step; `first` is the rho of a step of one."""
+
+    problem: LimitProblem
+    blocks: InterfaceBlocks
+    weights: Array
+    dilatancy: float
+    tolerance: float
+    settings: Settings
+    first: float
+
+    def loading(self, x: Array, y: Array, rho: float, viscosity: float) -> Loading:
+        """The step of size 1 / rho from the state (x, y)."""
+        return Loading(self.problem, self.blocks, self.weights, x, y, rho, viscosity / rho, self.dilatancy)
 
 
-def _stage(loading: Loading, result: StepResult, kind: str, failures: int) -> Stage:
-    """The state of an accepted step; a jump, whose viscosity strays from yield, is brought back to it."""
-    problem, z = loading.problem, result.point
-    state = State(z.load_factor, z.x, z.u, z.y)
-    if kind == "jump":
-        back = nearest_stresses(problem, z.x, np.zeros_like(z.y), loading.weights)
-        if back is not None:
-            state = State(*back, z.u, z.y)
-    evidence = _evidence(problem, state, loading.dilatancy)
-    return Stage(state, evidence, loading.rho, kind, result.iterations, failures)
+class _Pace(NamedTuple):
+    """Size of the next step, which retry it begins with, what failed before it, and iterations spent."""
+
+    rho: float
+    level: int = 0
+    failures: int = 0
+    used: int = 0
 
 
-def _evidence(problem: LimitProblem, state: State, dilatancy: float) -> Residuals:
-    return mcp_residuals(problem, state.load_factor, state.x, state.u, state.y, dilatancy)
+def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
+    """Accepted states from the stresses `x0` on, of steps, jumps and the solution that closes them."""
+    settings = task.settings
+    x, y, pace = x0, np.zeros(len(task.problem.g)), _Pace(task.first / settings.first)
+    found: list[Stage] = []
+    kept, leapt, budget = Closing(None, np.inf), np.inf, settings.budget
+    while True:
+        reach, pace = _stepped(task, x, y, pace, budget)
+        if reach is None:
+            break
+        taken = [reach]
+        if _may_leap(task, reach.stage, leapt):
+            far = leap(reach, task.tolerance, settings)
+            pace = pace._replace(used=pace.used + far.stage.inner)
+            leapt = reach.stage.residuals["flow"]
+            if far.accepted:
+                taken.append(far)
+                pace = pace._replace(rho=far.loading.rho)
+        for one in taken:
+            found.append(one.stage)
+            report(one.stage)
+        if found[-1].residuals.worst.value <= task.tolerance:
+            return found
+        closing = closed(taken[-1], task.tolerance, settings)
+        if closing.stage and closing.drift < kept.drift:
+            budget = budget if kept.stage else min(budget, pace.used + settings.patience)
+            kept = closing
+            if closing.drift <= settings.drift:
+                break
+        x, y, pace = taken[-1].point.x, taken[-1].point.y, _next(task, reach.stage, pace)
+    if kept.stage:
+        report(kept.stage)
+        found.append(kept.stage)
+    return found
 
 
-def _report(stage: Stage, progress: Progress | None) -> None:
+def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple[Reach | None, _Pace]:
+    """The next accepted step from (x, y), smaller or with viscosity where it fails; None if none is left."""
+    settings = task.settings
+    while pace.used < budget:
+        factor, viscosity = settings.retries[pace.level]
+        loading = task.loading(x, y, factor * pace.rho, viscosity)
+        result = implicit_step(loading, settings.iterations)
+        pace = pace._replace(used=pace.used + max(result.iterations, 1))
+        if result.accepted:
+            kind = "jump" if viscosity else "step"
+            return reached(loading, result, kind, pace.failures), pace._replace(rho=loading.rho)
+        log.info("step rho %.2g viscosity %.0e failed after %d", loading.rho, viscosity, result.iterations)
+        pace = pace._replace(failures=pace.failures + 1, level=pace.level + 1)
+        if pace.level == len(settings.retries):
+            pace = pace._replace(rho=settings.growth * pace.rho, level=min(1, pace.level - 1))
+    return None, pace
+
+
+def _may_leap(task: _Task, stage: Stage, leapt: float) -> bool:
+    """Whether the state is close enough to collapse, and well beyond where the last leap was tried."""
+    settings, smooth = task.settings, stage.kind == "step" and not stage.failures
+    worth = smooth and settings.leap > 0 and stage.residuals.worst.value > task.tolerance
+    return worth and stage.residuals["flow"] < min(settings.close, AGAIN * leapt)
+
+
+def _next(task: _Task, stage: Stage, pace: _Pace) -> _Pace:
+    """The pace after an accepted step: longer after a success, with less viscosity after a jump."""
+    settings, rho = task.settings, pace.rho
+    if not pace.failures:
+        longest = settings.last if stage.residuals["flow"] < 1e-3 else settings.longest
+        rho = min(rho, max(rho / settings.growth, task.first / longest))  # after a leap no shorter than it
+    level = max(0, pace.level - 1) if stage.kind == "jump" else 0
+    return _Pace(rho, level, 0, pace.used)
+
+
+def _log(stage: Stage) -> None:
     worst = stage.residuals.worst
     log.info(
         "%s rho %.2g: load factor %.6g, %s %.1e",
@@ -184,5 +172,3 @@ def _report(stage: Stage, progress: Progress | None) -> None:
         worst.name,
         worst.value,
     )
-    if progress is not None:
-        progress(stage)

@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import is_dataclass, replace
 
 import numpy as np
 
-from limitblocks.analysis.bounds import TOLERANCE, bounds, in_model_order, refuse_falling
-from limitblocks.analysis.fixed_point import permanent_state
-from limitblocks.analysis.loading import Settings, Stage, stages
-from limitblocks.analysis.mcp import mcp_residuals
-from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
+from limitblocks.analysis.bounds import TOLERANCE, in_model_order
+from limitblocks.analysis.closing import evidence
+from limitblocks.analysis.loading import stages
 from limitblocks.analysis.results import Iteration, Nonassociated, Status
-from limitblocks.analysis.states import State
-from limitblocks.arrays import Array, read_only
-from limitblocks.errors import (
-    ModelError,
-    NoEquilibrium,
-    NotConverged,
-    SolveError,
-    SolverFailure,
-    UnlimitedLoad,
+from limitblocks.analysis.settings import Settings
+from limitblocks.analysis.start import (
+    Bracket,
+    Start,
+    associated_everywhere,
+    associated_stage,
+    bracket,
+    load_scale,
+    refuse_unlimited,
+    start_stresses,
 )
+from limitblocks.analysis.states import Stage, State
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import NotConverged
 from limitblocks.mechanics import LimitProblem
 from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
@@ -32,9 +33,9 @@ ATTEMPTS = (
     Settings(),
     Settings(longest=5e3),
     Settings(first=1.0, longest=15.0),
+    Settings(turning=(0.0, 0.5, 1.0), budget=800),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
 )
-NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one
 
 
@@ -43,7 +44,7 @@ def nonassociated(
     *,
     dilatancy: float = 0.0,
     tolerance: float = TOLERANCE,
-    start: Nonassociated | None = None,
+    start: Start | None = None,
     settings: Settings | Sequence[Settings] = ATTEMPTS,
     progress: Callable[[Iteration], None] | None = None,
     throw: bool = True,
@@ -63,8 +64,9 @@ def nonassociated(
         the flow is associated.
     tolerance : float
         Largest residual of a solution, dimensionless.
-    start : Nonassociated, optional
-        Earlier result to start from, in place of the permanent-load state.
+    start : Nonassociated, Bounds or array_like, shape (s,), optional
+        State to start from, in place of that of the permanent loads: of an earlier result, or generalised
+        stresses (N, N m) in equilibrium with the dead and some live load, within yield.
     settings : Settings or sequence of Settings
         How to step; further settings are tried in turn where the first do not converge.
     progress : callable, optional
@@ -75,7 +77,7 @@ def nonassociated(
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, or `start` belongs to another model.
+        If the dilatancy is out of range, or `start` belongs to another model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
@@ -87,8 +89,8 @@ def nonassociated(
     dilatancy_share(problem, dilatancy)
     x0 = start_stresses(model, problem.compliance, start)
     enclosing = bracket(model)
-    refuse_unlimited(problem, enclosing[1], dilatancy)
-    scale = load_scale(problem, enclosing[1])
+    refuse_unlimited(problem, enclosing.associated, dilatancy)
+    scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
     def record(stage: Stage) -> None:
@@ -97,11 +99,15 @@ def nonassociated(
             progress(history[-1])
 
     met: list[Stage] = []
+    if enclosing.bounds and start is None and associated_everywhere(problem, dilatancy):
+        met = associated_stage(problem, enclosing.bounds, dilatancy, tolerance)
+        for stage in met:
+            record(stage)
     for setting in [settings] if isinstance(settings, Settings) else settings:
-        found = stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, scale, record)
-        met += found
-        if found and found[-1].residuals.worst.value <= tolerance:
+        if met and met[-1].residuals.worst.value <= tolerance:
             break
+        if setting.turning == (1.0,) or problem.pivot.any():
+            met += stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, scale, record)
     return finished(
         model,
         best_of(met, tolerance) or initial(problem, x0, dilatancy),
@@ -126,36 +132,8 @@ def best_of(met: list[Stage], tolerance: float) -> Stage | None:
 def initial(problem: LimitProblem, x0: Array, dilatancy: float) -> Stage:
     """The permanent-load state as a stage: what is left to show where no step succeeds."""
     u, y = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
-    evidence = mcp_residuals(problem, 0.0, x0, u, y, dilatancy)
-    return Stage(State(0.0, x0, u, y), evidence, np.inf, "step", 0, 0)
-
-
-def refuse_unlimited(problem: LimitProblem, associated: float, dilatancy: float) -> None:
-    """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
-    if np.isinf(associated) and bool((dilatancy_share(problem, dilatancy) == 1.0).all()):
-        raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
-
-
-def start_stresses(model: Model, weights: Array, start: Nonassociated | None) -> Array:
-    """Stresses to start from: of the result `start`, or under the dead loads, proven to be in equilibrium."""
-    problem = model.problem
-    if start is not None:
-        if start.digest != model.digest:
-            raise ModelError(
-                f"start belongs to model {start.digest[:12]}, not to this model {model.digest[:12]}"
-            )
-        return np.asarray(start.generalised_stresses / problem.stress_units)
-    x = permanent_state(problem, weights)
-    if x is None or Residuals(static_residuals(problem, 0.0, x)).worst.value > TOLERANCE:
-        refuse_falling(problem)
-        raise SolveError("no state of the permanent loads was found, though they stand")
-    return x
-
-
-def load_scale(problem: LimitProblem, associated: float) -> float:
-    """Dimensionless load factor that steps are measured by; the dead load's where none limits the load."""
-    limit = associated / problem.scales.load_factor
-    return max(limit, SMALL_LOAD) if np.isfinite(limit) else float(len(problem.blocks))
+    state = State(0.0, x0, u, y)
+    return Stage(state, evidence(problem, state, dilatancy), np.inf, "step", 0, 0)
 
 
 def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
@@ -173,7 +151,7 @@ def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
 def finished(
     model: Model,
     stage: Stage,
-    enclosing: tuple[float, float],
+    enclosing: Bracket,
     history: tuple[Iteration, ...],
     dilatancy: float,
     tolerance: float,
@@ -184,8 +162,8 @@ def finished(
     worst = stage.residuals.worst
     result = Nonassociated(
         load_factor=state.load_factor * problem.scales.load_factor,
-        frictionless=enclosing[0],
-        associated=enclosing[1],
+        frictionless=enclosing.frictionless,
+        associated=enclosing.associated,
         stress_resultants=read_only(
             (problem.resultants @ state.x).reshape(-1, 6) * problem.scales.resultants
         ),
@@ -206,33 +184,3 @@ def finished(
             result,
         )
     return result
-
-
-def bracket(model: Model) -> tuple[float, float]:
-    """Associated load factors without and with friction, which enclose every solution (Drucker 1954).
-
-    NaN where the structure does not stand without friction, or the frictionless value is not to be had;
-    infinite where the load is unlimited.
-    """
-    lower, upper = _lower(model), _associated(model, upper=True)
-    noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
-    return (0.0 if noise else lower), upper
-
-
-def _lower(model: Model) -> float:
-    if not all(is_dataclass(interface.joint) for interface in model.interfaces):
-        return np.nan
-    smooth = {i.joint: replace(i.joint, friction=0.0) for i in model.interfaces}  # type: ignore[type-var]
-    interfaces = [replace(i, joint=smooth[i.joint]) for i in model.interfaces]
-    try:
-        return _associated(replace(model, interfaces=interfaces), upper=False)
-    except (NoEquilibrium, SolverFailure):  # the lower end says little; its failure must not cost the answer
-        return np.nan
-
-
-def _associated(model: Model, *, upper: bool) -> float:
-    try:
-        found = bounds(model)
-    except UnlimitedLoad:
-        return np.inf
-    return found.upper if upper else found.lower

@@ -1,9 +1,10 @@
-"""A state of the limit problem: stresses and mechanism, dimensionless."""
+"""States of the limit problem, dimensionless, and the stages of the outer loop that reach them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+from limitblocks.analysis.residuals import Residuals
 from limitblocks.arrays import Array
 
 
@@ -15,3 +16,19 @@ class State:
     x: Array
     u: Array
     y: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """One accepted state of the outer loop.
+
+    `kind` is "step" (quasi-static), "jump" (a step with viscosity) or "fixed point"; `inner` counts Newton
+    iterations or rounds, `failures` the attempts that failed before it.
+    """
+
+    state: State
+    residuals: Residuals
+    rho: float
+    kind: str
+    inner: int
+    failures: int

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.options import (
     AsJson,
     ClaimFile,
@@ -26,6 +27,7 @@ from limitblocks.cli.options import (
     WithNonassociated,
     WithPath,
 )
+from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged, UnlimitedLoad
 
 if TYPE_CHECKING:
@@ -43,6 +45,8 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+
+app.add_typer(studies, name="study")
 
 DEFAULT_TOLERANCE = 1e-6
 
@@ -161,6 +165,9 @@ def report(
         results += [_nonassociated(structure, **flow)] if with_nonassociated else []
         results += [_path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
+
+
+app.command("import")(import_blocks)
 
 
 @app.command()

@@ -9,11 +9,18 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_type_hints
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model, model_validator
 
 from limitblocks.io.registry import JOINTS, TERMS
+from limitblocks.io.units import Force, Length
 
 # far beyond any structure, and its powers are still finite
 Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
 Vector = tuple[Number, Number, Number]
-_BOUNDED: dict[Any, Any] = {float: Number, tuple[float, float, float]: Vector}
+Place = tuple[Number, Number]
+_BOUNDED: dict[Any, Any] = {
+    float: Number,
+    tuple[float, float]: Place,
+    tuple[float, float, float]: Vector,
+    tuple[float, float, float] | None: Vector | None,
+}
 _ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}]}
 
 
@@ -33,7 +40,7 @@ class Box(Document):
 
 
 class BlockDocument(Document):
-    """A rigid convex block: either vertices with faces, or a box."""
+    """A rigid block: either vertices with faces, or a box."""
 
     model_config = ConfigDict(json_schema_extra=_ONE_FORM)  # type: ignore[typeddict-item] # a schema is JSON
 
@@ -67,7 +74,7 @@ class InterfaceDocument(Document):
     """Centroid of the polygon, global axes, m."""
     axes: tuple[Vector, Vector, Vector]
     """Right-handed unit vectors s1, s2, n in global axes."""
-    polygon: Annotated[list[tuple[Number, Number]], Field(min_length=3)]
+    polygon: Annotated[list[Place], Field(min_length=3)]
     """Vertices along s1, s2 about the centroid, counter-clockwise about n, m."""
     joint: str
     """A name in `joints`."""
@@ -131,8 +138,17 @@ Interfaces = Annotated[
 ]
 
 
+class UnitsDocument(Document):
+    """Units of all numbers of the file, those of pressures and unit weights included."""
+
+    length: Length = "m"
+    """Unit of lengths."""
+    force: Force = "N"
+    """Unit of forces."""
+
+
 class ModelDocument(Document):
-    """A structure of rigid blocks for limit analysis with limitblocks. SI units: m, N, N/m3, Pa."""
+    """A structure of rigid blocks for limit analysis with limitblocks."""
 
     model_config = ConfigDict(title="limitblocks model")
 
@@ -142,6 +158,8 @@ class ModelDocument(Document):
     """Version of this file format."""
     name: str = ""
     """Title in reports."""
+    units: UnitsDocument = UnitsDocument()
+    """Units of all numbers of the file; m and N if left out."""
     blocks: list[BlockDocument]
     """All blocks, those of the supports included."""
     supports: list[str]

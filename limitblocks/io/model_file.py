@@ -1,7 +1,8 @@
-"""The model file: JSON in SI units, checked in full before a model is made of it."""
+"""The model file: JSON, checked in full before a model is made of it."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,8 +15,10 @@ from limitblocks.geometry import Block, Interface, find_interfaces
 from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.registry import JOINTS, TERMS
+from limitblocks.io.units import in_si
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load, mass_proportional, self_weight
+from limitblocks.mechanics import Load, self_weight
+from limitblocks.mechanics.loads import unit_vector
 from limitblocks.model import Model
 
 if TYPE_CHECKING:
@@ -25,7 +28,8 @@ if TYPE_CHECKING:
 def read(file: str | Path) -> Model:
     """Return the model in `file`, a JSON document as described in docs/model-file.md.
 
-    What :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit.
+    What :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit. Numbers in the units
+    that the file states are converted to SI.
 
     Raises
     ------
@@ -35,7 +39,7 @@ def read(file: str | Path) -> Model:
     """
     path = Path(file)
     with faults.named(path):
-        return _model(_document(strict_json.read_text(path)))
+        return _model(in_si(_document(strict_json.read_text(path))))
 
 
 @cache
@@ -77,7 +81,11 @@ def _unknown_names(document: ModelDocument) -> list[str]:
     used = [(f"supports[{k}]", name, blocks, "block") for k, name in enumerate(document.supports)]
     for word in ("dead", "live"):
         terms = enumerate(getattr(document, word))
-        used += [(f"{word}[{k}].block", t.block, blocks, "block") for k, t in terms if hasattr(t, "block")]
+        for k, term in terms:
+            if hasattr(term, "block"):
+                used.append((f"{word}[{k}].block", term.block, blocks, "block"))
+            named = enumerate(getattr(term, "blocks", ()))
+            used += [(f"{word}[{k}].blocks[{n}]", name, blocks, "block") for n, name in named]
     if isinstance(document.interfaces, list):
         for k, one in enumerate(document.interfaces):
             used.append((f"interfaces[{k}].block_i", one.block_i, blocks, "block"))
@@ -109,8 +117,8 @@ def _load(document: TermDocument) -> Load:
         return factor * self_weight()
     term = TERMS[document.type](**document.model_dump(exclude={"type", "factor"}))
     # a unit vector stays as it is, so that what was written is read bit for bit
-    if document.type == "MassProportional" and abs(np.linalg.norm(term.direction) - 1.0) > 1e-12:
-        return factor * mass_proportional(term.direction)
+    if hasattr(term, "direction") and abs(np.linalg.norm(term.direction) - 1.0) > 1e-12:
+        term = replace(term, direction=unit_vector(term.direction, "direction"))
     return Load(((factor, term),))
 
 

@@ -23,6 +23,7 @@ _STILL = (0.0,) * 6
 _NO_CLAIM = {
     "bounds": "holds bounds, two load factors that prove themselves by their gap; expected the result "
     "of nonassociated or path",
+    "study": "holds a study, the load factors of many models; expected the result of nonassociated or path",
     "check": "holds a check, not a result; expected the result of nonassociated or path",
 }
 

@@ -1,7 +1,21 @@
 """Loads, compatibility and the dimensionless limit problem."""
 
 from limitblocks.mechanics.assembly import limit_problem
-from limitblocks.mechanics.loads import Load, force, mass_proportional, moment, self_weight
+from limitblocks.mechanics.loads import (
+    Load,
+    Tilting,
+    added_mass,
+    compass,
+    fill,
+    force,
+    line_load,
+    mass_proportional,
+    moment,
+    pressure,
+    self_weight,
+    tilting,
+    top_force,
+)
 from limitblocks.mechanics.problem import Cones, LimitProblem, Scales
 
 __all__ = [
@@ -9,9 +23,17 @@ __all__ = [
     "LimitProblem",
     "Load",
     "Scales",
+    "Tilting",
+    "added_mass",
+    "compass",
+    "fill",
     "force",
     "limit_problem",
+    "line_load",
     "mass_proportional",
     "moment",
+    "pressure",
     "self_weight",
+    "tilting",
+    "top_force",
 ]

@@ -130,7 +130,8 @@ def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: s
     Parameters
     ----------
     directions : study or array_like, shape (k,)
-        Angles, rad, counter-clockwise from X; or a study with the fields `angles` and `load_factors`.
+        Angles, rad, counter-clockwise from X; or a study with the fields `angles` and `load_factors`. Those
+        that are not finite, of a vertical push, are left out.
     load_factors : array_like, shape (k,), optional
         Not with a study. Infinite and undefined ones are left out.
     ax : Axes, optional
@@ -151,11 +152,12 @@ def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: s
             )
         directions, load_factors = directions.angles, directions.load_factors
     angles, values = (np.asarray(each, dtype=float) for each in (directions, load_factors))
-    if angles.shape != values.shape or angles.ndim != 1 or not len(angles):
+    if angles.shape != values.shape or angles.ndim != 1 or not np.isfinite(angles).any():
         raise LimitBlocksError(
-            f"angles have shape {angles.shape} and load factors {values.shape}; expected (k,) both"
+            f"angles have shape {angles.shape} and load factors {values.shape}; "
+            "expected (k,) both and at least one angle that is finite"
         )
-    order = np.argsort(angles)
+    order = np.argsort(angles)[: np.isfinite(angles).sum()]  # a vertical push has no angle
     angles, values = angles[order], np.where(np.isfinite(values[order]), values[order], np.nan)
     steps = np.diff(angles, append=angles[0] + 2 * np.pi)
     if steps[-1] <= 1.5 * steps[:-1].max(initial=0.0):  # all around: close the curve

@@ -34,8 +34,8 @@ def interaction(
 ) -> Any:
     """Draw a section of the yield set of an interface: two stress resultants, the others zero.
 
-    Without `N` everything is per |N|, which a dry joint of unlimited strength allows. Call it again with the
-    same `ax` to compare joints.
+    Without `N` everything is per |N|, which a dry joint of unlimited strength allows; curves over N need it.
+    Call it again with the same `ax` to compare joints.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def interaction(
     x, y : {"V1", "V2", "N", "M1", "M2", "T"}
         What runs to the right and up. With "N", the curve ends at the strength in compression or at `N`.
     N : float, optional
-        Normal force, N, negative in compression.
+        Normal force, N, negative in compression; with "N" as `x` or `y` the largest one to draw.
     stress_resultants : array_like, shape (k, 6), optional
         Stress states to draw as points: (V1, V2, N, M1, M2, T), N and N m. For a dry joint of unlimited
         strength they are brought to `N` in proportion, or divided by |N|.
@@ -76,6 +76,8 @@ def interaction(
         raise ModelError(f"x, y are {x!r}, {y!r}; expected two of {', '.join(RESULTANTS)}")
     rows = joint.yield_rows(interface.polygon[None])
     dry = not rows.g.any()
+    if N is None and "N" in (x, y):
+        raise ModelError("N is missing: give the largest compressive force to draw, N < 0, in N")
     if N is None and not dry:
         raise ModelError(f"N is missing: {joint!r} has strengths in Pa, so that its yield set depends on N")
     if N is not None and not (np.isfinite(N) and N < 0.0):
@@ -91,9 +93,10 @@ def interaction(
     ax.fill(*curve.T, color=line.get_color(), alpha=0.08, linewidth=0, zorder=1.0)
     if exact:
         across = _exact(joint, interface, (x, y), held)
-        ax.plot(*across.T, "--", color=BLACK, linewidth=1.0, label="uniform pressure, exact", zorder=2.0)
+        said = "uniform pressure, " + ("effective area" if "M" in x + y else "exact")
+        ax.plot(*across.T, "--", color=BLACK, linewidth=1.0, label=said, zorder=2.0)
     if stress_resultants is not None:
-        points = _points(stress_resultants, held if N is not None or 2 not in at else None, dry)[:, at]
+        points = _points(stress_resultants, None if 2 in at else held, dry)[:, at]
         ax.plot(*points.T, "o", color=BLACK, markersize=4.0, label="stress states", zorder=3.0)
     ax.set(xlabel=_label(x, N is None), ylabel=_label(y, N is None))
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0.5)

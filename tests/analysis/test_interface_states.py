@@ -82,6 +82,45 @@ def test_force_off_the_middle_slides_and_twists(joint):
     assert found.state == ("slide-twist",)
 
 
+def test_twist_about_an_eccentric_centre_of_pressure_does_not_slide():
+    block = stone()
+    blocks = [GROUND, block]
+    joint = lb.OrdunaLourenco(friction=0.5)
+    # a load of the same weight at (0.7, 0.3) puts the centre of pressure half as far
+    dead = lb.self_weight() + lb.force("stone", (0, 0, -block.weight), at=(0.7, 0.3, 1.0))
+    live = lb.moment("stone", (0, 0, 1))
+    model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, joint), dead, live)
+    found = interface_states(model, lb.nonassociated(model))
+    assert found.active_modes == (("moment-twist",),)
+    assert np.linalg.norm(found.strain_rates[0, :2]) > 0.3 * abs(found.strain_rates[0, 5])
+    assert np.allclose(found.centre_of_pressure, [[0.35, 0.15, 0.0]], atol=1e-5)
+    assert found.state == ("twist",)
+
+
+@pytest.mark.parametrize("push", [(-1, 0, 0), (1, 0, 0)])
+def test_prism_on_a_triangle_hinges_about_a_side_or_a_corner(push):
+    corners = [(0, -0.5, 0), (0, 0.5, 0), (1.5, 0, 0)]  # centroid at x = 0.5; s1 along an oblique side
+    vertices = [*corners, *((x, y, 4.0) for x, y, _ in corners)]
+    faces = [(2, 1, 0), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]
+    faces = [face[::-1] for face in faces] if _volume(vertices, faces) < 0 else faces
+    prism = lb.Block("prism", vertices, faces, unit_weight=20e3)
+    model = model_of([GROUND, prism], lb.OrdunaLourenco(friction=0.9), lb.mass_proportional(push))
+    bounds = lb.bounds(model)
+    found = interface_states(model, bounds)
+    assert np.isclose(bounds.lower, (0.5 if push[0] < 0 else 1.0) / 2.0, rtol=1e-5)
+    assert found.state == ("hinge",)
+    assert np.isclose(found.centre_of_pressure[0, 0], 0.0 if push[0] < 0 else 1.5, atol=1e-4)
+
+
+def _volume(vertices, faces):
+    points = np.array(vertices)
+    return sum(
+        np.linalg.det(points[[face[0], face[k], face[k + 1]]])
+        for face in faces
+        for k in range(1, len(face) - 1)
+    )
+
+
 def test_weak_stone_crushes_where_a_hard_one_hinges():
     block = stone(size=(0.5, 1.0, 2.0), at=(0, 0, 1))
     push = lb.mass_proportional((1, 0, 0))

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from limitblocks.analysis.loading import Stage
 from limitblocks.analysis.nonassociated import best_of
 from limitblocks.analysis.residuals import Residual, Residuals
-from limitblocks.analysis.states import State
+from limitblocks.analysis.states import Stage, State
 
 
 def stage(load_factor, residual, kind="step"):

@@ -59,7 +59,7 @@ def test_torsion_with_shear_in_newtons_and_the_exact_curve():
 @pytest.mark.parametrize(("moment", "half"), [("M1", L2), ("M2", L1)])
 def test_torsion_with_bending_agrees_with_the_effective_rectangle_at_its_ends(moment, half):
     ax = lb.plots.interaction(JOINT, RECTANGLE, moment, "T", exact=True)
-    plane, exact = curve(ax, repr(JOINT)), curve(ax, "uniform pressure, exact")
+    plane, exact = curve(ax, repr(JOINT)), curve(ax, "uniform pressure, effective area")
     T0 = FRICTION * float(rectangle_torsion_constant(L1, L2))
     other = L1 + L2 - half
     hinge = FRICTION * other / 2  # Eq. (22)
@@ -78,6 +78,13 @@ def test_crushing_parabola():
     # stress block: the strip that carries N has the arm l2 (1 - N / limit)
     assert np.allclose(np.abs(M), -N * L2 * (1 + N / limit), atol=1e-5 * limit * L2)
     assert ax.get_xlabel() == "$N$ (N)"
+
+
+def test_stress_states_keep_their_normal_force_on_a_curve_over_it():
+    Q = [(0.0, 0.0, -3.0, 0.1, 0.0, 0.0), (0.0, 0.0, -5.0, -0.2, 0.0, 0.0)]
+    ax = lb.plots.interaction(JOINT, RECTANGLE, "N", "M1", N=-8.0, stress_resultants=Q)
+    assert np.allclose(curve(ax, "stress states"), [(-3.0, 0.1), (-5.0, -0.2)])
+    assert contains(curve(ax, repr(JOINT)), [(-8.0, 8.0 * L2), (-8.0, -8.0 * L2)])
 
 
 def test_joints_are_compared_on_the_same_axes():
@@ -110,7 +117,8 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
         (JOINT, RECTANGLE, {"stress_resultants": [(1.0, 2.0)]}, r"shape \(1, 2\), expected \(k, 6\)"),
         (JOINT, RECTANGLE, {"stress_resultants": np.zeros((1, 6))}, "expected compression"),
         (JOINT, TRIANGLE, {"exact": True}, "symmetric about both"),
-        (JOINT, RECTANGLE, {"x": "N", "exact": True}, "no exact curve is known"),
+        (JOINT, RECTANGLE, {"x": "N"}, "N is missing: give the largest"),
+        (JOINT, RECTANGLE, {"x": "N", "N": -1.0, "exact": True}, "no exact curve is known"),
     ],
 )
 def test_what_has_no_interaction_curve_is_refused(joint, interface, settings, message):
@@ -187,7 +195,8 @@ def test_polar_is_sorted_and_closed():
 
 
 def test_polar_takes_a_study_and_leaves_gaps():
-    study = SimpleNamespace(angles=np.radians([0.0, 30.0, 60.0]), load_factors=np.array([1.0, np.inf, 2.0]))
+    angles = np.radians([0.0, np.nan, 30.0, 60.0])  # NaN: a vertical push
+    study = SimpleNamespace(angles=angles, load_factors=np.array([1.0, 9.0, np.inf, 2.0]))
     ax = lb.plots.polar(study, label="wall")
     assert len(curve(ax, "wall")) == 3  # a fan stays open
     assert np.isnan(curve(ax, "wall")[1, 1])
@@ -198,6 +207,7 @@ def test_polar_takes_a_study_and_leaves_gaps():
     [
         ((np.zeros(3), np.zeros(2)), r"angles have shape \(3,\) and load factors \(2,\)"),
         ((np.zeros(3),), "ndarray has no angles"),
+        (([np.nan], [1.0]), "at least one angle that is finite"),
         (([0.0], [1.0], Figure().add_subplot()), "projection 'rectilinear', expected 'polar'"),
     ],
 )

@@ -113,13 +113,17 @@ def test_default_scale_keeps_the_drawing_legible():
     assert 2.0 < moved < 3.5
 
 
-def test_force_of_the_ground_on_a_rocking_block():
-    ax = lb.plots.forces(rocking(), bounds(rocking))
+@pytest.mark.parametrize("turned", [False, True])
+def test_force_of_the_ground_on_a_rocking_block(turned):
+    blocks = rocking().blocks[::-1] if turned else rocking().blocks
+    interfaces = lb.find_interfaces(blocks, rocking().interfaces[0].joint)
+    model = lb.Model(blocks, rocking().supports, interfaces, rocking().dead, rocking().live)
+    ax = lb.plots.forces(model, lb.bounds(model))
     (arrows,) = [c for c in ax.collections if isinstance(c, Quiver)]
     assert np.allclose([arrows.X[0], arrows.Y[0]], [0.5, 0.0], atol=1e-5)
     assert np.isclose(arrows.U[0] / arrows.V[0], -0.25, atol=1e-5)  # -load factor W over W
     assert arrows.V[0] > 0.0
-    size = rocking().free_blocks[0].weight * np.hypot(0.25, 1.0)
+    size = model.free_blocks[0].weight * np.hypot(0.25, 1.0)
     assert ax.get_title() == f"contact forces; longest arrow {size / 1e3:.3g} kN"
 
 

@@ -1,0 +1,138 @@
+"""Where the non-associated analysis starts from: the bracket and the state of the permanent loads."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, is_dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.analysis.bounds import TOLERANCE, Bounds, bounds, refuse_falling
+from limitblocks.analysis.closing import evidence
+from limitblocks.analysis.fixed_point import fixed_point, permanent_state
+from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
+from limitblocks.analysis.results import Nonassociated
+from limitblocks.analysis.states import Stage, State
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError, SolverFailure, UnlimitedLoad
+from limitblocks.mechanics import LimitProblem
+from limitblocks.mechanics.flow import dilatancy_share
+from limitblocks.model import Model
+
+NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
+ROUNDS = 10  # of the fixed point from an associated state
+
+Start = Nonassociated | Bounds | npt.ArrayLike
+
+
+@dataclass(frozen=True, eq=False)
+class Bracket:
+    """Associated load factors without friction and with it, which enclose every solution (Drucker 1954).
+
+    `frictionless` is NaN where the structure does not stand without friction, or the value is not to be had;
+    `associated` is infinite where the load is unlimited, and `bounds` its evidence otherwise.
+    """
+
+    frictionless: float
+    associated: float
+    bounds: Bounds | None
+
+
+def bracket(model: Model) -> Bracket:
+    """Solve for the associated load factors that enclose every non-associated one."""
+    found = _limited(model)
+    upper = found.upper if found else np.inf
+    lower = _frictionless(model)
+    noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
+    return Bracket(0.0 if noise else lower, upper, found)
+
+
+def _frictionless(model: Model) -> float:
+    if not all(is_dataclass(interface.joint) for interface in model.interfaces):
+        return np.nan
+    smooth = {i.joint: replace(i.joint, friction=0.0) for i in model.interfaces}  # type: ignore[type-var]
+    interfaces = [replace(i, joint=smooth[i.joint]) for i in model.interfaces]
+    try:
+        found = _limited(replace(model, interfaces=interfaces))
+    except (NoEquilibrium, SolverFailure):  # the lower end says little; its failure must not cost the answer
+        return np.nan
+    return found.lower if found else np.inf
+
+
+def _limited(model: Model) -> Bounds | None:
+    try:
+        return bounds(model)
+    except UnlimitedLoad:
+        return None
+
+
+def associated_everywhere(problem: LimitProblem, dilatancy: float) -> bool:
+    """Whether the flow of every row is its gradient."""
+    return bool((dilatancy_share(problem, dilatancy) == 1.0).all())
+
+
+def associated_stage(problem: LimitProblem, found: Bounds, dilatancy: float, tolerance: float) -> list[Stage]:
+    """The bounds as a solution of Eqs (54)-(59), which for associated flow they are; empty if inaccurate."""
+    scales = problem.scales
+    x, y = found.generalised_stresses / problem.stress_units, found.flow_multipliers / scales.work
+    start = State(found.lower / scales.load_factor, x, np.zeros(problem.C.shape[1]), y)
+    state, rounds = fixed_point(problem, start, problem.compliance, dilatancy, tolerance, ROUNDS)
+    if state is None:
+        return []
+    return [Stage(state, evidence(problem, state, dilatancy), np.inf, "fixed point", rounds, 0)]
+
+
+def load_scale(problem: LimitProblem, associated: float) -> float:
+    """Dimensionless load factor that steps are measured by; the dead load's where none limits the load."""
+    limit = associated / problem.scales.load_factor
+    return max(limit, SMALL_LOAD) if np.isfinite(limit) else float(len(problem.blocks))
+
+
+def refuse_unlimited(problem: LimitProblem, associated: float, dilatancy: float) -> None:
+    """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
+    if np.isinf(associated) and associated_everywhere(problem, dilatancy):
+        raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
+
+
+def start_stresses(model: Model, weights: Array, start: Start | None) -> Array:
+    """Dimensionless stresses to start from: given, or the least under the dead loads, proven to balance them.
+
+    Raises
+    ------
+    ModelError
+        The state given belongs to another model, or it is not in equilibrium within yield.
+    """
+    problem = model.problem
+    if start is not None:
+        return _given(model, start)
+    x = permanent_state(problem, weights)
+    if x is None or Residuals(static_residuals(problem, 0.0, x)).worst.value > TOLERANCE:
+        refuse_falling(problem)
+        raise SolveError("no state of the permanent loads was found, though they stand")
+    return x
+
+
+def _given(model: Model, start: Start) -> Array:
+    problem = model.problem
+    if isinstance(start, Nonassociated | Bounds):
+        if start.digest != model.digest:
+            raise ModelError(
+                f"start belongs to model {start.digest[:12]}, not to this model {model.digest[:12]}"
+            )
+        return np.asarray(start.generalised_stresses / problem.stress_units)
+    stresses = np.asarray(start, dtype=float).ravel()
+    if stresses.shape != problem.stress_units.shape or not np.isfinite(stresses).all():
+        raise ModelError(
+            f"start has {stresses.size} numbers; the {problem.stress_units.size} finite generalised stresses "
+            "of the model are needed, N and N m"
+        )
+    x = np.asarray(stresses / problem.stress_units)
+    carried = problem.C.T @ x - problem.dead
+    load_factor = float(carried @ problem.live / (problem.live @ problem.live))
+    worst = Residuals(static_residuals(problem, load_factor, x)).worst
+    if worst.value > TOLERANCE:
+        raise ModelError(
+            f"start is no state of this model: {worst.name} residual {worst.value:.1e} block weights at load "
+            f"factor {load_factor * problem.scales.load_factor:.6g}, at most {TOLERANCE:g} is needed"
+        )
+    return x

@@ -1,0 +1,150 @@
+"""Studies on a model file: many load factors by one command."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.options import AsJson, Dilatancy, Force, ModelFile, ResultFile, Tolerance
+from limitblocks.errors import LimitBlocksError, SolveError
+
+if TYPE_CHECKING:
+    from limitblocks.studies import Study
+
+studies = typer.Typer(
+    help="Many analyses of one model: push directions, a moving load.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+
+Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
+Vertical = Annotated[bool, typer.Option("--vertical", help="Also up and down.")]
+Nonassociated = Annotated[
+    bool, typer.Option("--nonassociated", help="Joints that slide without lifting, not the bounds.")
+]
+Workers = Annotated[
+    int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)
+]
+CsvFile = Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Also write the rows as CSV.")]
+MovingForce = Annotated[
+    tuple[float, float, float], typer.Option("--load", metavar="FX FY FZ", help="Force, N, global axes.")
+]
+Start = Annotated[tuple[float, float], typer.Option("--from", metavar="X Y", help="First place in plan, m.")]
+End = Annotated[tuple[float, float], typer.Option("--to", metavar="X Y", help="Last place in plan, m.")]
+
+
+@studies.command()
+def directions(
+    model: ModelFile,
+    count: Count = 16,
+    vertical: Vertical = False,
+    nonassociated: Nonassociated = False,
+    dilatancy: Dilatancy = 0.0,
+    tolerance: Tolerance = 1e-6,
+    workers: Workers = None,
+    as_json: AsJson = False,
+    csv: CsvFile = None,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the load factor for each direction of a mass-proportional live load."""
+    with clean_errors():
+        from limitblocks.io import read
+        from limitblocks.mechanics import compass
+        from limitblocks.studies import directions as study
+
+        _refuse(model, csv, output, force)
+        settings = _settings(nonassociated, dilatancy, tolerance, workers)
+        with _bar() as show:
+            found = study(read(model), compass(count, vertical=vertical), progress=show, **settings)
+        _tell(found, as_json, csv, output, force)
+
+
+@studies.command()
+def moving(
+    model: ModelFile,
+    load: MovingForce,
+    start: Start,
+    end: End,
+    count: Count = 21,
+    nonassociated: Nonassociated = False,
+    dilatancy: Dilatancy = 0.0,
+    tolerance: Tolerance = 1e-6,
+    workers: Workers = None,
+    as_json: AsJson = False,
+    csv: CsvFile = None,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the load factor of a force on top of the structure at places along a line, and the least."""
+    with clean_errors():
+        import numpy as np
+
+        from limitblocks.io import read
+        from limitblocks.studies import moving_load as study
+
+        _refuse(model, csv, output, force)
+        settings = _settings(nonassociated, dilatancy, tolerance, workers)
+        with _bar() as show:
+            places = np.linspace(start, end, count)
+            found = study(read(model), load, places, progress=show, **settings)
+        _tell(found, as_json, csv, output, force)
+
+
+def _settings(nonassociated: bool, dilatancy: float, tolerance: float, workers: int | None) -> dict[str, Any]:
+    if dilatancy and not nonassociated:
+        raise LimitBlocksError("--dilatancy needs --nonassociated")
+    analysis = {"analysis": "nonassociated", "dilatancy": dilatancy} if nonassociated else {}
+    return {"tolerance": tolerance, "workers": workers, **analysis}
+
+
+def _refuse(model: Path, csv: Path | None, output: Path | None, force: bool) -> None:
+    for file in (csv, output):
+        refuse_existing(file, force, model)
+
+
+def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, force: bool) -> None:
+    """Write and print the rows; no row with an answer is an error."""
+    from limitblocks.io import write_result
+    from limitblocks.io.result_file import result_text
+    from limitblocks.report.terminal import print_table, print_warnings
+
+    if csv:
+        study.write_csv(csv, overwrite=force)
+    if output:
+        write_result(study, output, overwrite=force)
+    if as_json:
+        typer.echo(result_text(study))
+    else:
+        rows = study.rows()
+        errors = [row.pop("error") for row in rows]
+        heads = tuple(key.replace("_", " ").capitalize() for key in rows[0])
+        print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
+        print_warnings(f"row {k + 1}: {error}" for k, error in enumerate(errors) if error)
+        typer.echo(f"\n{study}")
+    if all(study.errors) and not (study.load_factors == float("inf")).any():
+        raise SolveError(f"no analysis gave a load factor: {study.errors[0]}")
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[int, int], None] | None]:
+    """Give a callback that shows a bar on stderr, or None where nobody watches."""
+    from rich.console import Console
+    from rich.progress import Progress
+
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield None
+        return
+    with Progress(console=console, transient=True) as bar:
+        task = bar.add_task("analysing", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -1,0 +1,47 @@
+"""Loads on blocks: weights, masses, forces, pressures, fill and line loads, and any sum of them."""
+
+from limitblocks.mechanics.loads.forces import (
+    AddedMass,
+    MassProportional,
+    Moment,
+    PointForce,
+    added_mass,
+    force,
+    mass_proportional,
+    moment,
+    self_weight,
+)
+from limitblocks.mechanics.loads.load import Load, unit_vector
+from limitblocks.mechanics.loads.pushes import Tilting, compass, tilting, turned
+from limitblocks.mechanics.loads.surfaces import Fill, Pressure, fill, pressure
+from limitblocks.mechanics.loads.tops import LineLoad, TopForce, line_load, top_force
+
+#: Every term that a model file may name.
+LoadTerm = MassProportional | AddedMass | PointForce | Moment | Pressure | Fill | TopForce | LineLoad
+
+__all__ = [
+    "AddedMass",
+    "Fill",
+    "LineLoad",
+    "Load",
+    "LoadTerm",
+    "MassProportional",
+    "Moment",
+    "PointForce",
+    "Pressure",
+    "Tilting",
+    "TopForce",
+    "added_mass",
+    "compass",
+    "fill",
+    "force",
+    "line_load",
+    "mass_proportional",
+    "moment",
+    "pressure",
+    "self_weight",
+    "tilting",
+    "top_force",
+    "turned",
+    "unit_vector",
+]

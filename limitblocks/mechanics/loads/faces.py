@@ -1,0 +1,122 @@
+"""Faces of blocks that loads act on: which one is meant, which part counts, integrals over it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+
+_TIE = 1e-6
+_WIDEST = np.cos(np.pi / 4) - _TIE  # a face farther off than 45 degrees is not meant
+_NEAR = 1e-4  # of the block's size: how far a point may be off its face
+
+
+def face_towards(block: Block, direction: Sequence[float]) -> int:
+    """Return the face of `block` whose outward normal is closest to the unit vector `direction`.
+
+    Raises
+    ------
+    ModelError
+        If none is within 45 degrees, or two are equally close.
+    """
+    along = block.normals @ np.asarray(direction)
+    best = int(along.argmax())
+    if along[best] < _WIDEST:
+        off = float(np.degrees(np.arccos(along[best])))
+        raise ModelError(
+            f"block {block.name!r} has no face towards {tuple(direction)}: the closest is {off:.0f} degrees "
+            "off, expected at most 45"
+        )
+    ties = np.flatnonzero(along > along[best] - _TIE)
+    if len(ties) > 1:
+        raise ModelError(
+            f"block {block.name!r}: faces {_listed(ties)} are equally close to direction {tuple(direction)}; "
+            "give a point of the face instead"
+        )
+    return best
+
+
+def face_through(block: Block, point: Sequence[float]) -> int:
+    """Return the face of `block` on which `point` (m) lies, within 1e-4 of the block's size.
+
+    Raises
+    ------
+    ModelError
+        If no face does, or more than one, as at an edge.
+    """
+    off = block.normals @ np.asarray(point) - block.offsets
+    near = _NEAR * block.size
+    found = np.flatnonzero(np.abs(off) <= near) if off.max() <= near else np.zeros(0, dtype=int)
+    if len(found) == 1:
+        return int(found[0])
+    where = "on no face" if not len(found) else f"on an edge of faces {_listed(found)}"
+    raise ModelError(f"block {block.name!r}: point {tuple(point)} is {where}, expected a point inside a face")
+
+
+def part_where(corners: Array, values: Array) -> tuple[Array, Array]:
+    """Return the part of a convex polygon where a linear function is positive, and its values there.
+
+    Parameters
+    ----------
+    corners : Array, shape (n, 3)
+        Vertices in order around the polygon.
+    values : Array, shape (n,)
+        The function at the vertices.
+
+    Returns
+    -------
+    corners, values
+        Shapes (k, 3) and (k,); k is 0 where it is positive nowhere.
+    """
+    if values.max() <= 0.0:
+        return np.zeros((0, 3)), np.zeros(0)
+    points, found = [], []
+    after = np.roll(corners, -1, axis=0), np.roll(values, -1)
+    for p, a, q, b in zip(corners, values, *after, strict=True):
+        if a >= 0.0:
+            points.append(p)
+            found.append(a)
+        if a * b < 0.0:
+            points.append(p + (q - p) * (a / (a - b)))
+            found.append(0.0)
+    return np.array(points), np.array(found)
+
+
+def integrals(ring: Array, values: Array, normal: Array) -> tuple[float, Array]:
+    """Return the integrals of a linear function p and of p x over a plane polygon, exactly.
+
+    Triangles between the first vertex and each side, each by the rule of its three side midpoints, which
+    is exact for polynomials of degree two. Triangles have the sign of their turn about `normal`, so the
+    polygon need not be convex, and holes, listed the other way round, count as negative.
+
+    Parameters
+    ----------
+    ring : Array, shape (n, 3)
+        Vertices x, m.
+    values : Array, shape (n,)
+        p at the vertices.
+    normal : Array, shape (3,)
+        Unit vector; areas are those seen along it.
+
+    Returns
+    -------
+    float, Array of shape (3,)
+        Integrals of p dA and of p x dA.
+    """
+    if len(ring) < 3:
+        return 0.0, np.zeros(3)
+    k = np.arange(1, len(ring) - 1)
+    triangles = np.stack([np.zeros_like(k), k, k + 1], axis=1)
+    x, p = ring[triangles], values[triangles]
+    area = np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]) @ normal / 2.0
+    x_mid, p_mid = (x + np.roll(x, -1, axis=1)) / 2.0, (p + np.roll(p, -1, axis=1)) / 2.0
+    share = area[:, None] * p_mid / 3.0
+    return float(share.sum()), np.einsum("tk,tki->i", share, x_mid)
+
+
+def _listed(faces: Array | np.typing.NDArray[np.int64]) -> str:
+    return " and ".join(str(k) for k in faces.tolist())

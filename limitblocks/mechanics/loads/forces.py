@@ -1,0 +1,141 @@
+"""Weights, added masses, forces and moments at given points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+from limitblocks.mechanics.loads.load import Load, Vector, number, of, position, unit_vector, vector
+from limitblocks.units import gravity
+
+DOWN = (0.0, 0.0, -1.0)
+
+
+@dataclass(frozen=True)
+class MassProportional:
+    """The weight of every block, acting at its centroid along the unit vector `direction`."""
+
+    direction: Vector
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        load = np.zeros((len(blocks), 6))
+        load[:, :3] = np.outer([block.weight for block in blocks], self.direction)
+        return load
+
+
+@dataclass(frozen=True)
+class AddedMass:
+    """The weight (N) of a mass fixed to the block named `block` at the point `at` (m), along `direction`."""
+
+    block: str
+    weight: float
+    at: Vector
+    direction: Vector = DOWN
+
+    def __post_init__(self) -> None:
+        word = f"added mass on block {self.block!r}"
+        object.__setattr__(self, "weight", number(self.weight, f"{word}: weight", "N", above=0.0))
+        object.__setattr__(self, "at", vector(self.at, f"{word}: at"))
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        return _at_point(self.block, np.multiply(self.weight, self.direction), self.at, blocks)
+
+
+@dataclass(frozen=True)
+class PointForce:
+    """A force (N, global axes) on the block named `block` at the point `at` (m)."""
+
+    block: str
+    force: Vector
+    at: Vector
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        return _at_point(self.block, np.array(self.force), self.at, blocks)
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A moment (N m, global axes, right-hand rule) on the block named `block`."""
+
+    block: str
+    moment: Vector
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        load = np.zeros((len(blocks), 6))
+        load[position(self.block, blocks), 3:] = self.moment
+        return load
+
+
+def self_weight(added: Sequence[AddedMass] = ()) -> Load:
+    """Return the weight of every block and of the masses `added`, along -Z."""
+    return mass_proportional(DOWN, added)
+
+
+def mass_proportional(direction: Sequence[float], added: Sequence[AddedMass] = ()) -> Load:
+    """Return a load equal to the weight of every block, and of the masses `added`, along `direction`.
+
+    The direction is brought to unit length, so that the load factor is an acceleration over g.
+
+    Raises
+    ------
+    ModelError
+        If the direction is not three finite numbers or is zero.
+    """
+    along = unit_vector(direction, "mass-proportional load: direction")
+    return of(MassProportional(along), *(replace(mass, direction=along) for mass in added))
+
+
+def added_mass(
+    block: str, at: Sequence[float], *, weight: float | None = None, mass: float | None = None
+) -> AddedMass:
+    """Return a mass without volume, such as a floor, fixed to the block named `block` at the point `at` (m).
+
+    Give it to :func:`self_weight` and to :func:`mass_proportional`, both: then it counts in the dead and in
+    the live load like the weight of the blocks. It takes no strength: the joints are those of the blocks.
+
+    Parameters
+    ----------
+    block : str
+        The block that it moves with.
+    at : sequence of float
+        Its centre of mass, global axes, m; need not lie within the block.
+    weight, mass : float
+        Its weight (N) or its mass (kg), one of the two; the weight is the mass times 9.80665 m/s2.
+
+    Raises
+    ------
+    ModelError
+        If neither or both of weight and mass are given, or the number is not finite and positive.
+    """
+    if (weight is None) == (mass is None):
+        raise ModelError(f"added mass on block {block!r}: give either weight in N or mass in kg")
+    if mass is not None:
+        weight = gravity * number(mass, f"added mass on block {block!r}: mass", "kg", above=0.0)
+    return AddedMass(block, weight, vector(at, "at"))  # type: ignore[arg-type] # one of the two is given
+
+
+def force(block: str, force: Sequence[float], at: Sequence[float]) -> Load:
+    """Return a force (N) on the block named `block`, acting at the point `at` (m), global axes."""
+    return of(PointForce(block, vector(force, "force"), vector(at, "at")))
+
+
+def moment(block: str, moment: Sequence[float]) -> Load:
+    """Return a moment (N m, right-hand rule) on the block named `block`, global axes."""
+    return of(Moment(block, vector(moment, "moment")))
+
+
+def _at_point(name: str, force: Array, at: Vector, blocks: Sequence[Block]) -> Array:
+    load = np.zeros((len(blocks), 6))
+    k = position(name, blocks)
+    load[k, :3] = force
+    load[k, 3:] = np.cross(np.subtract(at, blocks[k].centroid), force)
+    return load

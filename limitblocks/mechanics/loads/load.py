@@ -1,0 +1,108 @@
+"""A load: a sum of terms, each with a factor."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+
+Vector = tuple[float, float, float]
+Place = tuple[float, float]
+
+
+class Term(Protocol):
+    """What a load adds up: a frozen dataclass of plain numbers and names, as the model file writes it."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces (N) and moments (N m) at the centroids of `blocks`, global axes, shape (n, 6)."""
+
+
+@dataclass(frozen=True)
+class Load:
+    """A sum of load terms, each with a factor. Loads add up and can be multiplied by a number."""
+
+    terms: tuple[tuple[float, Term], ...] = ()
+
+    def __add__(self, other: Load) -> Load:
+        return Load(self.terms + other.terms)
+
+    def __mul__(self, factor: float) -> Load:
+        return Load(tuple((factor * own, term) for own, term in self.terms))
+
+    __rmul__ = __mul__
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces (N) and moments (N m) at the centroids of `blocks`, global axes, shape (n, 6).
+
+        Raises
+        ------
+        ModelError
+            If a term names a block that is not in `blocks` or does not meet them, or a block has no unit
+            weight.
+        """
+        return sum((factor * term.on(blocks) for factor, term in self.terms), np.zeros((len(blocks), 6)))
+
+
+def of(*terms: Term) -> Load:
+    """Return the load of these terms, each with factor one."""
+    return Load(tuple((1.0, term) for term in terms))
+
+
+def vector(values: Sequence[float], word: str) -> Vector:
+    """Return `values` as three floats; ModelError where they are not three finite numbers."""
+    x, y, z = _numbers(values, word, 3, "three")
+    return x, y, z
+
+
+def place(values: Sequence[float], word: str) -> Place:
+    """Return `values` as two floats; ModelError where they are not two finite numbers."""
+    x, y = _numbers(values, word, 2, "two")
+    return x, y
+
+
+def unit_vector(values: Sequence[float], word: str) -> Vector:
+    """Return `values` brought to unit length; ModelError where that cannot be."""
+    x, y, z = vector(values, word)
+    length = float(np.linalg.norm((x, y, z)))
+    if length == 0.0:
+        raise ModelError(f"{word} is (0, 0, 0), expected a non-zero vector")
+    return x / length, y / length, z / length
+
+
+def number(value: float, word: str, unit: str, *, least: float = -np.inf, above: float = -np.inf) -> float:
+    """Return `value` as a float; ModelError where it is not finite or too small."""
+    try:
+        found = float(value)
+    except (TypeError, ValueError):
+        found = np.nan
+    if np.isfinite(found) and found >= least and found > above:
+        return found
+    wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
+    raise ModelError(f"{word} is {value!r}, expected a finite number{wanted} in {unit}")
+
+
+def position(name: str, blocks: Sequence[Block]) -> int:
+    """Return where the block named `name` is in `blocks`; ModelError where it is not."""
+    for k, block in enumerate(blocks):
+        if block.name == name:
+            return k
+    raise ModelError(f"a load names block {name!r}, which is not a free block of the model")
+
+
+def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[float]:
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.full(0, np.nan)
+    if array.shape != (count,) or not np.isfinite(array).all():
+        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers")
+    found: list[float] = array.tolist()
+    return found

@@ -1,0 +1,93 @@
+"""Directions to push in, loads turned into another direction, and the tilting plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, mass_proportional, self_weight
+from limitblocks.mechanics.loads.load import Load, unit_vector, vector
+
+
+def compass(count: int, *, vertical: bool = False) -> Array:
+    """Return `count` unit vectors equally spaced in plan, from +X towards +Y, shape (n, 3).
+
+    With `vertical`, +Z and -Z follow.
+
+    Raises
+    ------
+    ModelError
+        If `count` is less than one.
+    """
+    if count < 1:
+        raise ModelError(f"count of directions is {count}, expected at least 1")
+    angles = 2 * np.pi * np.arange(count) / count
+    found = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
+    found[np.abs(found) < 1e-15] = 0.0  # cos(90 deg) in floating point
+    return read_only(np.concatenate([found, [(0, 0, 1), (0, 0, -1)]]) if vertical else found)
+
+
+def turned(load: Load, direction: Sequence[float]) -> Load:
+    """Return a mass-proportional load, with its added masses, acting along another direction.
+
+    Raises
+    ------
+    ModelError
+        If a term is not mass-proportional, or the direction is zero.
+    """
+    along = unit_vector(direction, "direction")
+    found = []
+    for factor, term in load.terms:
+        if not isinstance(term, MassProportional | AddedMass):
+            raise ModelError(
+                f"the live load has a {type(term).__name__}, which no direction turns; "
+                "expected mass_proportional(...), or give the loads as a function of the direction"
+            )
+        found.append((factor, replace(term, direction=along)))
+    return Load(tuple(found))
+
+
+@dataclass(frozen=True)
+class Tilting:
+    """Loads of a structure on a plane that tilts: self weight, and the same weight along `direction`.
+
+    At the angle t, a weight W is W cos t across the plane and W sin t along it, that is cos t times the dead
+    load plus tan t times the live load. Where the stress resultants may be scaled at will, as without
+    cohesion, tensile strength or crushing, cos t changes nothing and the load factor at collapse is tan t.
+    With such strengths it is not, and :meth:`at` gives the loads of one angle.
+
+    Attributes
+    ----------
+    dead, live : Load
+        For :class:`limitblocks.Model`.
+    """
+
+    dead: Load
+    live: Load
+
+    @staticmethod
+    def angle(load_factor: float) -> float:
+        """Return the angle of the plane (rad) at which a structure of this load factor collapses."""
+        return float(np.arctan(load_factor))
+
+    def at(self, angle: float) -> Load:
+        """Return the weight on a plane tilted by `angle`, rad."""
+        return float(np.cos(angle)) * self.dead + float(np.sin(angle)) * self.live
+
+
+def tilting(direction: Sequence[float], added: Sequence[AddedMass] = ()) -> Tilting:
+    """Return the loads of a structure on a plane that tilts, down towards the horizontal `direction`.
+
+    Raises
+    ------
+    ModelError
+        If the direction is zero or not horizontal.
+    """
+    x, y, z = vector(direction, "tilting: direction")
+    if z != 0.0:
+        raise ModelError(f"tilting: direction is {(x, y, z)}, expected a horizontal one, (x, y, 0)")
+    return Tilting(self_weight(added), mass_proportional((x, y, 0.0), added))

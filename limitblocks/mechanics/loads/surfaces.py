@@ -1,0 +1,218 @@
+"""Loads on faces: pressure, and fill on top."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
+from limitblocks.mechanics.loads.faces import face_through, face_towards, integrals, part_where
+from limitblocks.mechanics.loads.load import Load, Vector, number, of, position, unit_vector, vector
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@dataclass(frozen=True)
+class Pressure:
+    """Pressure on one face of each block of `blocks`: `pressure` + `unit_weight` times depth below `level`.
+
+    The face is the one `facing` a direction, or the one with the point `at` on it.
+    """
+
+    blocks: tuple[str, ...]
+    pressure: float = 0.0
+    unit_weight: float = 0.0
+    level: float = 0.0
+    facing: Vector | None = None
+    at: Vector | None = None
+
+    def __post_init__(self) -> None:
+        _keep(
+            self,
+            pressure=number(self.pressure, "pressure", "Pa"),
+            unit_weight=number(self.unit_weight, "pressure: unit weight", "N/m3", least=0.0),
+            level=number(self.level, "pressure: level", "m"),
+        )
+        if not self.blocks:
+            raise ModelError("pressure names no block, expected at least one")
+        if len(set(self.blocks)) < len(self.blocks):
+            raise ModelError(f"pressure names a block twice in {self.blocks}, expected each once")
+        if (self.facing is None) == (self.at is None):
+            raise ModelError("pressure: give either the direction that the face looks to or a point on it")
+        if self.at is not None and len(self.blocks) > 1:
+            raise ModelError(
+                f"pressure: one point is given for {len(self.blocks)} blocks, expected a direction"
+            )
+        if self.pressure == 0.0 and self.unit_weight == 0.0:
+            raise ModelError("pressure is zero, expected a pressure in Pa or a unit weight in N/m3")
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        load, lowest = np.zeros((len(blocks), 6)), np.inf
+        for k in (position(name, blocks) for name in self.blocks):
+            face, block = self._face(blocks[k]), blocks[k]
+            normal, about = block.normals[face], block.centroid
+            corners = block.vertices[list(block.faces[face])]
+            total, first = integrals(corners - about, np.full(len(corners), self.pressure), normal)
+            wet, depth = part_where(corners, self.level - corners[:, 2])
+            more, further = integrals(wet - about, self.unit_weight * depth, normal)
+            load[k, :3] -= (total + more) * normal
+            load[k, 3:] -= np.cross(first + further, normal)
+            lowest = min(lowest, float(corners[:, 2].min()))
+        if self.unit_weight > 0.0 and self.level <= lowest:
+            raise ModelError(
+                f"pressure: level {self.level:g} m is below every face; the lowest is at {lowest:g} m"
+            )
+        return load
+
+    def _face(self, block: Block) -> int:
+        if self.at is not None:
+            return face_through(block, self.at)
+        return face_towards(block, unit_vector(self.facing or (), "pressure: facing"))
+
+
+@dataclass(frozen=True)
+class Fill:
+    """Weight of fill of `unit_weight` (N/m3) up to `level` (m) on top of `blocks`; all free ones if empty."""
+
+    unit_weight: float
+    level: float
+    blocks: tuple[str, ...] = ()
+    coefficient: float = 0.0
+
+    def __post_init__(self) -> None:
+        _keep(
+            self,
+            unit_weight=number(self.unit_weight, "fill: unit weight", "N/m3", above=0.0),
+            level=number(self.level, "fill: level", "m"),
+            coefficient=number(self.coefficient, "fill: earth pressure", "1", least=0.0),
+        )
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
+        load = np.zeros((len(blocks), 6))
+        lowest, bounds = np.inf, boxes(blocks)
+        for k in named or range(len(blocks)):
+            block = blocks[k]
+            for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():
+                load[k] += self._on_face(block, face, blocks, bounds)
+                lowest = min(lowest, float(block.vertices[list(block.faces[face]), 2].min()))
+        if not load.any():
+            raise ModelError(
+                f"fill: level {self.level:g} m leaves no fill on any block: all faces lie above it (the "
+                f"lowest at {lowest:g} m) or below other blocks"
+            )
+        return load
+
+    def _on_face(
+        self, block: Block, face: int, blocks: Sequence[Block], bounds: tuple[Array, Array]
+    ) -> Array:
+        corners = block.vertices[list(block.faces[face])]
+        under, _ = part_where(corners, self.level - corners[:, 2])
+        normal, about = block.normals[face], block.centroid
+        weight, first = 0.0, np.zeros(3)
+        for ring in open_to_the_sky(under, block, face, blocks, bounds):
+            p, px = integrals(ring - about, self.unit_weight * (self.level - ring[:, 2]), UP)
+            weight, first = weight + p, first + px
+        # vertical stress p and horizontal stress K p act on the face; its area is the plan's over n_z
+        traction = np.array([*(self.coefficient * normal[:2] / normal[2]), 1.0])
+        return -np.concatenate([weight * traction, np.cross(first, traction)])
+
+
+def pressure(
+    blocks: str | Sequence[str],
+    pressure: float = 0.0,
+    *,
+    facing: Sequence[float] | None = None,
+    at: Sequence[float] | None = None,
+    unit_weight: float = 0.0,
+    level: float | None = None,
+) -> Load:
+    """Return a pressure on a whole face of one or more blocks, normal to the face and into the block.
+
+    It is ``pressure + unit_weight * max(level - z, 0)``; resultant and moment are exact. Whether something
+    else covers the face does not matter. A pressure that grows upwards is a difference of two loads.
+
+    Parameters
+    ----------
+    blocks : str or sequence of str
+        Names of the blocks.
+    pressure : float
+        Uniform part, Pa; negative pulls.
+    facing : sequence of float
+        The face is the one whose outward normal is closest to this direction, within 45 degrees.
+    at : sequence of float
+        Or: the face is the one on which this point lies, m; for a single block.
+    unit_weight : float
+        Of a liquid or another linear pressure, N/m3.
+    level : float
+        Height Z of its surface, m; needed with a unit weight.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range or missing. Where the load meets its blocks (as a Model is made): if a
+        block is not free, no face or more than one is meant, or every face lies above the level.
+    """
+    if unit_weight and level is None:
+        raise ModelError(
+            "pressure: a unit weight is given without a level, expected the Z of its surface in m"
+        )
+    return of(
+        Pressure(
+            _names(blocks),
+            pressure,
+            unit_weight,
+            0.0 if level is None else level,
+            None if facing is None else unit_vector(facing, "pressure: facing"),
+            None if at is None else vector(at, "pressure: at"),
+        )
+    )
+
+
+def fill(
+    unit_weight: float, level: float, *, blocks: str | Sequence[str] = (), earth_pressure: float = 0.0
+) -> Load:
+    """Return the weight of fill up to a level on the blocks below it, such as over the extrados of an arch.
+
+    On each face that looks upwards rests the fill right above it, up to the level. Assumed: the weight goes
+    straight down and does not spread; the fill has no strength and takes no load; its mass does not count in
+    mass-proportional loads. The parts of a face above the level or below another free block get none;
+    supports cover nothing. With an earth pressure coefficient K, the horizontal stress K
+    times the vertical stress acts on the same faces, on their projections on vertical planes; a vertical face
+    gets none, use :func:`pressure` for it. Resultants and moments are exact integrals.
+
+    Parameters
+    ----------
+    unit_weight : float
+        N/m3.
+    level : float
+        Height Z of its horizontal surface, m.
+    blocks : str or sequence of str
+        Blocks that it rests on; all free blocks unless given.
+    earth_pressure : float
+        Coefficient K of horizontal earth pressure, >= 0.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range. Where the load meets its blocks (as a Model is made): if a block is not
+        free, or no block gets any fill.
+    """
+    return of(Fill(unit_weight, level, _names(blocks), earth_pressure))
+
+
+def _names(blocks: str | Sequence[str]) -> tuple[str, ...]:
+    return (blocks,) if isinstance(blocks, str) else tuple(blocks)
+
+
+def _keep(term: object, **values: float) -> None:
+    """Keep numbers as floats in a frozen term, as the model file gives them back."""
+    for name, value in values.items():
+        object.__setattr__(term, name, value)

@@ -1,0 +1,139 @@
+"""Loads that fall from above on whatever block is there: a force at a place in plan, a line load."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, vector
+
+_SIDE = 1e-9  # of a face normal's length: a smaller Z component counts as vertical
+_TOUCH = 1e-9  # of the blocks' size: an edge belongs to both its blocks, and the first of them counts
+
+
+@dataclass(frozen=True)
+class TopForce:
+    """A force (N, global axes) at the place `at` (x, y) in plan, on top of the highest block there."""
+
+    force: Vector
+    at: Place
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        return _on_tops(np.array([self.force]), np.array([self.at]), blocks)
+
+
+@dataclass(frozen=True)
+class LineLoad:
+    """A force per length in plan (N/m, global axes) on top of all blocks below a line in plan, in (x, y)."""
+
+    force_per_length: Vector
+    start: Place
+    end: Place
+
+    def __post_init__(self) -> None:
+        if self.start == self.end:
+            raise ModelError(f"line load: start and end are both {self.start}, expected two places in plan")
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        start, end = np.array(self.start), np.array(self.end)
+        # between two edges seen from above, the line runs on one plane face: its middle stands for it
+        s = _crossings(start, end - start, blocks)
+        length = float(np.linalg.norm(end - start)) * np.diff(s)
+        middles = start + np.outer((s[1:] + s[:-1]) / 2.0, end - start)
+        return _on_tops(np.outer(length, self.force_per_length), middles, blocks)
+
+
+def top_force(force: Sequence[float], at: Sequence[float]) -> Load:
+    """Return a force (N, global axes) at the place `at` (x, y), m, on top of the highest free block there.
+
+    It acts where the vertical line through the place meets the top of the block; at an edge of two blocks,
+    on the first of them in the model.
+
+    Raises
+    ------
+    ModelError
+        If a number is not finite. Where the load meets the blocks (as a Model is made): if there is no free
+        block at the place.
+    """
+    return of(TopForce(vector(force, "force"), place(at, "place")))
+
+
+def line_load(force_per_length: Sequence[float], start: Sequence[float], end: Sequence[float]) -> Load:
+    """Return a line load (N per m of plan, global axes) from `start` to `end`, places (x, y), m.
+
+    Each stretch of the line acts on top of the highest free block below it; resultants and moments are exact.
+
+    Raises
+    ------
+    ModelError
+        If a number is not finite or the line has no length. Where the load meets the blocks (as a Model is
+        made): if there is no free block below a part of the line.
+    """
+    a, b = place(start, "line load: start"), place(end, "line load: end")
+    return of(LineLoad(vector(force_per_length, "line load: force per length"), a, b))
+
+
+def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
+    """Return the highest block above each place in plan, -1 where there is none, and the height of its top.
+
+    Parameters
+    ----------
+    places : Array, shape (m, 2)
+        m.
+
+    Returns
+    -------
+    Indices, Array
+        Position in `blocks` and Z in m, shape (m,).
+    """
+    normals = np.concatenate([block.normals for block in blocks])
+    room = np.concatenate([block.offsets for block in blocks])[:, None] - normals[:, :2] @ places.T
+    counts = np.array([len(block.faces) for block in blocks])
+    first = np.cumsum(counts) - counts
+    rise = normals[:, 2:]
+    up, down = rise > _SIDE, rise < -_SIDE
+    z = room / np.where(up | down, rise, 1.0)
+    top = np.minimum.reduceat(np.where(up, z, np.inf), first)
+    bottom = np.maximum.reduceat(np.where(down, z, -np.inf), first)
+    inside = np.minimum.reduceat(np.where(up | down, np.inf, room), first)
+    touch = _TOUCH * np.array([block.size for block in blocks])[:, None]
+    height = np.where((inside >= -touch) & (bottom <= top + touch), top, -np.inf)
+    best = (height >= height.max(axis=0) - touch).argmax(axis=0)
+    found = height[best, np.arange(len(places))]
+    return np.where(np.isfinite(found), best, -1), found
+
+
+def _on_tops(forces: Array, places: Array, blocks: Sequence[Block]) -> Array:
+    """Forces (m, 3) on the tops of blocks at `places` (m, 2) as a load, shape (n, 6)."""
+    owner, z = tops(blocks, places)
+    if (owner < 0).any():
+        x, y = places[owner < 0][0].tolist()
+        raise ModelError(f"a load acts at x = {x:g} m, y = {y:g} m, where there is no free block")
+    centroids = np.stack([block.centroid for block in blocks])
+    arms = np.column_stack([places, z]) - centroids[owner]
+    load = np.zeros((len(blocks), 6))
+    np.add.at(load, owner, np.concatenate([forces, np.cross(arms, forces)], axis=1))
+    return load
+
+
+def _crossings(start: Array, along: Array, blocks: Sequence[Block]) -> Array:
+    """Where a line in plan, 0 to 1, crosses edges of blocks seen from above, ends included; ascending."""
+    a = np.concatenate([block.vertices[block.mesh.start, :2] for block in blocks])
+    b = np.concatenate([block.vertices[block.mesh.end, :2] for block in blocks])
+    side = b - a
+    across = along[0] * side[:, 1] - along[1] * side[:, 0]
+    meet = np.abs(across) > 1e-12 * np.linalg.norm(along) * np.linalg.norm(side, axis=1)
+    a, side, across, off = a[meet], side[meet], across[meet], (a - start)[meet]
+    s = (off[:, 0] * side[:, 1] - off[:, 1] * side[:, 0]) / across
+    t = (off[:, 0] * along[1] - off[:, 1] * along[0]) / across
+    s = np.unique(np.concatenate([[0.0, 1.0], s[(s > 0.0) & (s < 1.0) & (t > -1e-9) & (t < 1.0 + 1e-9)]]))
+    keep = np.diff(s, prepend=-1.0) > 1e-9  # an edge is met twice, once for each of its faces
+    keep[-1], s[s > 1.0 - 1e-9] = True, 1.0
+    return np.unique(s[keep])

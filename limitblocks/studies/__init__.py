@@ -1,0 +1,18 @@
+"""Many analyses at once: directions, moving loads, parameters, and the least that stands."""
+
+from limitblocks.studies.results import Directions, MovingLoad, Study, Sweep
+from limitblocks.studies.series import directions, moving_load, sweep
+from limitblocks.studies.threshold import Threshold, maximum, minimum
+
+__all__ = [
+    "Directions",
+    "MovingLoad",
+    "Study",
+    "Sweep",
+    "Threshold",
+    "directions",
+    "maximum",
+    "minimum",
+    "moving_load",
+    "sweep",
+]

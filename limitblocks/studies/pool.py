@@ -1,0 +1,118 @@
+"""Analyses of many models in a pool of processes, in the order given; a failure costs its own row only."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.nonassociated import nonassociated
+from limitblocks.analysis.results import Nonassociated
+from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError, UnlimitedLoad
+from limitblocks.model import Model
+
+Analysis = Literal["bounds", "nonassociated"]
+Result = Bounds | Nonassociated
+Progress = Callable[[int, int], None]
+ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What became of one analysis.
+
+    Attributes
+    ----------
+    load_factor : float
+        Static bound, or non-associated load factor; infinite where the load is unlimited, NaN where there is
+        no answer.
+    result : Bounds or Nonassociated or None
+        The result; of an analysis that did not converge the best state, whose status says so.
+    error : str
+        Class and message of the error, empty where there is none.
+    """
+
+    load_factor: float
+    result: Result | None
+    error: str
+
+
+def failed(error: Exception) -> Outcome:
+    """Return the outcome of an analysis that raised `error`."""
+    best = error.result if isinstance(error, NotConverged) else None
+    load_factor = np.inf if isinstance(error, UnlimitedLoad) else np.nan
+    return Outcome(load_factor, best, f"{type(error).__name__}: {' '.join(str(error).split())}")
+
+
+def analyse(model: Model, analysis: Analysis, settings: dict[str, Any]) -> Outcome:
+    """Analyse one model; an error becomes an outcome."""
+    try:
+        result = ANALYSES[analysis](model, **settings)
+    except (LimitBlocksError, ArithmeticError, ValueError, MemoryError) as error:
+        return failed(error)
+    return Outcome(result.lower if isinstance(result, Bounds) else result.load_factor, result, "")
+
+
+def analyse_all(
+    models: Sequence[Model | Outcome],
+    analysis: Analysis,
+    settings: dict[str, Any],
+    workers: int | None,
+    progress: Progress | None,
+) -> list[Outcome]:
+    """Return what became of each model, in order.
+
+    Parameters
+    ----------
+    models : sequence of Model or Outcome
+        An outcome, of a model that could not be made, stays as it is.
+    analysis : str
+        Key of ANALYSES.
+    settings : dict
+        Further arguments of the analysis.
+    workers : int or None
+        Processes; 1 stays in this one, None takes one for each core.
+    progress : callable, optional
+        Called with the number of analyses done and of all.
+
+    Raises
+    ------
+    ModelError
+        If the analysis is unknown, or `workers` is not at least 1.
+    SolveError
+        If a process of the pool was ended from outside, as where memory runs out.
+    """
+    if analysis not in ANALYSES:
+        raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
+    if workers is not None and workers < 1:
+        raise ModelError(
+            f"workers is {workers!r}, expected a number of processes >= 1, or None for all cores"
+        )
+    outcomes: dict[int, Outcome] = {k: made for k, made in enumerate(models) if isinstance(made, Outcome)}
+    places = [k for k in range(len(models)) if k not in outcomes]
+    tasks = [(models[k], analysis, settings) for k in places]
+    for k, outcome in zip(places, in_order(analyse, tasks, workers), strict=True):
+        outcomes[k] = outcome
+        if progress is not None:
+            progress(len(outcomes), len(models))
+    return [outcomes[k] for k in range(len(models))]
+
+
+def in_order(
+    function: Callable[..., Any], tasks: Sequence[tuple[Any, ...]], workers: int | None
+) -> Iterator[Any]:
+    """Yield `function(*task)` of each task, in their order, from a pool of processes."""
+    if workers == 1 or len(tasks) < 2:
+        yield from (function(*task) for task in tasks)
+        return
+    from joblib import Parallel, delayed  # its processes need no `if __name__ == "__main__"` in scripts
+
+    pool = Parallel(n_jobs=workers or -1, return_as="generator", batch_size=1, max_nbytes=None)
+    try:
+        yield from pool(delayed(function)(*task) for task in tasks)
+    except BrokenProcessPool:
+        raise SolveError("a process of the study was ended from outside; try fewer workers") from None

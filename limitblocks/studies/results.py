@@ -1,0 +1,188 @@
+"""Results of studies: rows of load factors, as text, plain numbers and CSV."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import LimitBlocksError, SolveError
+from limitblocks.studies.pool import Result
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Load factors of many analyses, in the order asked for.
+
+    Attributes
+    ----------
+    analysis : str
+        "bounds" or "nonassociated".
+    load_factors : Array, shape (n,)
+        Static bound or non-associated load factor; infinite where the load is unlimited, NaN where there is
+        no answer.
+    results : tuple of (Bounds or Nonassociated or None), length n
+        Full results; where an analysis did not converge its best state, which `load_factors` leaves out.
+    errors : tuple of str, length n
+        Class and message of the error of each analysis, empty where there is none.
+    """
+
+    analysis: str
+    load_factors: Array
+    results: tuple[Result | None, ...]
+    errors: tuple[str, ...]
+
+    @property
+    def least(self) -> int:
+        """Number of the row of least load factor.
+
+        Raises
+        ------
+        SolveError
+            If no row has a load factor.
+        """
+        if not np.isfinite(self.load_factors).any():
+            raise SolveError(f"no analysis of the study gave a load factor: {self.errors[0]}")
+        return int(np.nanargmin(self.load_factors))
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each analysis, plain numbers and text."""
+        answers = zip(self.load_factors.tolist(), self.results, self.errors, strict=True)
+        return [self._key(k) | _answer(*answer, self.analysis) for k, answer in enumerate(answers)]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the study as plain numbers, lists and text; :func:`limitblocks.write_result` writes it."""
+        return {"analysis": "study", "study": type(self).__name__, "of": self.analysis, "rows": self.rows()}
+
+    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the rows to a CSV file (UTF-8, commas, a line of names first) and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            If the file exists and `overwrite` is false, or it cannot be written.
+        """
+        return write_rows(self.rows(), file, overwrite=overwrite)
+
+    def table(self) -> str:
+        """Return the rows as lines of text in columns."""
+        return in_columns(self.rows())
+
+    def __str__(self) -> str:
+        failures = sum(map(bool, self.errors))
+        lost = f"; {failures} without an answer" if failures else ""
+        if not np.isfinite(self.load_factors).any():
+            return f"{len(self.errors)} analyses, no load factor{lost}"
+        where = ", ".join(f"{name} {_short(value)}" for name, value in self._key(self.least).items())
+        least = self.load_factors[self.least]
+        return f"{len(self.errors)} analyses, least load factor {least:.6g} at {where}{lost}"
+
+    def _key(self, k: int) -> dict[str, Any]:
+        return {"row": k}
+
+
+@dataclass(frozen=True, eq=False)
+class Directions(Study):
+    """Load factor against the direction of the live load.
+
+    Attributes
+    ----------
+    directions : Array, shape (n, 3)
+        Unit vectors.
+    """
+
+    directions: Array
+
+    @property
+    def angles(self) -> Array:
+        """Angle in plan from +X towards +Y, rad, in [0, 2 pi); NaN where vertical; shape (n,)."""
+        x, y, _ = self.directions.T
+        angles = np.mod(np.arctan2(y, x), 2 * np.pi)
+        return np.where(np.hypot(x, y) > 1e-9, angles, np.nan)
+
+    def _key(self, k: int) -> dict[str, Any]:
+        x, y, z = self.directions[k].tolist()
+        return {"angle": float(self.angles[k]), "x": x, "y": y, "z": z}
+
+
+@dataclass(frozen=True, eq=False)
+class MovingLoad(Study):
+    """Load factor against the place of a load.
+
+    Attributes
+    ----------
+    positions : Array, shape (n, 2)
+        Places (x, y) in plan, m.
+    """
+
+    positions: Array
+
+    @property
+    def worst_position(self) -> tuple[float, float]:
+        """Place (x, y) of least load factor, m."""
+        x, y = self.positions[self.least].tolist()
+        return x, y
+
+    def _key(self, k: int) -> dict[str, Any]:
+        x, y = self.positions[k].tolist()
+        return {"x": x, "y": y}
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep(Study):
+    """Load factor against a parameter.
+
+    Attributes
+    ----------
+    parameter : str
+        Its name.
+    values : tuple, length n
+        Its values.
+    """
+
+    parameter: str
+    values: tuple[Any, ...]
+
+    def _key(self, k: int) -> dict[str, Any]:
+        value = self.values[k]
+        value = value.item() if isinstance(value, np.generic) else value
+        return {self.parameter: value if isinstance(value, str | int | float) else str(value)}
+
+
+def in_columns(rows: list[dict[str, Any]]) -> str:
+    """Return rows of the same keys as lines of text, the keys first."""
+    cells = [list(rows[0])] + [[_short(value) for value in row.values()] for row in rows]
+    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+    lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
+    return "\n".join("  ".join(line).rstrip() for line in lines)
+
+
+def write_rows(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool) -> Path:
+    """Write rows of the same keys to a CSV file and return its path."""
+    path = Path(file)
+    try:
+        with path.open("w" if overwrite else "x", encoding="utf-8", newline="") as stream:
+            writer = csv.DictWriter(stream, list(rows[0]))
+            writer.writeheader()
+            writer.writerows(rows)
+    except FileExistsError:
+        raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
+    except OSError as error:
+        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
+    return path
+
+
+def _answer(load_factor: float, result: Result | None, error: str, analysis: str) -> dict[str, Any]:
+    """The columns that all rows of one analysis have."""
+    names = ("lower", "upper") if analysis == "bounds" else ("frictionless", "associated")
+    beside = {name: np.nan if error else float(getattr(result, name)) for name in names}
+    worst = np.nan if error or result is None else result.residuals.worst.value
+    return {"load_factor": load_factor} | beside | {"worst_residual": worst, "error": error}
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

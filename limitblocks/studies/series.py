@@ -1,0 +1,165 @@
+"""Studies of a series of models: push directions, places of a load, values of a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
+from limitblocks.mechanics import Load, compass, top_force
+from limitblocks.mechanics.loads import turned, unit_vector
+from limitblocks.model import Model
+from limitblocks.studies.pool import Analysis, Outcome, Progress, analyse_all, failed
+from limitblocks.studies.results import Directions, MovingLoad, Sweep
+
+
+def directions(
+    model: Model,
+    directions: int | npt.ArrayLike = 16,
+    *,
+    live: Callable[[tuple[float, float, float]], Load] | None = None,
+    analysis: Analysis = "bounds",
+    workers: int | None = 1,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> Directions:
+    """Return the load factor for each direction of the live load.
+
+    Parameters
+    ----------
+    model : Model
+        The structure; its live load is turned into each direction.
+    directions : int or array_like, shape (n, 3)
+        Number of directions equally spaced in plan (:func:`limitblocks.compass`), or vectors of any length.
+    live : callable, optional
+        Gives the live load of a direction (a unit vector); needed where the model's live load is not
+        mass-proportional.
+    analysis : {"bounds", "nonassociated"}
+        Which load factor.
+    workers : int or None
+        Processes; 1 stays in this one, None takes one for each core. The results are the same.
+    progress : callable, optional
+        Called with the number of analyses done and of all.
+    **settings
+        Further arguments of the analysis, such as `tolerance`.
+
+    Raises
+    ------
+    ModelError
+        If a direction is wrong, or the live load cannot be turned.
+    """
+    given = compass(directions) if isinstance(directions, int) else _table(directions, 3, "directions")
+    units = [unit_vector(direction, "direction") for direction in given.tolist()]
+    loads = live or (lambda direction: turned(model.live, direction))
+    if live is None:
+        turned(model.live, (1.0, 0.0, 0.0))  # a live load that cannot be turned is no matter of one row
+    models = _made(lambda direction: replace(model, live=loads(direction)), units)
+    found = analyse_all(models, analysis, settings, workers, progress)
+    return Directions(*_columns(analysis, found), directions=read_only(units))
+
+
+def moving_load(
+    model: Model,
+    load: Sequence[float] | Callable[[tuple[float, float]], Load],
+    positions: npt.ArrayLike,
+    *,
+    analysis: Analysis = "bounds",
+    workers: int | None = 1,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> MovingLoad:
+    """Return the load factor of a load at each of a series of places, and with it the worst place.
+
+    Parameters
+    ----------
+    model : Model
+        The structure; its live load is replaced by the moving one.
+    load : sequence of float or callable
+        Force (N, global axes) on top of the highest free block at the place, see
+        :func:`limitblocks.top_force`; or a function of the place that gives the load, such as several axles.
+    positions : array_like, shape (n, 2)
+        Places (x, y) in plan, m. At a place without a free block below, the row has an error.
+    analysis, workers, progress, **settings
+        As for :func:`directions`.
+
+    Raises
+    ------
+    ModelError
+        If the force or a place is not made of finite numbers.
+    """
+    given = _table(positions, 2, "positions")
+    places = [(x, y) for x, y in given.tolist()]
+    at = load if callable(load) else (lambda place: top_force(load, place))
+    if not callable(load):
+        top_force(load, (0.0, 0.0))  # a wrong force is no matter of one row
+    models = _made(lambda place: replace(model, live=at(place)), places)
+    found = analyse_all(models, analysis, settings, workers, progress)
+    return MovingLoad(*_columns(analysis, found), positions=read_only(given))
+
+
+def sweep(
+    maker: Callable[[Any], Model],
+    values: Iterable[Any],
+    *,
+    parameter: str = "value",
+    analysis: Analysis = "bounds",
+    workers: int | None = 1,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> Sweep:
+    """Return the load factor of `maker(value)` for each value of a parameter.
+
+    All models are made first, in this process; only our own errors of `maker` become errors of a row.
+
+    Parameters
+    ----------
+    maker : callable
+        Gives the model of a value.
+    values : iterable
+        Of the parameter.
+    parameter : str
+        Its name, in tables.
+    analysis, workers, progress, **settings
+        As for :func:`directions`.
+
+    Raises
+    ------
+    ModelError
+        If there is no value.
+    """
+    given = tuple(values)
+    if not given:
+        raise ModelError("sweep: there are no values, expected at least one")
+    found = analyse_all(_made(maker, given), analysis, settings, workers, progress)
+    return Sweep(*_columns(analysis, found), parameter=parameter, values=given)
+
+
+def _made(maker: Callable[[Any], Model], values: Iterable[Any]) -> list[Model | Outcome]:
+    """The model of each value, or the outcome that there is none."""
+    found: list[Model | Outcome] = []
+    for value in values:
+        try:
+            found.append(maker(value))
+        except ModelError as error:
+            found.append(failed(error))
+    return found
+
+
+def _columns(analysis: str, found: list[Outcome]) -> tuple[str, Array, tuple[Any, ...], tuple[str, ...]]:
+    load_factors = read_only([outcome.load_factor for outcome in found])
+    return analysis, load_factors, tuple(o.result for o in found), tuple(o.error for o in found)
+
+
+def _table(values: npt.ArrayLike, columns: int, word: str) -> Array:
+    try:
+        array = np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        array = np.zeros(0)
+    if array.ndim != 2 or array.shape[1] != columns or not len(array) or not np.isfinite(array).all():
+        raise ModelError(f"{word}: finite numbers of shape (n, {columns}) are needed, n at least 1")
+    return array

@@ -1,0 +1,134 @@
+"""Least and largest values for which the loads stand, against closed forms."""
+
+import json
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import studies
+from limitblocks.analysis.margin import standing_margin
+
+GAMMA, H, PUSH = 20e3, 2.0, 4e3
+
+
+def wall(width, push=PUSH, joint=None):
+    blocks = [
+        lb.Block.box("ground", (9, 5, 0.2), (0, 0, -0.1)),
+        lb.Block.box("wall", (width, 1, H), (0, 0, H / 2), GAMMA),
+    ]
+    interfaces = lb.find_interfaces(blocks, joint or lb.PointContact(5.0))
+    dead = lb.self_weight() + lb.force("wall", (push, 0, 0), (0, 0, H / 2))
+    return lb.Model(blocks, ["ground"], interfaces, dead, lb.mass_proportional((1, 0, 0)))
+
+
+def test_least_width_of_a_pushed_wall():
+    """gamma b h b / 2 = P h / 2: b = sqrt(P / gamma)."""
+    found = studies.minimum(wall, 0.1, 2.0, parameter="width")
+    low, high = found.bracket
+    assert high - low <= found.tolerance == pytest.approx(1.9e-6)
+    assert found.value == found.stands == high
+    assert low - 2e-6 <= np.sqrt(PUSH / GAMMA) <= high + 2e-6
+    assert len(found.trials) < 25  # a smooth margin: not twenty halvings and two ends
+
+
+def test_least_width_with_a_load_factor():
+    """gamma b h b / 2 = (P + a gamma b h) h / 2: b^2 - a h b - P / gamma = 0."""
+    a = 0.1
+    found = studies.minimum(wall, 0.1, 2.0, load_factor=a)
+    width = (a * H + np.sqrt((a * H) ** 2 + 4 * PUSH / GAMMA)) / 2
+    assert found.value == pytest.approx(width, abs=4e-6)
+    assert lb.bounds(wall(width)).lower == pytest.approx(a, rel=1e-4)
+
+
+def test_largest_push():
+    found = studies.maximum(lambda push: wall(1.0, push), 0.0, 1e6, parameter="push", tolerance=1.0)
+    assert found.value == pytest.approx(GAMMA, abs=2.0)
+    assert found.stands < found.falls
+    assert "push" in str(found)
+
+
+def test_ends_of_the_bracket_stand_and_fall():
+    found = studies.minimum(wall, 0.1, 2.0, tolerance=1e-3)
+    lb.bounds(wall(found.stands))
+    with pytest.raises(lb.NoEquilibrium):
+        lb.bounds(wall(found.falls))
+
+
+def test_sliding():
+    """mu gamma b h = P."""
+    mu = 0.3
+    found = studies.minimum(lambda b: wall(b, joint=lb.OrdunaLourenco(mu)), 0.05, 2.0)
+    assert found.value == pytest.approx(max(PUSH / (mu * GAMMA * H), np.sqrt(PUSH / GAMMA)), abs=1e-5)
+
+
+def test_least_thickness_of_a_semicircular_arch():
+    """27 voussoirs, friction 0.5: t/R between 0.1067 and 0.1068 (as in the validation of arches)."""
+
+    def arch(thickness):
+        return lb.structures.arch(lb.PointContact(0.5), radius=10.0, thickness=thickness, voussoirs=27)
+
+    found = studies.minimum(arch, 0.9, 1.3, parameter="thickness")
+    assert 1.067 <= found.value <= 1.068
+
+
+def test_margin_of_a_pushed_wall():
+    """Low friction: V <= mu N decides."""
+    mu = 0.3
+    for push in (0.0, 6e3, 11e3, 14e3):
+        model = wall(1.0, push, joint=lb.PointContact(mu))
+        margin = standing_margin(model)
+        assert np.sign(margin) == np.sign(mu * GAMMA * H - push)
+
+
+def test_margin_has_no_units():
+    """The same structure, three times as large and of stone seven times as heavy, has the same margin."""
+    small = wall(0.7)
+    blocks = [lb.Block(b.name, 3 * b.vertices, b.faces, 7 * (b.unit_weight or 0.0)) for b in small.blocks]
+    dead = lb.self_weight() + lb.force("wall", (27 * 7 * PUSH, 0, 0), (0, 0, 3 * H / 2))
+    large = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, lb.PointContact(5.0)), dead, small.live)
+    assert standing_margin(large) == pytest.approx(standing_margin(small), rel=1e-6)
+
+
+def test_margin_is_continuous_across_the_threshold():
+    width = np.sqrt(PUSH / GAMMA)
+    margins = np.array([standing_margin(wall(width * (1 + s))) for s in (-1e-4, -1e-6, 0.0, 1e-6, 1e-4)])
+    assert (np.diff(margins) > 0).all()
+    assert np.abs(margins).max() < 1e-3
+
+
+def test_frictionless_joints_have_no_margin_but_yes_and_no():
+    for push, stands in ((0.0, True), (1.0, False)):
+        margin = standing_margin(wall(1.0, push, joint=lb.OrdunaLourenco(0.0)))
+        assert (margin >= 0.0) is stands
+    assert margin == -1.0
+
+
+def test_numbers_and_csv(tmp_path):
+    tried = []
+    found = studies.minimum(wall, 0.1, 2.0, parameter="width", tolerance=1e-2, progress=tried.append)
+    assert tried == [value for value, _ in found.trials]
+    rows = found.rows()
+    stands = [row["stands"] for row in rows]
+    assert stands == sorted(stands)
+    assert len(found.table().splitlines()) == 1 + len(rows)
+    assert found.write_csv(tmp_path / "a.csv").read_text().splitlines()[0] == "width,margin,stands"
+    written = json.loads(lb.write_result(found, tmp_path / "a.json").read_text())
+    assert written["bracket"] == list(found.bracket)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "more", "said"),
+    [
+        (1.0, 2.0, {}, "at low, value = 1, the loads stand"),
+        (0.1, 0.2, {}, "at high, value = 0.2, the loads fall"),
+        (2.0, 1.0, {}, "low < high"),
+        (0.1, np.inf, {}, "low < high"),
+        (-1.0, 2.0, {}, "value = -1"),
+        (0.1, 2.0, {"tolerance": 0.0}, "tolerance is 0.0"),
+        (0.1, 2.0, {"tolerance": np.nan}, "tolerance is nan"),
+    ],
+)
+def test_wrong_search_is_refused(low, high, more, said):
+    with pytest.raises(lb.ModelError, match=said):
+        studies.minimum(wall, low, high, **more)
