@@ -62,7 +62,7 @@ from limitblocks.mechanics import (
     top_force,
 )
 from limitblocks.model import Model
-from limitblocks.report import Report, report
+from limitblocks.report import Report, report, report_schema
 
 __version__ = "0.1.0"
 
@@ -125,6 +125,7 @@ __all__ = [
     "read_drawing",
     "read_result",
     "report",
+    "report_schema",
     "self_weight",
     "structures",
     "studies",

@@ -151,13 +151,14 @@ def report(
     with_nonassociated: WithNonassociated = False,
     with_path: WithPath = False,
 ) -> None:
-    """Analyse a model and write an HTML report."""
+    """Analyse a model and write a report: HTML, JSON, Markdown or PDF, as the suffix of the file says."""
     with clean_errors():
         from limitblocks.io import read
-        from limitblocks.report import report
+        from limitblocks.report import files, report
 
         file = output or model.with_suffix(_SUFFIX)
         refuse_existing(file, force, model)
+        files.suffix(file)  # before the analysis, not after it
         structure = read(model)
         flow = {"dilatancy": dilatancy, "tolerance": tolerance}
         results = _bounds_if_any(structure, tolerance, needed=not (with_nonassociated or with_path))
