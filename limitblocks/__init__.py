@@ -1,7 +1,11 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
+from importlib import import_module
+from typing import Any
+
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.interface_states import InterfaceStates, interface_states
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
@@ -59,6 +63,7 @@ __all__ = [
     "ExactTorsion",
     "GeometryError",
     "Interface",
+    "InterfaceStates",
     "Iteration",
     "Joint",
     "LimitBlocksError",
@@ -90,6 +95,7 @@ __all__ = [
     "find_interfaces",
     "force",
     "interface",
+    "interface_states",
     "line_load",
     "load_path",
     "mass_proportional",
@@ -108,3 +114,10 @@ __all__ = [
     "units",
     "write_result",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `limitblocks.plots` when it is first asked for: it needs matplotlib."""
+    if name == "plots":
+        return import_module("limitblocks.plots")
+    raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")

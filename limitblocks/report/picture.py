@@ -11,8 +11,8 @@ import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import polyhedron
+from limitblocks.geometry.painter import Body, painting_order, placed
 from limitblocks.model import Model
-from limitblocks.report.painter import Body, painting_order, placed
 
 WIDTH, MARGIN = 1000.0, 12.0  # user units of the SVG
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure

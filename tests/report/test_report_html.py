@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.report import painter, picture
+from limitblocks.geometry import painter
+from limitblocks.report import picture
 from limitblocks.report.facts import facts
 
 
