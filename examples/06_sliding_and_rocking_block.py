@@ -7,8 +7,8 @@ normal force arrives there, alpha W h/2 = W b/2:
 
     alpha = min(mu, b/h)
 
-A column of k such blocks is as slender as a block k times as high: min(mu, b/(k h)). On a plane tilted by the
-angle t the weight has the components W cos t and W sin t, in the ratio tan t: it goes at tan t = alpha.
+A column of k such blocks is as slender as a block k times as high: min(mu, b/(k h)). On a plane tilted by
+the angle t the weight has the components W cos t and W sin t, in the ratio tan t: it goes at tan t = alpha.
 
 Source: Coulomb (1773), Essai sur une application des règles de maximis et minimis, for the two conditions;
 yield functions: Orduña & Lourenço (2005), Part I, Eqs (24) and (36).

@@ -1,19 +1,19 @@
 """Why does the analysis give two numbers when there is one load factor?
 
-An arch of nine voussoirs, 140 deg of a circle, is pushed sideways by a share alpha of its weight. Neither number needs
-the answer to be known:
+An arch of nine voussoirs, 140 deg of a circle, is pushed sideways by a share alpha of its weight. Neither
+number needs the answer to be known:
 
 - Static theorem. Whoever finds forces in equilibrium that no joint refuses has proven that the arch stands:
   alpha is a lower bound. Here the line of thrust is kept within the middle share s of the thickness. At s =
   1/3 that is the rule of the middle third; the smaller s, the safer, and the farther from the truth.
 - Kinematic theorem. Whoever finds a way for the arch to move that takes no more work than the loads give
-  has proven that it falls: alpha is an upper bound. Here three bars turn about four hinges, at any four joints
-  and on alternate sides, and the work of all loads is zero:
+  has proven that it falls: alpha is an upper bound. Here three bars turn about four hinges, at any four
+  joints and on alternate sides, and the work of all loads is zero:
 
     sum of W (w + alpha u) = 0,    u, w the horizontal and upward rates of the centroids
 
-Both theorems hold for associated flow. The largest lower and the smallest upper bound meet: they are the same
-convex program seen from two sides, and their difference, the gap, is the proof that both were solved.
+Both theorems hold for associated flow. The largest lower and the smallest upper bound meet: they are the
+same convex program seen from two sides, and their difference, the gap, is the proof that both were solved.
 
 Source: Kooharian (1952), Limit analysis of voussoir and concrete arches; Heyman (1966), The stone skeleton;
 Drucker, Prager & Greenberg (1952) for the theorems.
@@ -46,13 +46,13 @@ def main(folder="output"):
     print(f"{len(upper)} mechanisms of four hinges: falls at {upper[0]:.6f}, {upper[1]:.6f}, ...")
     bounds = lb.bounds(arch)
     print(bounds)
+    assert max(lower) < bounds.upper + 1e-6
     picture(Path(folder), arch, lower, upper, bounds)
     return {
-        "static": bounds.lower,
-        "kinematic": bounds.upper,
+        "load factor": bounds.lower,
         "gap": bounds.gap,
-        "least of the mechanisms": upper[0],
-        "middle third": lower[0],
+        "static less the mechanisms": bounds.lower - upper[0],
+        "kinematic less the mechanisms": bounds.upper - upper[0],
     }
 
 

@@ -2,22 +2,25 @@
 
 An arch of radius R and thickness t has its weight along the centreline; phi is the angle from the crown. In
 units of the weight per radian, the part above phi weighs phi, and the thrust at the crown is H. The least
-thrust of a thickness e = t/R is that of a line through the extrados at the crown which touches the intrados:
+thrust of a thickness e = t/R is that of a line through the extrados at the crown which touches the
+intrados:
 
     H(e) = max over phi of (phi (1 - e/2) sin phi - (1 - cos phi)) / (1 + e/2 - (1 - e/2) cos phi)
 
-Without sliding the arch is too thin when that line leaves the extrados of the springing, too: t/R = 0.107426
-with H = 0.621772. The horizontal joint of the springing carries H by friction, under the weight pi/2:
+Without sliding the arch is too thin when that line leaves the extrados of the springing, too: t/R =
+0.107426 with H = 0.621772. The horizontal joint of the springing carries H by friction, under the weight
+pi/2:
 
     H <= mu pi/2
 
 Friction above 0.621772/(pi/2) = 0.395832 is enough, and more does not matter. With less, the arch must be
-so thick that its thrust is as small: H(t/R) = mu pi/2. Below mu = 0.309215, at t/R = 0.200637, the voussoirs
-slide inwards at the haunches, where the thrust must be at least phi / tan(phi + arctan mu) for every phi, and
-no thickness stands.
+so thick that its thrust is as small: H(t/R) = mu pi/2. Below mu = 0.309215, at t/R = 0.200637, the
+voussoirs slide inwards at the haunches, where the thrust must be at least phi / tan(phi + arctan mu) for
+every phi, and no thickness stands.
 
 Source: Cocchetti & Rizzi (2020), Analytical and numerical analysis on the collapse modes of least-thickness
-circular masonry arches at decreasing friction, for the printed values; the curve follows from the equations.
+circular masonry arches at decreasing friction, for the printed values; the curve follows from the
+equations.
 """
 
 from dataclasses import replace
@@ -42,8 +45,7 @@ def main(folder="output"):
     picture(Path(folder), found)
     return {
         "enough friction": found[-1],
-        "least thickness": found,
-        "equations": [continuous(friction) for friction in FRICTIONS],
+        "blocks over equations": np.divide(found, [continuous(friction) for friction in FRICTIONS]),
         "equations where printed": [continuous(friction) for friction in PRINTED],
     }
 

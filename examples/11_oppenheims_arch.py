@@ -1,8 +1,8 @@
 """At what horizontal acceleration does Oppenheim's arch begin to fall, and how?
 
 Oppenheim's arch has the centreline radius 10 m, the thickness 1.5 m, 157.5 deg of a circle and seven
-voussoirs; friction is large enough that none slides. Its weight is the dead load, and alpha times its weight
-acts horizontally: a constant ground acceleration alpha g. At collapse the line of thrust touches the
+voussoirs; friction is large enough that none slides. Its weight is the dead load, and alpha times its
+weight acts horizontally: a constant ground acceleration alpha g. At collapse the line of thrust touches the
 surface at four joints, on alternate sides. These are hinges, and the parts between them move:
 
     Fc + alpha Fv = C^T Q,    |e| <= t/2 at every joint,    e = M/N,    |e| = t/2 at the hinges
@@ -10,8 +10,8 @@ surface at four joints, on alternate sides. These are hinges, and the parts betw
 Oppenheim found 0.37 g. That is the threshold of motion, not of collapse: an arch on which a pulse acts may
 rock and come to rest.
 
-Source: Oppenheim (1992), The masonry arch as a four-link mechanism under base motion, Earthquake Eng. Struct.
-Dyn. 21, 1005-1017; the same arch in De Lorenzis, DeJong & Ochsendorf (2007), 0.37 g.
+Source: Oppenheim (1992), The masonry arch as a four-link mechanism under base motion, Earthquake Eng.
+Struct. Dyn. 21, 1005-1017; the same arch in De Lorenzis, DeJong & Ochsendorf (2007), 0.37 g.
 """
 
 from pathlib import Path

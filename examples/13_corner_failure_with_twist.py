@@ -1,23 +1,22 @@
 """A corner is pushed outwards along its diagonal: how much of its strength is twisting friction?
 
-Two walls of four courses interlock at a corner, their quoins alternating. Pushed along the diagonal, the stones
-of the corner slide, lift and turn on their beds, and a bed that turns resists by its torsion strength:
+Two walls of four courses interlock at a corner, their quoins alternating. Pushed along the diagonal, the
+stones of the corner slide, lift and turn on their beds, and a bed that turns resists by its torsion
+strength:
 
     T0 = c_T mu |N|    under uniform pressure, Eqs (16)-(17);    T0 = mu |N| d/2    with points at its corners
 
-d is the diagonal of the bed. On a square the points are 1.85 times as strong, and a corner of point contacts
-seems stronger than it is. `ExactTorsion` brackets the strength under uniform pressure; the planes of the paper
-lie a little above. All of these have the same friction coefficient and the same geometry.
+d is the diagonal of the bed. On a square the points are 1.85 times as strong, and a corner of point
+contacts seems stronger than it is. `ExactTorsion` brackets the strength under uniform pressure; the planes
+of the paper lie a little above. All of these have the same friction coefficient and the same geometry.
 
 A single quoin twisted by itself shows the ratio alone: a cube on its bed under its weight and a couple.
 
-Source: Orduña & Lourenço (2005), Part I, Eqs (16)-(30); Livesley (1978) for the points; the mechanism is that of
-Giuffrè (1991) and D'Ayala & Speranza (2003) for corners.
+Source: Orduña & Lourenço (2005), Part I, Eqs (16)-(30); Livesley (1978) for the points; the mechanism is
+that of Giuffrè (1991) and D'Ayala & Speranza (2003) for corners.
 """
 
 from pathlib import Path
-
-import numpy as np
 
 import limitblocks as lb
 
@@ -37,12 +36,10 @@ def main(folder="output"):
         print(f"{name:24s}: corner {found.lower:.4f}, a quoin twisted by itself {quoins[name]:.4f}")
     ratio = quoins["point contacts"] / quoins["Orduña & Lourenço"]
     print(f"point contacts overestimate the torsion of the quoin {ratio:.3f} times")
+    inner, outer, _, points = (found.lower for found in corners.values())
+    assert inner <= outer <= points
     picture(Path(folder), corners)
-    return {
-        "corner": {name: found.lower for name, found in corners.items()},
-        "quoin": quoins,
-        "ratio": ratio,
-    }
+    return {"ratio": ratio} | quoins
 
 
 def corner(joint):
@@ -61,6 +58,7 @@ def picture(folder, corners):
     import matplotlib.pyplot as plt
 
     figure = plt.figure(figsize=(14, 5), layout="constrained")
+    figure.get_layout_engine().set(wspace=0.1)
     left = figure.add_subplot(1, 3, 1)
     names = list(corners)
     left.barh(names, [found.lower for found in corners.values()], color="tab:blue")

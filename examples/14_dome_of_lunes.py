@@ -1,17 +1,17 @@
 """How thin may a dome be that has cracked along its meridians?
 
-A hemispherical dome that cracks along its meridians stands as pairs of opposite lunes, slices like those of an
-orange, each pair an arch that narrows to its crown. Hoop forces are gone. In a lune of the angle one the part
-from the crown down to phi has the weight W and the first moment M about the axis, with s = t/R:
+A hemispherical dome that cracks along its meridians stands as pairs of opposite lunes, slices like those of
+an orange, each pair an arch that narrows to its crown. Hoop forces are gone. In a lune of the angle one the
+part from the crown down to phi has the weight W and the first moment M about the axis, with s = t/R:
 
     W = gamma s R^3 (1 + s^2/12) (1 - cos phi),    M = gamma s R^4 (1 + s^2/4) (phi/2 - sin(2 phi)/4)
 
-The lune stands if a line of thrust from the crown to the springing fits in its thickness, with no tension and no
-sliding; W and M give its height at every phi for a thrust H. The least thickness is t/R = 0.0428, much less than
-the 0.1075 of an arch, because the weight near the crown is small.
+The lune stands if a line of thrust from the crown to the springing fits in its thickness, with no tension
+and no sliding; W and M give its height at every phi for a thrust H. The least thickness is t/R = 0.0428,
+much less than the 0.1075 of an arch, because the weight near the crown is small.
 
-Source: Heyman (1967), On shell solutions for masonry domes, Int. J. Solids Struct. 3, 227-241: 0.042; Heyman (1995),
-The stone skeleton.
+Source: Heyman (1967), On shell solutions for masonry domes, Int. J. Solids Struct. 3, 227-241: 0.042;
+Heyman (1995), The stone skeleton.
 """
 
 from pathlib import Path
@@ -36,9 +36,7 @@ def main(folder="output"):
 
 def lunes(thickness, voussoirs, angle=0.1):
     joint = lb.PointContact(friction=0.8)
-    return lb.structures.dome_lunes(
-        joint, radius=1.0, thickness=thickness, voussoirs=voussoirs, angle=angle
-    )
+    return lb.structures.dome_lunes(joint, radius=1.0, thickness=thickness, voussoirs=voussoirs, angle=angle)
 
 
 def least_thickness(voussoirs):
@@ -52,8 +50,8 @@ def picture(folder, found, limit):
     import matplotlib.pyplot as plt
 
     figure = plt.figure(figsize=(14, 4.6), layout="constrained")
-    first, second, third = (figure.add_subplot(1, 3, 1, projection="3d", proj_type="ortho", elev=25, azim=-60),
-                            figure.add_subplot(1, 3, 2), figure.add_subplot(1, 3, 3))  # fmt: skip
+    first = figure.add_subplot(1, 3, 1, projection="3d", proj_type="ortho", elev=25, azim=-60)
+    second, third = figure.add_subplot(1, 3, 2), figure.add_subplot(1, 3, 3)
     figure.get_layout_engine().set(wspace=0.1)
     lb.plots.structure(lunes(0.15, 13, angle=0.6), ax=first, live=False)
     first.set_title("Two opposite lunes (thicker and wider)")

@@ -1,25 +1,27 @@
 """How do I put my own yield criterion into the analysis?
 
-A joint is a frozen dataclass with a friction coefficient and a function `yield_rows`, which says for polygons of
-shape (m, n, 2) what stresses x = (V1, V2, N, M1, M2, T) they carry: F x + g >= 0, row by row, and how the joint
-flows: dx = -G^T y. Bounds, the non-associated analysis, the check and the pictures all read the same rows. Here is a
-mortar joint with friction mu, cohesion c and tensile strength ft on the area A:
+A joint is a frozen dataclass with a friction coefficient and a function `yield_rows`, which says for
+polygons of shape (m, n, 2) what stresses x = (V1, V2, N, M1, M2, T) they carry: F x + g >= 0, row by row,
+and how the joint flows: dx = -G^T y. Bounds, the non-associated analysis, the check and the pictures all
+read the same rows. Here is a mortar joint with friction mu, cohesion c and tensile strength ft on the area
+A:
 
     |V1| + |V2| + |T|/c_T <= mu |N| + c A                          eight rows, one for each choice of signs
     d_k (A ft - N) + (n1 M2 - n2 M1) >= 0 for each side k          the joint does not open about the side k
 
-n1, n2 is the outward normal of a side and d_k its distance from the centroid; the point (e1, e2) = (-M2, M1)/N
-must lie within it. The octahedron of the first line is convex and has its six corners on Coulomb's circle and at
-the torsion strength, so it lies within the surface of uniform pressure: a safe joint, up to sqrt(2) too weak along
-the diagonal. Zero dilatancy takes the column of N out of the first eight rows of G.
+n1, n2 is the outward normal of a side and d_k its distance from the centroid; the point (e1, e2) = (-M2,
+M1)/N must lie within it. The octahedron of the first line is convex and has its six corners on Coulomb's
+circle and at the torsion strength, so it lies within the surface of uniform pressure: a safe joint, up to
+sqrt(2) too weak along the diagonal. Zero dilatancy takes the column of N out of the first eight rows of G.
 
 What comes out is known. A block b x h of weight W on mortar, pushed at half its height, stands up to
 
     alpha = min(mu + c A/W, b/h (1 + ft A/W)),    and, pushed at its base `lever` off the middle,
     alpha = (mu + c A/W) / (1 + lever/c_T)
 
-Source: the first line is the inner approximation of the limit surface of Goyal, Ruina & Papadopoulos (1991), Wear
-143; the second is Eq. (36) of Orduña & Lourenço (2005), Part I, with a tensile strength; c_T is their Eq. (17).
+Source: the first line is the inner approximation of the limit surface of Goyal, Ruina & Papadopoulos
+(1991), Wear 143; the second is Eq. (36) of Orduña & Lourenço (2005), Part I, with a tensile strength; c_T
+is their Eq. (17).
 """
 
 from dataclasses import dataclass
@@ -35,8 +37,11 @@ from limitblocks.joints.torsion import torsion_constants
 
 
 @dataclass(frozen=True)
-class Mortar(Queries):  # Queries answers joint.strength(...) and the like from the rows; the analyses need it not
-    """Coulomb friction with cohesion (Pa), within the exact surface, and rocking with a tensile strength (Pa)."""
+class Mortar(Queries):
+    """Friction and cohesion (Pa) within the exact surface; rocking with a tensile strength (Pa).
+
+    The analyses need `friction` and `yield_rows`. Queries adds questions to one joint, such as strength(...).
+    """
 
     friction: float
     cohesion: float = 0.0
@@ -98,7 +103,7 @@ def twisted(joint):
     """The same block under a horizontal force along X at its base, LEVER off the middle."""
     model = pushed(joint)
     stone = model.free_blocks[0]
-    at = stone.centroid + (0, LEVER, -HEIGHT / 2)
+    at = np.add(stone.centroid, (0, LEVER, -HEIGHT / 2))
     return lb.Model(
         model.blocks,
         model.supports,
