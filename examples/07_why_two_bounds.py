@@ -8,9 +8,11 @@ number needs the answer to be known:
   1/3 that is the rule of the middle third; the smaller s, the safer, and the farther from the truth.
 - Kinematic theorem. Whoever finds a way for the arch to move that takes no more work than the loads give
   has proven that it falls: alpha is an upper bound. Here three bars turn about four hinges, at any four
-  joints and on alternate sides, and the work of all loads is zero:
+  joints and on alternate sides.
 
-    sum of W (w + alpha u) = 0,    u, w the horizontal and upward rates of the centroids
+The load factor of a mechanism is the one at which the work of all loads is zero:
+
+    sum of W (alpha u - w) = 0,    u, w the horizontal and upward rates of the centroids
 
 Both theorems hold for associated flow. The largest lower and the smallest upper bound meet: they are the
 same convex program seen from two sides, and their difference, the gap, is the proof that both were solved.

@@ -78,7 +78,7 @@ def picture(folder, wall, continued, loaded):
         axes[1:], (continued[0], loaded[-1]), ("associated", "zero dilatancy, loaded"), strict=True
     ):
         lb.plots.mechanism(wall, found, ax=ax)
-        ax.set_title(f"{word}: {found.load_factor:.4f}")
+        ax.set_title(f"{word}: {found.load_factor:.5f}")
     folder.mkdir(parents=True, exist_ok=True)
     figure.savefig(folder / "08_friction_is_not_associated.png", dpi=120)
     plt.close(figure)

@@ -1,4 +1,4 @@
-"""A corner is pushed outwards along its diagonal: how much of its strength is twisting friction?
+"""A corner is pushed outwards and its stones twist: how much does the torsion of their beds matter?
 
 Two walls of four courses interlock at a corner, their quoins alternating. Pushed along the diagonal, the
 stones of the corner slide, lift and turn on their beds, and a bed that turns resists by its torsion
