@@ -50,9 +50,10 @@ def stages(
         if progress is not None:
             progress(judged(stage))
 
-    for share in settings.turning:
-        partial = replace(problem, pivot=share * problem.pivot)
-        task = _Task(partial, InterfaceBlocks(problem), weights, dilatancy, tolerance, settings, first)
+    for turning, dilating in settings.flows:
+        partial = replace(problem, pivot=turning * problem.pivot)
+        slope = dilatancy + dilating * (float(problem.friction.min()) - dilatancy)
+        task = _Task(partial, InterfaceBlocks(problem), weights, slope, tolerance, settings, first)
         followed = _followed(task, found[-1].state.x if found else x0, report)
         found += [judged(stage) for stage in followed]
     return found

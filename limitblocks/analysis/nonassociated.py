@@ -28,14 +28,16 @@ from limitblocks.mechanics import LimitProblem
 from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
 
-# A snap that jams one step size is crossed by another.
+# A snap that jams one step size is crossed by another, or by a flow rule that grows into the true one.
 ATTEMPTS = (
     Settings(),
     Settings(longest=5e3),
     Settings(first=1.0, longest=15.0),
-    Settings(turning=(0.0, 0.5, 1.0), budget=800),
+    Settings(flows=((0.0, 0.0), (0.5, 0.0), (1.0, 0.0)), budget=800),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
+    Settings(flows=tuple((1.0, share) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.1, 0.0)), budget=400),
 )
+ASSOCIATED = (1.0, 1.0)
 COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one
 
 
@@ -52,8 +54,10 @@ def nonassociated(
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
 
     Implicit steps of growing size lead from the permanent-load state towards collapse; near it a fixed
-    point of two convex programs with frozen flow finds the solution. The load factor of a non-associated
-    structure is not unique: this is one solution, between the frictionless and the associated value.
+    point of two convex programs with frozen flow, or one very long step, finds the solution. Where they jam,
+    the flow rule grows from a simpler one into the true one; see :class:`limitblocks.Settings`. The load
+    factor of a non-associated structure is not unique: this is one solution, between the frictionless and
+    the associated value.
 
     Parameters
     ----------
@@ -106,8 +110,9 @@ def nonassociated(
     for setting in [settings] if isinstance(settings, Settings) else settings:
         if met and met[-1].residuals.worst.value <= tolerance:
             break
-        if setting.turning == (1.0,) or problem.pivot.any():
-            met += stages(problem, x0, problem.compliance, dilatancy, tolerance, setting, scale, record)
+        x = _first_stresses(problem, setting, enclosing, x0)
+        if x is not None:
+            met += stages(problem, x, problem.compliance, dilatancy, tolerance, setting, scale, record)
     return finished(
         model,
         best_of(met, tolerance) or initial(problem, x0, dilatancy),
@@ -117,6 +122,15 @@ def nonassociated(
         tolerance,
         throw,
     )
+
+
+def _first_stresses(problem: LimitProblem, setting: Settings, enclosing: Bracket, x0: Array) -> Array | None:
+    """Where an attempt starts; None where its flow rules say nothing new or there is no associated state."""
+    turnings, dilatings = (set(shares) for shares in zip(*setting.flows, strict=True))
+    if setting.flows[0] == ASSOCIATED:
+        found = enclosing.bounds
+        return None if found is None else np.asarray(found.generalised_stresses / problem.stress_units)
+    return x0 if problem.pivot.any() or turnings == {1.0} or len(dilatings) > 1 else None
 
 
 def best_of(met: list[Stage], tolerance: float) -> Stage | None:

@@ -17,12 +17,6 @@ def facade(kind, direction):
     )
 
 
-def crushing_corner():
-    """Twist with crushing: plain steps and jumps do not come to an end here."""
-    joint = lb.OrdunaLourenco(0.8, compressive_strength=0.3e6)
-    return structures.corner(joint, length=2.4, return_length=2.4, courses=4)
-
-
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("direction", [(0, 1, 0), (1, 1, 0)], ids=["out", "diagonal"])
 def test_associated_flow_gives_the_associated_value_in_space(kind, direction):
@@ -33,8 +27,7 @@ def test_associated_flow_gives_the_associated_value_in_space(kind, direction):
     assert found.load_factor == pytest.approx(bounds.lower, abs=1e-6)
 
 
-@pytest.mark.parametrize("number", [2, 3, 4])
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(("number", "kind"), zip((2, 3, 4), (*KINDS, KINDS[0]), strict=True))
 def test_followed_from_the_associated_flow_the_answer_moves_in_small_steps(kind, number):
     """Each dilatancy starts from the answer of the one before: no step above 3 % of the associated value."""
     model = structures.ferris_tin_loi_wall(number, kind(0.65))
@@ -92,8 +85,8 @@ def test_a_start_that_is_no_state_is_refused(kind):
 
 
 def test_growing_turning_terms_lead_to_a_solution_of_the_whole_flow():
-    model = crushing_corner()
-    found = lb.nonassociated(model, settings=lb.Settings(turning=(0.0, 0.5, 1.0), budget=800))
+    model = facade(lb.OrdunaLourenco, (0, 1, 0))
+    found = lb.nonassociated(model, settings=lb.Settings(flows=((0, 0), (0.5, 0), (1, 0)), budget=800))
     assert lb.check_mcp(model, found).worst.value <= 1e-6
     assert found.load_factor <= found.associated + 1e-6
 
@@ -101,6 +94,22 @@ def test_growing_turning_terms_lead_to_a_solution_of_the_whole_flow():
 def test_a_part_of_the_turning_terms_is_not_taken_for_the_whole():
     """Without the turning terms the steps come to an end, but their end breaks the flow rule of Table 5."""
     with pytest.raises(lb.NotConverged, match="residual") as caught:
-        lb.nonassociated(crushing_corner(), settings=lb.Settings(turning=(0.0,), budget=800))
+        lb.nonassociated(
+            facade(lb.OrdunaLourenco, (0, 1, 0)), settings=lb.Settings(flows=((0, 0),), budget=800)
+        )
     assert caught.value.result.residuals["equilibrium"] <= 1e-6
     assert caught.value.result.residuals.worst.value > 1e-4
+
+
+def test_from_the_associated_state_to_zero_dilatancy():
+    model = structures.ferris_tin_loi_wall(2, lb.PointContact(0.65))
+    falling = tuple((1.0, share) for share in (1.0, 0.5, 0.0))
+    found = lb.nonassociated(model, settings=lb.Settings(flows=falling))
+    assert lb.check_mcp(model, found).worst.value <= 1e-6
+    assert lb.nonassociated(model).load_factor < found.load_factor <= found.associated + 1e-6
+
+
+def test_an_associated_end_is_not_taken_for_zero_dilatancy():
+    model = structures.ferris_tin_loi_wall(4, lb.PointContact(0.65))
+    with pytest.raises(lb.NotConverged):
+        lb.nonassociated(model, settings=lb.Settings(flows=((1.0, 1.0),), budget=100))
