@@ -27,7 +27,7 @@ def test_associated_flow_gives_the_associated_value_in_space(kind, direction):
     assert found.load_factor == pytest.approx(bounds.lower, abs=1e-6)
 
 
-@pytest.mark.parametrize(("number", "kind"), zip((2, 3, 4), (*KINDS, KINDS[0]), strict=True))
+@pytest.mark.parametrize(("number", "kind"), [(2, KINDS[0]), (3, KINDS[1]), (4, KINDS[0])])
 def test_followed_from_the_associated_flow_the_answer_moves_in_small_steps(kind, number):
     """Each dilatancy starts from the answer of the one before: no step above 3 % of the associated value."""
     model = structures.ferris_tin_loi_wall(number, kind(0.65))
