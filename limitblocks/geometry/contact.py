@@ -21,6 +21,8 @@ from limitblocks.geometry.overlap import refuse_overlaps
 
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
+#: Grid of the corners of interfaces, relative to the block length.
+GRID = 1e-11
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
 
@@ -121,7 +123,9 @@ def _clip(faces: FaceTable, a: Indices, b: Indices, length: float) -> _Patches:
     extent = np.maximum(bounds[..., 2:].min(axis=0) - bounds[..., :2].max(axis=0), 0.0)
     near = np.flatnonzero(extent.prod(axis=1) > least)  # spares clipping faces that meet at an edge
     # a common part that is not one polygon (a line, a point, nothing) has no area
-    parts, pair = shapely.get_parts(shapely.intersection(first[near], second[near]), return_index=True)
+    # without a grid the intersection of two faces equal but for rounding can be a point
+    common = shapely.intersection(first[near], second[near], grid_size=GRID * length)
+    parts, pair = shapely.get_parts(common, return_index=True)
     keep = shapely.area(parts) > least[near[pair]]
     pair = near[pair[keep]]
     return _Patches(a[pair], b[pair], origin[pair], frame[pair], parts[keep])

@@ -1,26 +1,27 @@
-"""Voussoir arches."""
+"""Voussoir arches: circular, segmental, pointed, elliptical; on skewbacks or on piers; under fill."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
+from limitblocks.mechanics import Load
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
-    base,
     model_of,
-    pier,
     prism,
     refuse,
     refuse_not_positive,
 )
+from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
+from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
+from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed
 
 
 def arch(
@@ -30,11 +31,15 @@ def arch(
     thickness: float,
     voussoirs: int,
     embrace: float = np.pi,
+    stereotomy: Stereotomy = "radial",
+    facets: int = 1,
+    piers: Piers | None = None,
+    fill: Fill | None = None,
     depth: float = 1.0,
     unit_weight: float = UNIT_WEIGHT,
     direction: Sequence[float] = HORIZONTAL,
 ) -> Model:
-    """Return a circular arch of equal voussoirs with radial joints on two supports, in the plane X, Z.
+    """Return a circular arch of equal voussoirs on two supports or piers, in the plane X, Z.
 
     The corners of the voussoirs lie on the circles of radius +- thickness / 2; their edges are straight.
 
@@ -50,6 +55,16 @@ def arch(
         Number of voussoirs, named from `voussoir 1` at the left (-X) springing.
     embrace : float
         Angle between the springings, rad; pi, the default and the largest, is a semicircle.
+    stereotomy : "radial" or "vertical"
+        Direction of the joints between voussoirs. Joints at the springings are radial in either case.
+    facets : int
+        Number of straight sides of the extrados of a voussoir. The intrados has one, so that voussoirs are
+        convex.
+    piers : Piers, optional
+        (width, blocks, block_height); an arch whose springings slope has a skewback stone on each. Without
+        piers the arch springs from two supports.
+    fill : Fill, optional
+        (height, unit_weight, pressure, inertia); see :class:`Fill` for what the load factor multiplies.
     depth : float
         Dimension along Y, m.
     unit_weight : float
@@ -57,11 +72,91 @@ def arch(
     direction : sequence of float
         Direction of the live load, which is the weight.
     """
-    refuse_not_positive(depth=depth)
-    ring = Ring.checked(radius, thickness, voussoirs, embrace)
-    blocks = ring_blocks(ring, depth, unit_weight)
-    supports = [prism(f"{side} support", outline, depth) for side, outline in ring.skewbacks().items()]
-    return model_of(blocks, supports, joint, direction, f"arch of {voussoirs} voussoirs")
+    ring = circular(radius, thickness, voussoirs, embrace, stereotomy, facets)
+    name = f"arch of {voussoirs} voussoirs"
+    return _arch(joint, ring, piers, fill, depth, unit_weight, direction, name)
+
+
+def segmental_arch(
+    joint: Joint,
+    *,
+    span: float,
+    rise: float,
+    thickness: float,
+    voussoirs: int,
+    stereotomy: Stereotomy = "radial",
+    facets: int = 1,
+    piers: Piers | None = None,
+    fill: Fill | None = None,
+    depth: float = 1.0,
+    unit_weight: float = UNIT_WEIGHT,
+    direction: Sequence[float] = HORIZONTAL,
+) -> Model:
+    """Return the circular arch of a given span and rise, both of its centreline, m; see :func:`arch`.
+
+    `rise` is at most half the `span`: radius (span^2 / 4 + rise^2) / (2 rise), embrace 4 atan(2 rise / span).
+    """
+    refuse_not_positive(span=span, rise=rise)
+    if rise > span / 2:
+        refuse([f"rise is {rise!r}, expected at most half the span {span!r}; see pointed_arch"])
+    radius, embrace = (span**2 / 4 + rise**2) / (2 * rise), 4 * np.arctan(2 * rise / span)
+    ring = circular(radius, thickness, voussoirs, embrace, stereotomy, facets)
+    return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "segmental arch")
+
+
+def pointed_arch(
+    joint: Joint,
+    *,
+    span: float,
+    rise: float,
+    thickness: float,
+    voussoirs: int,
+    stereotomy: Stereotomy = "radial",
+    facets: int = 1,
+    piers: Piers | None = None,
+    fill: Fill | None = None,
+    depth: float = 1.0,
+    unit_weight: float = UNIT_WEIGHT,
+    direction: Sequence[float] = HORIZONTAL,
+) -> Model:
+    """Return an arch about two centres on the springing line, with a joint at its apex; see :func:`arch`.
+
+    Parameters
+    ----------
+    span, rise : float
+        Of the centreline, m; the rise is more than half the span. The centres lie (rise^2 - span^2 / 4) /
+        span beyond the middle: at the opposite springings, an equilateral arch, for rise = sqrt(3) / 2 span.
+    voussoirs : int
+        An even number: half of them at either side.
+    joint, thickness, stereotomy, facets, piers, fill, depth, unit_weight, direction
+        As for :func:`arch`.
+    """
+    ring = pointed(span, rise, thickness, voussoirs, stereotomy, facets)
+    return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "pointed arch")
+
+
+def elliptical_arch(
+    joint: Joint,
+    *,
+    span: float,
+    rise: float,
+    thickness: float,
+    voussoirs: int,
+    stereotomy: Stereotomy = "radial",
+    facets: int = 1,
+    piers: Piers | None = None,
+    fill: Fill | None = None,
+    depth: float = 1.0,
+    unit_weight: float = UNIT_WEIGHT,
+    direction: Sequence[float] = HORIZONTAL,
+) -> Model:
+    """Return half an ellipse of constant thickness, flat (rise < span / 2) or raised; see :func:`arch`.
+
+    `span` and `rise` are those of the centreline, m. Joints are perpendicular to it, at equal distances along
+    it; intrados and extrados are its parallels.
+    """
+    ring = elliptical(span, rise, thickness, voussoirs, stereotomy, facets)
+    return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "elliptical arch")
 
 
 def arch_on_piers(
@@ -77,90 +172,52 @@ def arch_on_piers(
     unit_weight: float = UNIT_WEIGHT,
     direction: Sequence[float] = HORIZONTAL,
 ) -> Model:
-    """Return a semicircular arch on two piers of single blocks, in the plane X, Z, on a base.
-
-    The piers begin flush with the intrados and stand out beyond the extrados.
+    """Return a semicircular arch on two piers of single blocks: :func:`arch` with `piers`.
 
     Parameters
     ----------
-    joint : Joint
-        Joint of all interfaces, springings and base included.
-    radius, thickness : float
-        To the centreline, and of the ring, m.
-    voussoirs : int
-        Number of voussoirs, named from `voussoir 1` at the left (-X) springing.
     pier_width : float
         Along X, m; at least the thickness.
     pier_blocks : int
         Number of blocks in each pier.
     block_height : float
         Of the pier blocks, m.
-    depth : float
-        Dimension along Y, m.
-    unit_weight : float
-        N/m3.
-    direction : sequence of float
-        Direction of the live load, which is the weight.
+    joint, radius, thickness, voussoirs, depth, unit_weight, direction
+        As for :func:`arch`.
     """
-    refuse_not_positive(pier_width=pier_width, block_height=block_height, depth=depth)
-    ring = Ring.checked(radius, thickness, voussoirs, np.pi)
-    problems = [] if pier_blocks >= 1 else [f"pier blocks is {pier_blocks!r}, expected at least 1"]
-    if pier_width < thickness:
-        problems.append(f"pier width is {pier_width!r}, expected at least the thickness {thickness!r}")
-    refuse(problems)
-    inner = radius - thickness / 2
-    outer, y = inner + pier_width, (-depth / 2, depth / 2)
-    piers = [
-        block
-        for side, x in (("left", (-outer, -inner)), ("right", (inner, outer)))
-        for block in pier(f"{side} pier", x, y, pier_blocks, block_height, unit_weight)
+    ring = circular(radius, thickness, voussoirs, np.pi)
+    piers = Piers(pier_width, pier_blocks, block_height)
+    return _arch(joint, ring, piers, None, depth, unit_weight, direction, "arch on piers")
+
+
+def _arch(
+    joint: Joint,
+    ring: Ring,
+    piers: Piers | None,
+    fill: Fill | None,
+    depth: float,
+    unit_weight: float,
+    direction: Sequence[float],
+    name: str,
+) -> Model:
+    """The model of a ring with its piers and fill."""
+    refuse_not_positive(depth=depth)
+    if piers is None:
+        below: list[Block] = []
+        supports = [prism(f"{side} support", outline, depth) for side, outline in ring.skewbacks().items()]
+        ledges: list[tuple[str, Array]] = []
+    else:
+        piers = Piers(*piers)
+        ring = on_piers(ring, piers)
+        below, supports, ledges = pier_blocks_of(ring, piers, depth, unit_weight)
+    blocks = [
+        prism(f"voussoir {k + 1}", outline, depth, unit_weight) for k, outline in enumerate(ring.voussoirs())
     ]
-    arch_blocks = ring_blocks(ring, depth, unit_weight, height=pier_blocks * block_height)
-    ground = base((-outer, outer), y, block_height)
-    return model_of([*piers, *arch_blocks], [ground], joint, direction, "arch on piers")
-
-
-class Ring(NamedTuple):
-    """Ring of equal voussoirs with straight edges; points are (x, z) about the centre, m."""
-
-    inner: Array
-    outer: Array
-
-    @classmethod
-    def checked(cls, radius: float, thickness: float, voussoirs: int, embrace: float) -> Ring:
-        """Return the ring, or raise ModelError naming everything that makes it impossible."""
-        refuse_not_positive(radius=radius, thickness=thickness, embrace=embrace)
-        problems = [] if voussoirs >= 2 else [f"voussoirs is {voussoirs!r}, expected at least 2"]
-        if thickness >= 2 * radius:
-            problems.append(f"thickness is {thickness!r}, expected less than twice the radius {radius!r}")
-        if embrace > np.pi:
-            problems.append(f"embrace is {embrace!r}, expected an angle up to pi (a semicircle) in rad")
-        refuse(problems)
-        joints = np.linspace(-embrace / 2, embrace / 2, voussoirs + 1)
-        return cls(*(_on_circle(radius + side * thickness / 2, joints) for side in (-1, 1)))
-
-    def voussoirs(self) -> list[Array]:
-        """Return the outlines from the left springing to the right, (4, 2) each."""
-        a, b = self.inner, self.outer
-        return [np.array([a[k], a[k + 1], b[k + 1], b[k]]) for k in range(len(a) - 1)]
-
-    def skewbacks(self) -> dict[str, Array]:
-        """Return the outlines of supports below the left and the right springing, (4, 2) each."""
-        across = self.outer[0] - self.inner[0]
-        below = np.array([across[1], -across[0]])  # tangent at the left springing, downwards
-        below *= -np.sign(below[1])
-        left = np.array([self.outer[0] + below, self.inner[0] + below, self.inner[0], self.outer[0]])
-        return {"left": left, "right": left[::-1] * (-1.0, 1.0)}
-
-
-def ring_blocks(ring: Ring, depth: float, unit_weight: float, height: float = 0.0) -> list[Block]:
-    """Return the voussoirs of a ring whose centre is at z = `height`."""
-    return [
-        prism(f"voussoir {k + 1}", np.add(outline, (0.0, height)), depth, unit_weight)
-        for k, outline in enumerate(ring.voussoirs())
-    ]
-
-
-def _on_circle(radius: float, angles: Array) -> Array:
-    """Points (x, z) on a circle about the origin at `angles` from the crown, clockwise; shape (n, 2)."""
-    return radius * np.column_stack([np.sin(angles), np.cos(angles)])
+    extra = (Load(), Load())
+    if fill is not None:
+        fill = Fill(*fill)
+        refuse_fill(fill)
+        surfaces = [(block.name, top) for block, top in zip(blocks, ring.extrados, strict=True)]
+        level = float(ring.extrados[..., 1].max()) + fill.height
+        extra = fill_loads(fill, [*surfaces, *ledges], level, depth, direction)
+    return model_of([*below, *blocks], supports, joint, direction, name, extra)

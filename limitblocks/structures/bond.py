@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 
 from limitblocks.errors import ModelError
-from limitblocks.structures.build import refuse
+from limitblocks.geometry import Block
+from limitblocks.structures.build import refuse, refuse_fewer, refuse_not_positive, span_box
 
 SAME = 1e-6  # of a block: lengths closer than this are equal
+HORIZONTAL_LENGTHS = ("length", "width", "return_length", "buttress_length")  # on the grid of half blocks
 
 
 class Opening(NamedTuple):
@@ -39,7 +42,12 @@ class Bond(NamedTuple):
     courses: int
 
     def pieces(
-        self, prefix: str, ends: Sequence[tuple[float, float]], shift: int, openings: Sequence[Opening] = ()
+        self,
+        prefix: str,
+        ends: Sequence[tuple[float, float]],
+        shift: int,
+        openings: Sequence[Opening] = (),
+        gaps: Mapping[int, Sequence[tuple[float, float]]] = MappingProxyType({}),
     ) -> list[Piece]:
         """Return the blocks of a wall, from the lowest course up and from left to right.
 
@@ -54,18 +62,36 @@ class Bond(NamedTuple):
         openings : sequence of Opening
             Holes; each is bridged by a lintel one course high that bears on half a block at either side,
             unless it reaches the top of the wall.
+        gaps : mapping of int to sequence of (float, float)
+            Spans left free in a course, from 0, for blocks of another bond, m.
         """
         refuse(problem for opening in openings for problem in self._opening_problems(opening))
         found = []
         for course in range(self.courses):
             start, end = ends[course % 2]
             holes, lintels = self._interruptions(course, openings)
+            holes += gaps.get(course, ())
             _refuse_clash(f"{prefix} course {course + 1}", start, end, [*holes, *lintels.values()])
             found += [Piece(f"{prefix} lintel {k + 1}", course, *span) for k, span in lintels.items()]
             offset = 0.5 * self.block_length * ((course + shift) % 2 == 0)
             cuts = self._joints(start, end, offset, [*holes, *lintels.values()])
             found += [Piece(f"{prefix} {course + 1}.{k + 1}", course, *span) for k, span in enumerate(cuts)]
         return found
+
+    def boxes(
+        self, pieces: Iterable[Piece], axis: int, across: Sequence[float], unit_weight: float
+    ) -> list[Block]:
+        """Return the blocks of a wall along X (`axis` 0) or Y (1) between two values `across` it, m."""
+        h, found = self.course_height, []
+        for p in pieces:
+            x, y = ((p.start, p.end), across) if axis == 0 else (across, (p.start, p.end))
+            found.append(span_box(p.name, x, y, (p.course * h, (p.course + 1) * h), unit_weight))
+        return found
+
+    def taken(self, openings: Sequence[Opening], course: int) -> list[tuple[float, float]]:
+        """Return the spans of openings and lintels in a course, from 0."""
+        holes, lintels = self._interruptions(course, openings)
+        return [*holes, *lintels.values()]
 
     def _interruptions(
         self, course: int, openings: Sequence[Opening]
@@ -99,13 +125,28 @@ class Bond(NamedTuple):
         problems = [
             f"{opening}: {name} is {value:g}, expected a multiple of {unit:g}"
             for name, value, unit in zip(Opening._fields, opening, units, strict=True)
-            if abs(value / unit - round(value / unit)) > SAME
+            if not multiple(value, unit)
         ]
         if min(opening.width, opening.height) <= 0.0 or opening.sill < 0.0:
             problems.append(f"{opening}: expected positive width and height, and a sill at or above the base")
         if opening.sill + opening.height > (self.courses + SAME) * height:
             problems.append(f"{opening}: the head is above the wall, {self.courses * height:g} m high")
         return problems
+
+
+def refuse_wall(courses: int, block_length: float, **lengths: float) -> None:
+    """Raise ModelError unless all is positive and the horizontal lengths are multiples of half a block."""
+    refuse_not_positive(block_length=block_length, **lengths)
+    half = block_length / 2
+    horizontal = [lengths[name] for name in HORIZONTAL_LENGTHS if name in lengths]
+    refuse(f"length {value:g} m is not a multiple of {half:g} m, half a block"
+           for value in horizontal if not multiple(value, half))  # fmt: skip
+    refuse_fewer(1, courses=courses)
+
+
+def multiple(value: float, unit: float) -> bool:
+    """Whether `value` is a multiple of `unit`."""
+    return abs(value / unit - round(value / unit)) <= SAME
 
 
 def _refuse_clash(where: str, start: float, end: float, spans: Sequence[tuple[float, float]]) -> None:

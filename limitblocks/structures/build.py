@@ -7,10 +7,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
-from limitblocks.mechanics import mass_proportional, self_weight
+from limitblocks.mechanics import Load, mass_proportional, self_weight
 from limitblocks.model import Model
 
 UNIT_WEIGHT = 20e3  # N/m3, stone masonry
@@ -18,16 +19,24 @@ HORIZONTAL = (1.0, 0.0, 0.0)
 
 
 def model_of(
-    blocks: Sequence[Block], supports: Sequence[Block], joint: Joint, direction: Sequence[float], name: str
+    blocks: Sequence[Block],
+    supports: Sequence[Block],
+    joint: Joint,
+    direction: Sequence[float],
+    name: str,
+    extra: tuple[Load, Load] = (Load(), Load()),
 ) -> Model:
-    """Model under self weight and a mass-proportional live load along `direction`; one joint everywhere."""
+    """Model under self weight and a mass-proportional live load along `direction`; one joint everywhere.
+
+    `extra` is added to the dead and to the live load.
+    """
     everything = [*supports, *blocks]
     return Model(
         blocks=everything,
         supports=[support.name for support in supports],
         interfaces=find_interfaces(everything, joint),
-        dead=self_weight(),
-        live=mass_proportional(direction),
+        dead=self_weight() + extra[0],
+        live=mass_proportional(direction) + extra[1],
         name=name,
     )
 
@@ -67,10 +76,25 @@ def base(x: Sequence[float], y: Sequence[float], depth: float, name: str = "base
     return span_box(name, x, y, (-depth, 0.0))
 
 
+def unit_vector(direction: Sequence[float]) -> Array:
+    """Return `direction` brought to unit length, or raise ModelError where that cannot be done."""
+    vector = np.asarray(direction, dtype=float)
+    length = float(np.linalg.norm(vector))
+    if vector.shape != (3,) or not 0.0 < length < np.inf:
+        raise ModelError(f"direction is {direction!r}, expected three finite numbers, not all zero")
+    return np.asarray(vector / length)
+
+
 def refuse_not_positive(**values: float) -> None:
     """Raise ModelError naming all `values` that are not finite and positive."""
     refuse(f"{name.replace('_', ' ')} is {value!r}, expected a number > 0"
            for name, value in values.items() if not 0.0 < value < np.inf)  # fmt: skip
+
+
+def refuse_fewer(least: int, **counts: int) -> None:
+    """Raise ModelError naming all `counts` that are not whole numbers of at least `least`."""
+    refuse(f"{name.replace('_', ' ')} is {count!r}, expected at least {least}"
+           for name, count in counts.items() if count != round(count) or count < least)  # fmt: skip
 
 
 def refuse(problems: Iterable[str]) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.bond import Bond, Piece
+from limitblocks.structures.bond import Bond, Piece, multiple
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
@@ -129,12 +129,7 @@ def eccentric_lintel(
     pieces = [p for p in bond.pieces("wall", [(0.0, length)] * 2, 0) if p.course != courses]
     pieces += [p for p in bond.pieces("wall", [(0.0, length - bearing)] * 2, 0) if p.course == courses]
     pieces += [Piece("lintel", courses, length - bearing, tip)]
-    blocks = [
-        span_box(
-            p.name, (p.start, p.end), y, (p.course * block_height, (p.course + 1) * block_height), unit_weight
-        )
-        for p in pieces
-    ]
+    blocks = bond.boxes(pieces, 0, y, unit_weight)
     top = (courses + 1) * block_height
     off = (y[0] + eccentricity, y[1] + eccentricity)
     load = span_box("load", (tip - load_length, tip), off, (top, top + load_height), unit_weight)
@@ -147,5 +142,5 @@ def _refuse_off_grid(block_length: float, **lengths: float) -> None:
     refuse(
         f"{name} {value:g} m is not a positive multiple of {half:g} m, half a block"
         for name, value in lengths.items()
-        if value <= 0.0 or abs(value / half - round(value / half)) > 1e-6
+        if value <= 0.0 or not multiple(value, half)
     )

@@ -8,15 +8,15 @@ import numpy as np
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.arches import Ring
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     model_of,
     prism,
-    refuse,
+    refuse_fewer,
     refuse_not_positive,
 )
+from limitblocks.structures.rings import circular
 
 
 def barrel_vault(
@@ -57,8 +57,9 @@ def barrel_vault(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(length=length)
-    refuse([] if stones >= 1 else [f"stones is {stones!r}, expected at least 1"])
-    ring = Ring.checked(radius, thickness, courses, embrace)
+    refuse_fewer(1, stones=stones)
+    refuse_fewer(2, courses=courses)
+    ring = circular(radius, thickness, courses, embrace)
     even = length / stones * np.arange(stones + 1.0)
     odd = np.array([0.0, *(even[:-1] + even[1:]) / 2, length])
     blocks = [

@@ -1,0 +1,138 @@
+"""Least thickness of arches of every shape, its convergence with the voussoirs, and the friction needed."""
+
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+import pytest
+from least_thickness import (
+    circular_half,
+    elliptical_half,
+    least_thickness,
+    least_thickness_of_thrust_lines,
+    stands,
+)
+
+import limitblocks as lb
+from limitblocks import structures
+
+FRICTION = 0.8
+COUNTS = (25, 51, 101)
+
+
+def semicircle(thickness, voussoirs, friction=FRICTION):
+    return structures.arch(lb.PointContact(friction), radius=1.0, thickness=thickness, voussoirs=voussoirs)
+
+
+def lumped(model):
+    """Each weight proportional to its angle and acting on the centreline, dead and live."""
+    n = len(model.free_blocks)
+    angles = (np.arange(n) + 0.5) * np.pi / n - np.pi / 2
+    weight = np.mean([block.weight for block in model.free_blocks])
+    points = np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
+
+    def load(direction):
+        terms = (
+            lb.force(block.name, weight * np.array(direction), at=point)
+            for block, point in zip(model.free_blocks, points, strict=True)
+        )
+        return sum(terms, lb.Load())
+
+    return replace(model, dead=load((0, 0, -1)), live=load((1, 0, 0)))
+
+
+def extrapolated(counts, values):
+    """Limit of values whose error goes with the square of the voussoirs' size, from the last two."""
+    (m, n), (a, b) = counts[-2:], values[-2:]
+    return b + (b - a) / ((n / m) ** 2 - 1)
+
+
+@pytest.mark.parametrize(
+    ("change", "limit", "printed"),
+    [
+        (lambda model: model, 0.1075, 5e-5),  # Milankovitch (1907), true centroids
+        (lumped, 0.107426, 5e-6),  # Cocchetti & Rizzi (2020), Table 3, weights on the centreline
+    ],
+    ids=["true centroids", "centreline"],
+)
+def test_semicircle_converges_to_the_published_least_thickness(change, limit, printed):
+    """With the square of the voussoirs' size; extrapolated, to the digits in print, or 5e-6."""
+    found = [least_thickness(partial(semicircle, voussoirs=n), 1.01 * limit, change=change) for n in COUNTS]
+    end = extrapolated(COUNTS, found)
+    assert end == pytest.approx(limit, abs=printed)
+    assert np.all(np.abs(np.array(found) / end - 1) * np.square(COUNTS) < 4.0)
+    assert np.all(np.diff(found) > 0)  # fewer joints, fewer mechanisms
+
+
+def test_thrust_lines_agree_with_the_published_least_thickness():
+    """The reference of the other shapes: 0.1075 and 0.107426 as above."""
+    true = least_thickness_of_thrust_lines(circular_half, 0.09, 0.13)
+    centreline = least_thickness_of_thrust_lines(partial(circular_half, lumped=True), 0.09, 0.13)
+    assert true == pytest.approx(0.1075, abs=5e-5)
+    assert centreline == pytest.approx(0.107426, abs=1e-6)
+
+
+def shape(name, size):
+    """A builder of blocks (thickness, voussoirs) and one of half a continuous ring (thickness)."""
+    joint = lb.PointContact(FRICTION)
+    if name == "circular":
+        build = partial(structures.arch, joint, radius=1.0, embrace=size)
+        return build, partial(circular_half, embrace=size)
+    if name == "pointed":
+        shift = (size**2 - 1.0) / 2.0
+        build = partial(structures.pointed_arch, joint, span=2.0, rise=size, facets=4)
+        return build, partial(circular_half, radius=1.0 + shift, shift=shift)
+    build = partial(structures.elliptical_arch, joint, span=2.0, rise=size)
+    return build, partial(elliptical_half, a=1.0, b=size)
+
+
+@pytest.mark.parametrize(
+    ("name", "size"),
+    [
+        ("circular", np.radians(157.5)),
+        ("circular", np.radians(140.0)),
+        ("pointed", np.sqrt(3.0)),  # equilateral: the apex rises
+        ("pointed", 2.2),
+        ("elliptical", 0.6),
+        ("elliptical", 1.3),
+    ],
+)
+def test_least_thickness_is_that_of_thrust_lines(name, size):
+    """Heyman's assumptions, infinitely many voussoirs; 60 have an error of order (1 / 60)^2."""
+    build, half = shape(name, size)
+    limit = least_thickness_of_thrust_lines(half, 0.01, 0.4)
+    found = least_thickness(lambda thickness: build(thickness=thickness, voussoirs=60), 1.02 * limit)
+    assert found == pytest.approx(limit, rel=20.0 / 60**2)
+
+
+@pytest.mark.parametrize(
+    ("friction", "thickness", "expected"),
+    [
+        (0.8, 0.1073, False),
+        (0.8, 0.1075, True),
+        (0.397, 0.1075, True),  # above 0.395832 friction does not matter ...
+        (0.394, 0.1075, False),  # ... below it does
+        (0.309215, 0.2000, False),
+        (0.309215, 0.2013, True),
+        (0.3085, 0.3000, False),  # and no thickness stands
+        (0.3085, 0.5000, False),
+    ],
+)
+def test_friction_of_the_semicircle(friction, thickness, expected):
+    """Cocchetti & Rizzi (2020): t/R = 0.107426 above 0.395832 and 0.200637 at 0.309215; none stands below.
+
+    Their arch stands if a thrust line within it keeps within the friction cone at every joint, which is the
+    static theorem of associated flow, and so the static bound here: where sliding takes part, associated
+    flow opens the sliding joints, and whether the arch stands with real friction is another question.
+    """
+    assert stands(lumped(semicircle(thickness, 101, friction))) is expected
+
+
+def test_oppenheim_in_both_directions():
+    """Oppenheim (1992): R = 10, t/R = 0.15, embrace 157.5 deg, 7 voussoirs: 0.37 g."""
+    model = structures.arch(
+        lb.PointContact(FRICTION), radius=10.0, thickness=1.5, voussoirs=7, embrace=np.radians(157.5)
+    )
+    for direction in ((1, 0, 0), (-1, 0, 0)):
+        found = lb.bounds(replace(model, live=lb.mass_proportional(direction)))
+        assert found.lower == pytest.approx(0.37, abs=0.005)
