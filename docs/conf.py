@@ -39,5 +39,7 @@ toc_object_entries = False
 html_theme = "furo"
 html_title = f"limitblocks {release}"
 html_math_renderer = "mathml"  # of generated: no script, no font, no network
+html_static_path = ["_static"]
+html_css_files = ["wide.css"]
 html_show_sphinx = False
 html_copy_source = False

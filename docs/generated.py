@@ -25,10 +25,18 @@ FIXED = re.compile(r"^([\w/-]+)$", re.MULTILINE)  # pages that the index names
 
 
 def pages():
-    """Every page that the index does not name itself, so that a new one needs no line anywhere."""
+    """Every page that the index does not name itself, so that a new one needs no line anywhere.
+
+    Of a folder with an index, only that: it lists the others.
+    """
     named = {"index", *FIXED.findall((HERE / "index.md").read_text(encoding="utf-8"))}
     found = (file.relative_to(HERE).with_suffix("").as_posix() for file in sorted(HERE.rglob("*.md")))
-    return "\n".join(page for page in found if page not in named)
+    return "\n".join(page for page in found if page not in named and not _listed_in_its_folder(page))
+
+
+def _listed_in_its_folder(page):
+    folder = (HERE / page).parent
+    return folder != HERE and not page.endswith("/index") and (folder / "index.md").exists()
 
 
 def commands():
@@ -37,7 +45,8 @@ def commands():
 
 
 def _command(command, name, parent):
-    context = click.Context(command, info_name=name, parent=parent, max_content_width=100, terminal_width=100)
+    settings = {**command.context_settings, "max_content_width": 96, "terminal_width": 96}
+    context = click.Context(command, info_name=name, parent=parent, **settings)
     level = "#" * min(2 + context.command_path.count(" "), 4)
     yield f"{level} {context.command_path}\n\n```text\n{command.get_help(context)}\n```\n"
     for part in getattr(command, "commands", {}).items():

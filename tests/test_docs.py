@@ -33,6 +33,10 @@ def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("docs")
     source = shutil.copytree(DOCS, folder / "source", ignore=shutil.ignore_patterns("__pycache__"))
     (source / "added-later.md").write_text("# A page that nobody lists\n", encoding="utf-8")
+    (source / "lessons").mkdir()
+    lessons = "# Lessons\n\n```{toctree}\n:hidden:\n\none\n```\n"
+    (source / "lessons" / "index.md").write_text(lessons, encoding="utf-8")
+    (source / "lessons" / "one.md").write_text("# Lesson\n", encoding="utf-8")
     done = build(source, folder / "site")
     assert (done.returncode, done.stderr) == (0, "")
     return folder / "site"
@@ -82,6 +86,7 @@ def test_every_page_is_listed(site):
     pages = [file.relative_to(DOCS).with_suffix(".html").as_posix() for file in DOCS.rglob("*.md")]
     assert [page for page in pages if page != "index.html" and f'href="{page}"' not in index] == []
     assert 'href="added-later.html"' in index
+    assert 'href="lessons/index.html"' in index
 
 
 def test_every_public_name_is_documented(site):

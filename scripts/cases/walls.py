@@ -7,7 +7,7 @@ import limitblocks as lb
 from cases.case import ANALYSES, FLOWS, JOINTS, Case, associated, nonassociated
 from limitblocks import structures
 
-FERRIS_TIN_LOI = "Ferris & Tin-Loi (2001), Int. J. Mech. Sci. 43, 209-224"
+FERRIS_TIN_LOI = "Ferris & Tin-Loi (2001)"
 WALLS = {1: (0.64286, 0.640), 2: (0.58000, 0.563), 3: (0.40369, 0.356), 4: (0.33195, 0.264)}
 
 
@@ -40,7 +40,7 @@ def running_bond(ratio, joint):
 
 
 def running_bond_walls():
-    group, source = "Running-bond walls", "Argiento, Maione & Casapulla (2018), micro-block model"
+    group, source = "Running-bond walls", "Argiento, Maione & Casapulla (2018)"
     for (text, ratio, value), (name, kind) in product(
         (("1/3", 1 / 3, 0.68), ("1", 1.0, 0.26)), JOINTS.items()
     ):
