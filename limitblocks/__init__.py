@@ -1,7 +1,12 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer."""
 
+from importlib import import_module
+from typing import Any
+
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.diagnosis import Diagnosis, diagnose
+from limitblocks.analysis.interface_states import InterfaceStates, interface_states
 from limitblocks.analysis.load_path import load_path
 from limitblocks.analysis.mcp import Check, Claim, check_mcp
 from limitblocks.analysis.nonassociated import nonassociated
@@ -19,8 +24,19 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.io import model_schema, read, read_result, write_result
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_drawing,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+    write_vtu,
+)
 from limitblocks.joints import (
     ExactTorsion,
     Joint,
@@ -46,7 +62,7 @@ from limitblocks.mechanics import (
     top_force,
 )
 from limitblocks.model import Model
-from limitblocks.report import Report, report
+from limitblocks.report import Report, report, report_schema
 
 __version__ = "0.1.0"
 
@@ -56,9 +72,13 @@ __all__ = [
     "Check",
     "CheckFailed",
     "Claim",
+    "Contacts",
+    "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "ImportedBlocks",
     "Interface",
+    "InterfaceStates",
     "Iteration",
     "Joint",
     "LimitBlocksError",
@@ -85,11 +105,14 @@ __all__ = [
     "bounds",
     "check_mcp",
     "compass",
+    "diagnose",
     "effective_strength",
     "fill",
+    "find_contacts",
     "find_interfaces",
     "force",
     "interface",
+    "interface_states",
     "line_load",
     "load_path",
     "mass_proportional",
@@ -98,13 +121,26 @@ __all__ = [
     "nonassociated",
     "pressure",
     "read",
+    "read_blocks",
+    "read_drawing",
     "read_result",
     "report",
+    "report_schema",
     "self_weight",
     "structures",
     "studies",
     "tilting",
     "top_force",
     "units",
+    "write_animation",
+    "write_blocks",
     "write_result",
+    "write_vtu",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Import `limitblocks.plots` when it is first asked for: it needs matplotlib."""
+    if name == "plots":
+        return import_module("limitblocks.plots")
+    raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")

@@ -65,10 +65,6 @@ def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
     """The solution that the fixed point finds near a state."""
     stage, z, loading = reach.stage, reach.point, reach.loading
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
-    flow = evidence(problem, start, loading.dilatancy)["flow"]
-    smooth = stage.kind == "step" and not stage.failures  # the next step is cheaper than a round
-    if flow >= (settings.close if smooth else settings.near):
-        return Closing(None, np.inf)
     for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
         state, rounds = fixed_point(
             problem, from_state, loading.weights, loading.dilatancy, tolerance, settings.rounds

@@ -22,7 +22,7 @@ from limitblocks.mechanics import LimitProblem
 log = logging.getLogger(__name__)
 
 Progress = Callable[[Stage], None]
-AGAIN = 0.25  # of the flow residual where the last leap was tried: from here the next is worth its cost
+AGAIN = 0.25  # of the flow residual where closing was last tried: from here the next try is worth its cost
 
 
 def stages(
@@ -96,33 +96,51 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
     settings = task.settings
     x, y, pace = x0, np.zeros(len(task.problem.g)), _Pace(task.first / settings.first)
     found: list[Stage] = []
-    kept, leapt, budget = Closing(None, np.inf), np.inf, settings.budget
+    kept, tried, budget = Closing(None, np.inf), np.inf, settings.budget
     while True:
         reach, pace = _stepped(task, x, y, pace, budget)
         if reach is None:
             break
-        taken = [reach]
-        if _may_leap(task, reach.stage, leapt):
-            far = leap(reach, task.tolerance, settings)
-            pace = pace._replace(used=pace.used + far.stage.inner)
-            leapt = reach.stage.residuals["flow"]
-            taken += [far] if far.accepted else []
-        for one in taken:
-            found.append(one.stage)
-            report(one.stage)
-        if found[-1].residuals.worst.value <= task.tolerance:
+        found.append(reach.stage)
+        report(reach.stage)
+        if reach.stage.residuals.worst.value <= task.tolerance:
             return found
-        closing = closed(taken[-1], task.tolerance, settings)
+        worth = _worth(settings, reach.stage, tried)
+        closing = closed(reach, task.tolerance, settings) if worth else kept
         if closing.stage and closing.drift < kept.drift:
             budget = budget if kept.stage else min(budget, pace.used + settings.patience)
             kept = closing
             if closing.drift <= settings.drift:
                 break
-        x, y, pace = taken[-1].point.x, taken[-1].point.y, _next(task, reach.stage, pace)
+        following = _next(task, reach.stage, pace)
+        if worth and _smooth(reach.stage) and settings.leap:
+            tried = reach.stage.residuals["flow"]
+            far = leap(reach, task.tolerance, settings)
+            following = following._replace(used=following.used + far.stage.inner)
+            if far.accepted:
+                reach, following = far, following._replace(rho=far.loading.rho)
+                found.append(reach.stage)
+                report(reach.stage)
+                if reach.stage.residuals.worst.value <= task.tolerance:
+                    return found
+        x, y, pace = reach.point.x, reach.point.y, following
     if kept.stage:
         report(kept.stage)
         found.append(kept.stage)
     return found
+
+
+def _smooth(stage: Stage) -> bool:
+    return stage.kind == "step" and not stage.failures
+
+
+def _worth(settings: Settings, stage: Stage, tried: float) -> bool:
+    """Whether a state is so close to collapse that closing may succeed.
+
+    Where the next step is cheaper than a round, it must be well beyond the state of the last try.
+    """
+    flow = stage.residuals["flow"]
+    return flow < (min(settings.close, AGAIN * tried) if _smooth(stage) else settings.near)
 
 
 def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple[Reach | None, _Pace]:
@@ -143,20 +161,12 @@ def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple
     return None, pace
 
 
-def _may_leap(task: _Task, stage: Stage, leapt: float) -> bool:
-    """Whether the state is close enough to collapse, and well beyond where the last leap was tried."""
-    flow = stage.residuals["flow"]
-    limit = task.settings.near if stage.kind == "step" else task.settings.close
-    worth = task.settings.leap > 0 and stage.residuals.worst.value > task.tolerance
-    return worth and flow < min(limit, AGAIN * leapt)
-
-
 def _next(task: _Task, stage: Stage, pace: _Pace) -> _Pace:
     """The pace after an accepted step: longer after a success, with less viscosity after a jump."""
     settings, rho = task.settings, pace.rho
     if not pace.failures:
         longest = settings.last if stage.residuals["flow"] < 1e-3 else settings.longest
-        rho = max(rho / settings.growth, task.first / longest)
+        rho = min(rho, max(rho / settings.growth, task.first / longest))  # after a leap no shorter than it
     level = max(0, pace.level - 1) if stage.kind == "jump" else 0
     return _Pace(rho, level, 0, pace.used)
 

@@ -33,7 +33,7 @@ ATTEMPTS = (
     Settings(),
     Settings(longest=5e3),
     Settings(first=1.0, longest=15.0),
-    Settings(turning=(0.0, 0.5, 1.0), budget=500),
+    Settings(turning=(0.0, 0.5, 1.0), budget=800),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
 )
 COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one

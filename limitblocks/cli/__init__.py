@@ -14,6 +14,7 @@ import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.examples import examples
+from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
     AsJson,
@@ -46,9 +47,8 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-app.add_typer(studies, name="study")
-app.add_typer(new, name="new")
-app.add_typer(examples, name="examples")
+for _name, _group in {"study": studies, "new": new, "examples": examples}.items():
+    app.add_typer(_group, name=_name)
 
 DEFAULT_TOLERANCE = 1e-6
 
@@ -153,19 +153,23 @@ def report(
     with_nonassociated: WithNonassociated = False,
     with_path: WithPath = False,
 ) -> None:
-    """Analyse a model and write an HTML report."""
+    """Analyse a model and write a report: HTML, JSON, Markdown or PDF, as the suffix of the file says."""
     with clean_errors():
         from limitblocks.io import read
-        from limitblocks.report import report
+        from limitblocks.report import files, report
 
         file = output or model.with_suffix(_SUFFIX)
         refuse_existing(file, force, model)
+        files.suffix(file)  # before the analysis, not after it
         structure = read(model)
         flow = {"dilatancy": dilatancy, "tolerance": tolerance}
         results = _bounds_if_any(structure, tolerance, needed=not (with_nonassociated or with_path))
         results += [_nonassociated(structure, **flow)] if with_nonassociated else []
         results += [_path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
+
+
+app.command("import")(import_blocks)
 
 
 @app.command()

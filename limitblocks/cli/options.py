@@ -14,7 +14,13 @@ ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")
 ]
 ReportFile = Annotated[
-    Path | None, typer.Option("--output", "-o", metavar="FILE", help="HTML file [default: beside the model].")
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="FILE",
+        help="HTML, JSON, Markdown or PDF file [default: HTML beside the model].",
+    ),
 ]
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
 WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]

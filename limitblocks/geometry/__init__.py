@@ -1,7 +1,17 @@
 """Blocks, interfaces and the contacts between blocks; no mechanics."""
 
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.contact import find_interfaces
+from limitblocks.geometry.contact import find_contacts, find_interfaces
+from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver
 from limitblocks.geometry.interface import Interface
 
-__all__ = ["Block", "Interface", "find_interfaces"]
+__all__ = [
+    "Block",
+    "Contacts",
+    "Interface",
+    "NearMiss",
+    "Overlap",
+    "Sliver",
+    "find_contacts",
+    "find_interfaces",
+]

@@ -1,4 +1,4 @@
-"""A block: a rigid convex polyhedron with planar faces."""
+"""A block: a rigid polyhedron with planar faces."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from typing import Any, NoReturn
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import GeometryError, ModelError
-from limitblocks.geometry import polyhedron
+from limitblocks.geometry import polyhedron, surface
 from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
 
 _CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
@@ -24,7 +24,7 @@ _LARGEST = 1e30  # its cube is still a number
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """Rigid convex polyhedron with planar faces.
+    """Rigid polyhedron with planar faces; it may be non-convex, with holes through it and cavities inside.
 
     Parameters
     ----------
@@ -33,7 +33,8 @@ class Block:
     vertices : array_like, shape (n, 3)
         Vertices in global axes, m; kept as a read-only copy.
     faces : sequence of sequences of int
-        Vertex indices of each face, counter-clockwise seen from outside.
+        Vertex indices of each face, counter-clockwise seen from outside: a loop that does not cross itself.
+        A planar face with a hole is given as several faces in one plane.
     unit_weight : float or None
         Weight per volume, N/m3; None when it is not given, as for supports.
 
@@ -42,8 +43,8 @@ class Block:
     ModelError
         The name is empty or the unit weight is not a finite number >= 0.
     GeometryError
-        The faces are not the closed surface of a convex body with planar faces. A vertex may lie out of a
-        plane by 1e-4 of the block's size.
+        The faces are not the closed surface of one piece with planar faces. A vertex may lie out of the
+        plane of a face by 1e-3 of the block's size.
     """
 
     name: str
@@ -58,6 +59,10 @@ class Block:
         object.__setattr__(self, "faces", _faces(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
         fault = fault or polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+        fault = fault or polyhedron.plane_fault(self._points, self.mesh, self.size, self._planes)
+        fault = fault or surface.loop_fault(self._points, self.mesh, self.normals)
+        if not fault and not self.convex:
+            fault = surface.surface_fault(self._points, self.mesh, self.normals, self.size)
         if fault:
             _wrong(self.name, fault)
 
@@ -106,9 +111,19 @@ class Block:
         return self.unit_weight * self.volume
 
     @cached_property
+    def convex(self) -> bool:
+        """Whether the block is convex: no vertex above a face by more than 1e-4 of its size."""
+        return polyhedron.is_convex(self._points, self.mesh, self.size, self._planes)
+
+    @cached_property
     def mesh(self) -> Mesh:
         """Half-edges of the faces."""
         return polyhedron.mesh(self.faces)
+
+    @cached_property
+    def triangles(self) -> Indices:
+        """Vertex indices of triangles that divide the faces, counter-clockwise from outside, shape (t, 3)."""
+        return surface.triangles(self._points, self.mesh, self.normals)[0]
 
     @cached_property
     def areas(self) -> Array:
@@ -118,13 +133,12 @@ class Block:
     @cached_property
     def normals(self) -> Array:
         """Unit normals of the faces, outward, shape (m, 3)."""
-        return read_only(polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[0])
+        return read_only(self._planes[0])
 
     @cached_property
     def offsets(self) -> Array:
         """Offsets of the face planes `normals @ x = offsets`, global axes, shape (m,), m."""
-        offsets = polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)[1]
-        return read_only(offsets + self.normals @ self._origin)
+        return read_only(self._planes[1] + self.normals @ self._origin)
 
     def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
         """Return a copy with vertices `rotation @ x + translation`.
@@ -157,6 +171,10 @@ class Block:
     @cached_property
     def _points(self) -> Array:
         return self.vertices - self._origin
+
+    @cached_property
+    def _planes(self) -> tuple[Array, Array]:
+        return polyhedron.face_planes(self._points, self.mesh, self._shape.area_vectors)
 
     @cached_property
     def _shape(self) -> Shape:

@@ -5,40 +5,25 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from operator import itemgetter
-from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import ModelError
+from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry import polygon
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.faces import FaceTable, all_faces, opposed, ranges
+from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver
+from limitblocks.geometry.faces import FaceTable, all_faces, opposed
 from limitblocks.geometry.interface import Interface
 from limitblocks.geometry.neighbours import overlapping_boxes
-from limitblocks.geometry.overlap import refuse_overlaps
+from limitblocks.geometry.overlap import find_overlaps
+from limitblocks.geometry.patches import Patches, patches, pieces_of
 
-#: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
-SLIVER = 1e-3
-#: Grid of the corners of interfaces, relative to the block length.
-GRID = 1e-11
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
-
-
-class _Patches(NamedTuple):
-    """Contact polygons in the plane midway between their faces: m face pairs `a`, `b`.
-
-    `origin` (m, 3) and `frame` (m, 3, 3), rows t1, t2 and the normal out of the first block, place the plane
-    coordinates of `shape` (m,), shapely polygons.
-    """
-
-    a: Indices
-    b: Indices
-    origin: Array
-    frame: Array
-    shape: Any
+#: Times the tolerances within which faces that do not touch are near misses.
+NEAR = 10.0
 
 
 def find_interfaces(
@@ -46,11 +31,16 @@ def find_interfaces(
 ) -> tuple[Interface, ...]:
     """Return the interfaces between plane faces of `blocks` that touch, ordered by blocks, then faces.
 
-    Two faces touch when their normals are opposed within `angle` and, at the centroid of the polygon common
-    to both, their planes lie within `gap` block lengths. Block length is the median over the blocks of the
-    cube root of their volume. The interface lies midway between the two planes. Polygons with an area below
-    1e-3 of the block length squared and of the smaller face, whichever is less, are dropped. Contacts along
-    an edge or at a vertex give no interface.
+    Two faces touch when their normals are opposed within `angle` and their planes lie within `gap` block
+    lengths at every corner of the area common to both. Faces of a block that share an edge and lie in one
+    plane, within half of both tolerances, count as one face. Block length is the median over the blocks of
+    the cube root of their volume. The interface lies midway between the two planes. Areas below 1e-3 of the
+    block length squared and of the smaller face, whichever is less, are dropped; :func:`find_contacts` lists
+    them. Contacts along an edge or at a vertex give no interface.
+
+    A convex area is one interface. Any other is divided into convex polygons, an interface each; corners
+    within `gap` block lengths of the line through their neighbours, and holes as small, are left out of it
+    first. The division does not depend on the place of the blocks or their order.
 
     Block i is the earlier of the two in `blocks`. Local axes: n points out of block i; s1 runs along the
     longest side of the polygon, traversed counter-clockwise about n; s2 = n x s1. Of sides equal within 1e-6
@@ -73,29 +63,66 @@ def find_interfaces(
     ModelError
         Blocks have the same name, or a tolerance is out of range.
     GeometryError
-        Blocks interpenetrate deeper than the gap tolerance; lists all such pairs.
+        Blocks interpenetrate deeper than the gap tolerance, or than half the mean thickness of the thinner
+        one; lists all such pairs.
+    """
+    found = find_contacts(blocks, joint, gap=gap, angle=angle)
+    if found.overlaps:
+        raise GeometryError(*map(str, found.overlaps))
+    return found.interfaces
+
+
+def find_contacts(
+    blocks: Sequence[Block], joint: object, *, gap: float = 1e-3, angle: float = 1e-2
+) -> Contacts:
+    """Return the interfaces of :func:`find_interfaces` and what was seen beside them.
+
+    Near misses lie beyond a tolerance, but within ten times both. Slivers are contacts whose area is too
+    small for an interface. Blocks that overlap are listed, not refused.
+
+    Parameters
+    ----------
+    blocks, joint, gap, angle
+        As for :func:`find_interfaces`.
+
+    Raises
+    ------
+    ModelError
+        Blocks have the same name, or a tolerance is out of range.
     """
     _refuse_bad_input(blocks, gap, angle)
+    names = [block.name for block in blocks]
     if len(blocks) < 2:
-        return ()
+        return Contacts((), (), (), tuple(names), ())
     length = float(np.median(np.cbrt([block.volume for block in blocks])))
+    tolerance = gap * length
     centre = np.mean([block.vertices[0] for block in blocks], axis=0)
     points = [block.vertices - centre for block in blocks]
-    pairs = _neighbours(blocks, points, gap * length)
-    faces = all_faces(blocks, points)
-    patches = _clip(faces, *opposed(faces, pairs, gap * length, angle), length)
-    return _interfaces(blocks, centre, faces, _within(faces, patches, gap * length), joint)
+    pairs = _neighbours(points, NEAR * tolerance)
+    overlaps = find_overlaps(blocks, points, pairs, tolerance)
+    faces = all_faces(blocks, points, tolerance / 2.0, angle / 2.0)
+    seen = patches(faces, *opposed(faces, pairs, NEAR * tolerance, min(NEAR * angle, np.pi / 4)), length)
+    whole = shapely.area(seen.shape) > seen.least
+    close = np.abs(seen.gap) <= tolerance
+    touching = close & (seen.angle <= angle)
+    meant = seen.of(touching & whole)
+    pieces = pieces_of(faces, meant, np.array(names), tolerance)
+    tied = set(faces.block[np.concatenate([meant.a, meant.b])].tolist())
+    almost = seen.of(~touching & whole & (np.abs(seen.gap) <= NEAR * tolerance))
+    return Contacts(
+        _interfaces(names, centre, faces, pieces, joint),
+        _near_misses(names, faces, almost, overlaps),
+        overlaps,
+        tuple(name for k, name in enumerate(names) if k not in tied),
+        _slivers(names, faces, seen.of(touching & ~whole)),
+    )
 
 
-def _neighbours(blocks: Sequence[Block], points: Sequence[Array], tolerance: float) -> Indices:
-    """Return the pairs (p, 2) of blocks whose bounds touch within `tolerance`, none of which may overlap."""
+def _neighbours(points: Sequence[Array], tolerance: float) -> Indices:
+    """Return the pairs (p, 2) of blocks whose bounds, widened by `tolerance` each, overlap."""
     low = np.array([body.min(axis=0) for body in points])
     high = np.array([body.max(axis=0) for body in points])
-    pairs = overlapping_boxes(low - tolerance, high + tolerance)
-    i, j = pairs.T
-    deep = (np.minimum(high[i] - low[j], high[j] - low[i]) > tolerance).all(axis=1)
-    refuse_overlaps(blocks, points, pairs[deep], tolerance)
-    return pairs
+    return overlapping_boxes(low - tolerance, high + tolerance)
 
 
 def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None:
@@ -109,71 +136,46 @@ def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None
         raise ModelError(*faults)
 
 
-def _clip(faces: FaceTable, a: Indices, b: Indices, length: float) -> _Patches:
-    """Return the polygons common to faces `a` and `b`, projected on the plane midway between them."""
-    normal = faces.normal[a] - faces.normal[b]
-    normal /= np.linalg.norm(normal, axis=1)[:, None]
-    t1 = np.cross(np.eye(3)[np.abs(normal).argmin(axis=1)], normal)
-    t1 /= np.linalg.norm(t1, axis=1)[:, None]
-    frame = np.stack([t1, np.cross(normal, t1), normal], axis=1)
-    origin = faces.middle[a]
-    first, second = (_projected(faces, face, origin, frame) for face in (a, b))
-    least = SLIVER * np.minimum(length**2, np.minimum(faces.area[a], faces.area[b]))
-    bounds = np.stack([shapely.bounds(first), shapely.bounds(second)])
-    extent = np.maximum(bounds[..., 2:].min(axis=0) - bounds[..., :2].max(axis=0), 0.0)
-    near = np.flatnonzero(extent.prod(axis=1) > least)  # spares clipping faces that meet at an edge
-    # a common part that is not one polygon (a line, a point, nothing) has no area
-    # without a grid the intersection of two faces equal but for rounding can be a point
-    common = shapely.intersection(first[near], second[near], grid_size=GRID * length)
-    parts, pair = shapely.get_parts(common, return_index=True)
-    keep = shapely.area(parts) > least[near[pair]]
-    pair = near[pair[keep]]
-    return _Patches(a[pair], b[pair], origin[pair], frame[pair], parts[keep])
+def _ends(names: Sequence[str], faces: FaceTable, found: Patches) -> list[tuple[str, str]]:
+    blocks = faces.block[found.a].tolist(), faces.block[found.b].tolist()
+    return [(names[i], names[j]) for i, j in zip(*blocks, strict=True)]
 
 
-def _projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> Any:
-    """Return `face` (m,) as shapely polygons in the first two axes of `frame` about `origin`."""
-    owner, k = ranges(faces.sides[face])
-    arms = faces.corners[faces.first[face][owner] + k] - origin[owner]
-    points = np.einsum("kij,kj->ki", frame[owner, :2], arms)
-    return shapely.polygons(shapely.linearrings(points, indices=owner))
+def _near_misses(
+    names: Sequence[str], faces: FaceTable, almost: Patches, overlaps: Sequence[Overlap]
+) -> tuple[NearMiss, ...]:
+    within = {(one.block_i, one.block_j) for one in overlaps}
+    numbers = np.column_stack([almost.gap, almost.angle, shapely.area(almost.shape)]).tolist()
+    rows = zip(_ends(names, faces, almost), numbers, strict=True)
+    return tuple(NearMiss(*ends, *values) for ends, values in rows if ends not in within)
 
 
-def _within(faces: FaceTable, patches: _Patches, tolerance: float) -> _Patches:
-    """Return the patches whose planes lie within `tolerance` at the centroid, moved midway."""
-    middle = shapely.get_coordinates(shapely.centroid(patches.shape))
-    normal = patches.frame[:, 2]
-    place = patches.origin + np.einsum("ki,kij->kj", middle, patches.frame[:, :2])
-    heights = [
-        np.einsum("ij,ij->i", faces.middle[f] - place, faces.normal[f])
-        / np.einsum("ij,ij->i", normal, faces.normal[f])
-        for f in (patches.a, patches.b)
-    ]
-    keep = np.abs(heights[1] - heights[0]) <= tolerance
-    origin = patches.origin + (heights[0] + heights[1])[:, None] / 2.0 * normal
-    return _Patches(*(field[keep] for field in patches._replace(origin=origin)))
+def _slivers(names: Sequence[str], faces: FaceTable, found: Patches) -> tuple[Sliver, ...]:
+    area = shapely.area(found.shape)
+    numbers = np.column_stack([area, 2.0 * area / shapely.length(found.shape)]).tolist()
+    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True))
 
 
 def _interfaces(
-    blocks: Sequence[Block], centre: Array, faces: FaceTable, patches: _Patches, joint: object
+    names: Sequence[str], centre: Array, faces: FaceTable, found: Patches, joint: object
 ) -> tuple[Interface, ...]:
-    names = [block.name for block in blocks]
-    rings = shapely.get_exterior_ring(patches.shape)
+    """Return an interface for each convex patch, in their order."""
+    rings = shapely.get_exterior_ring(found.shape)
     rings = np.where(shapely.is_ccw(rings), rings, shapely.reverse(rings))
     points, owner = shapely.get_coordinates(rings, return_index=True)
     keep = np.diff(owner, append=-1) == 0  # the last vertex of a ring repeats its first
-    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(patches.shape))
+    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(found.shape))
     points, owner = polygon.clean(points[keep], owner[keep], tolerance)
-    counts = np.bincount(owner, minlength=len(patches.a))
-    found: list[tuple[int, Interface]] = []
+    counts = np.bincount(owner, minlength=len(found.a))
+    made: list[tuple[int, Interface]] = []
     for n in np.unique(counts):
         group = np.flatnonzero(counts == n)
         stack = points[counts[owner] == n].reshape(-1, n, 2)
-        arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
-        ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
+        arrays = _local(stack, centre + found.origin[group], found.frame[group])
+        ends = faces.block[found.a[group]], faces.block[found.b[group]]
         for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
-            found.append((k, Interface(names[i], names[j], c, t, p, joint)))
-    return tuple(interface for _, interface in sorted(found, key=itemgetter(0)))
+            made.append((k, Interface(names[i], names[j], c, t, p, joint)))
+    return tuple(interface for _, interface in sorted(made, key=itemgetter(0)))
 
 
 def _local(stack: Array, origin: Array, frame: Array) -> tuple[Array, Array, Array]:

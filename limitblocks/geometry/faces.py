@@ -1,58 +1,125 @@
-"""All faces of many blocks in flat arrays, and the pairs of them that may touch."""
+"""The plane regions of many blocks in flat arrays, and the pairs of them that may touch."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+import shapely
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.block import Block
+from limitblocks.geometry.regions import Surfaces, regions
 
 _CHUNK = 500_000  # face pairs held in memory at once
 
 
 class FaceTable(NamedTuple):
-    """All faces of all blocks, one after the other: m faces, e face corners.
+    """All plane regions of all blocks, one after the other: m regions, e half-edges around them.
 
-    `corners` (e, 3) with `first` and `sides` (m,) are each face's corners; `middle`, `normal`, `low`,
-    `high` (m, 3) its mean corner, unit normal and bounds; `area` and `block` (m,) its area and block. `start`
-    and `number` (blocks,) say where each block's faces are.
+    A region is a face, or several faces in one plane. `corners` and `ends` (e, 3), with `first` and `sides`
+    (m,), are where its half-edges start and end; those of a single face (`single`, (m,)) follow each other.
+    `middle`, `normal`, `low`, `high`, `arm` (m, 3) are its mean corner, unit normal, bounds and a direction
+    that moves with the block; `area` and `block` (m,) its area and block. `start` and `number` (blocks,) say
+    where each block's regions are.
     """
 
     corners: Array
+    ends: Array
     first: Indices
     sides: Indices
+    single: Any
     middle: Array
     normal: Array
     area: Array
     low: Array
     high: Array
+    arm: Array
     block: Indices
     start: Indices
     number: Indices
 
 
-def all_faces(blocks: Sequence[Block], points: Sequence[Array]) -> FaceTable:
-    """Return the faces of `blocks`, whose vertices are `points` (n, 3) each, m."""
-    corners = np.concatenate([body[block.mesh.start] for body, block in zip(points, blocks, strict=True)])
-    sides = np.array([len(face) for block in blocks for face in block.faces])
+def all_faces(blocks: Sequence[Block], points: Sequence[Array], flat: float, angle: float) -> FaceTable:
+    """Return the plane regions of `blocks`, whose vertices are `points` (n, 3) each, m.
+
+    Corners of a region lie within `flat`, m, of its plane, its faces within `angle`, rad.
+    """
+    meshes = [block.mesh for block in blocks]
+    number = np.array([len(mesh.first) for mesh in meshes])
+    before = np.repeat(np.cumsum(number) - number, [len(mesh.face) for mesh in meshes])
+    face = np.concatenate([mesh.face for mesh in meshes]) + before
+    beyond = np.concatenate([mesh.beyond for mesh in meshes]) + before
+    start = np.concatenate([mesh.start for mesh in meshes])
+    corners = np.concatenate([body[mesh.start] for body, mesh in zip(points, meshes, strict=True)])
+    ends = np.concatenate([body[mesh.end] for body, mesh in zip(points, meshes, strict=True)])
+    normal = np.concatenate([block.normals for block in blocks])
+    area = np.concatenate([block.areas for block in blocks])
+    block = np.repeat(np.arange(len(blocks)), number)
+    label = regions(Surfaces(corners, face, beyond, normal * area[:, None]), flat, angle)
+    heads, region = np.unique(label, return_inverse=True)
+    single = np.bincount(region) == 1
+    # around each region, face after face: the half-edges with another region beyond
+    order = np.flatnonzero(region[face] != region[beyond])
+    order = order[np.argsort(region[face[order]], kind="stable")]
+    own = region[face[order]]
+    sides = np.bincount(own, minlength=len(heads))
     first = np.cumsum(sides) - sides
-    number = np.array([len(block.faces) for block in blocks])
+    vectors = np.column_stack([np.bincount(region, x) for x in (normal * area[:, None]).T])
+    areas = np.linalg.norm(vectors, axis=1)
+    table = corners[order]
     return FaceTable(
-        corners=corners,
+        corners=table,
+        ends=ends[order],
         first=first,
         sides=sides,
-        middle=np.add.reduceat(corners, first) / sides[:, None],
-        normal=np.concatenate([block.normals for block in blocks]),
-        area=np.concatenate([block.areas for block in blocks]),
-        low=np.minimum.reduceat(corners, first),
-        high=np.maximum.reduceat(corners, first),
-        block=np.repeat(np.arange(len(blocks)), number),
-        start=np.cumsum(number) - number,
-        number=number,
+        single=single,
+        middle=np.add.reduceat(table, first) / sides[:, None],
+        normal=np.where(single[:, None], normal[heads], vectors / areas[:, None]),
+        area=np.where(single, area[heads], areas),
+        low=np.minimum.reduceat(table, first),
+        high=np.maximum.reduceat(table, first),
+        arm=_arms(table, start[order], own, first),
+        block=block[heads],
+        start=np.searchsorted(block[heads], np.arange(len(blocks))),
+        number=np.bincount(block[heads], minlength=len(blocks)),
     )
+
+
+def _arms(corners: Array, vertex: Indices, own: Indices, first: Indices) -> Array:
+    """Return the vector (m, 3) from the first to the second vertex of each region, in the block's order."""
+    order = np.lexsort((vertex, own))
+    # a vertex where a region touches itself counts twice
+    later = np.minimum(first + 1, len(order) - 1)
+    again = vertex[order[first]] == vertex[order[later]]
+    return np.asarray(corners[order[later + again]] - corners[order[first]])
+
+
+def projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> Any:
+    """Return regions `face` (m,) as shapely polygons in the first two axes of `frame` about `origin`."""
+    owner, k = ranges(faces.sides[face])
+    place = faces.first[face][owner] + k
+    points = np.einsum("kij,kj->ki", frame[owner, :2], faces.corners[place] - origin[owner])
+    rings = faces.single[face]
+    shapes = np.empty(len(face), dtype=object)
+    number = np.cumsum(rings) - 1
+    of_ring = rings[owner]
+    shapes[rings] = shapely.polygons(shapely.linearrings(points[of_ring], indices=number[owner[of_ring]]))
+    if not rings.all():
+        number = np.cumsum(~rings) - 1
+        # sums in one order, so that a corner is the same number in all half-edges that meet there
+        frames, about = frame[owner[~of_ring], :2], origin[owner[~of_ring]]
+        segments = np.stack([
+            (frames * (ends[place[~of_ring]] - about)[:, None]).cumsum(axis=2)[..., 2]
+            for ends in (faces.corners, faces.ends)
+        ], axis=1)  # fmt: skip
+        lines = shapely.multilinestrings(shapely.linestrings(segments), indices=number[owner[~of_ring]])
+        shapes[~rings] = shapely.build_area(lines)
+    odd = np.flatnonzero(~rings | (faces.sides[face] > 4))
+    odd = odd[~shapely.is_valid(shapes[odd])]
+    shapes[odd] = shapely.make_valid(shapes[odd], method="structure", keep_collapsed=False)
+    return shapes
 
 
 def ranges(counts: Indices) -> tuple[Indices, Indices]:
@@ -70,10 +137,7 @@ def opposed(faces: FaceTable, pairs: Indices, tolerance: float, angle: float) ->
 
 
 def _opposed(faces: FaceTable, pairs: Indices, tolerance: float, angle: float) -> tuple[Indices, Indices]:
-    i, j = pairs.T
-    pair, k = ranges(faces.number[i] * faces.number[j])
-    a = faces.start[i][pair] + k // faces.number[j][pair]
-    b = faces.start[j][pair] + k % faces.number[j][pair]
+    a, b = _facing(faces, pairs, tolerance)
     away = faces.normal[a] + faces.normal[b]
     keep = np.einsum("ij,ij->i", away, away) <= (2.0 * np.sin(angle / 2.0)) ** 2
     a, b = a[keep], b[keep]
@@ -84,3 +148,21 @@ def _opposed(faces: FaceTable, pairs: Indices, tolerance: float, angle: float) -
     slack = tolerance + angle * np.linalg.norm(faces.high[b] - faces.low[b], axis=1)
     keep = np.abs(np.einsum("ij,ij->i", faces.middle[b] - faces.middle[a], faces.normal[a])) <= slack
     return a[keep], b[keep]
+
+
+def _facing(faces: FaceTable, pairs: Indices, tolerance: float) -> tuple[Indices, Indices]:
+    """Return the pairs of regions of `pairs` of blocks, each within the bounds of the other block."""
+    low = np.minimum.reduceat(faces.low, faces.start)
+    high = np.maximum.reduceat(faces.high, faces.start)
+    near, count = [], []
+    for own, other in (pairs.T, pairs.T[::-1]):
+        pair, k = ranges(faces.number[own])
+        face = faces.start[own][pair] + k
+        reach = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
+        reach &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
+        near.append(face[reach])
+        count.append(np.bincount(pair[reach], minlength=len(pairs)))
+    pair, k = ranges(count[0] * count[1])
+    first, second = (np.cumsum(each) - each for each in count)
+    width = count[1][pair]
+    return near[0][first[pair] + k // width], near[1][second[pair] + k % width]

@@ -1,4 +1,4 @@
-"""Polyhedra with planar faces: closedness, face planes, volume, centroid, convexity.
+"""Polyhedra with planar faces, convex or not: closedness, face planes, volume, centroid, convexity.
 
 Points are taken about a place near the body (its mean vertex): results stay exact far from the origin.
 """
@@ -16,22 +16,26 @@ from limitblocks.arrays import Array, Indices
 Faces = tuple[tuple[int, ...], ...]
 
 #: Distance from a plane, relative to the block's size, that still counts as in the plane.
-PLANE_TOLERANCE = 1e-4
+PLANE_TOLERANCE = 1e-3
+#: Height of a vertex above a face of a convex block, relative to its size.
+CONVEX_TOLERANCE = 1e-4
 #: Length, area and volume, relative to powers of the block's size, that count as nothing.
 ZERO_TOLERANCE = 1e-9
+_CHUNK = 2_000_000  # heights held in memory at once
 
 
 class Mesh(NamedTuple):
     """Half-edges of a polyhedron, face after face: e half-edges, m faces.
 
     `start`, `end` and `after` (e,) are a half-edge's vertices and the next one around its face, `face` (e,)
-    is its face and `first` (m,) the first half-edge of each face.
+    is its face, `beyond` (e,) the face on the other side and `first` (m,) the first half-edge of each face.
     """
 
     start: Indices
     end: Indices
     after: Indices
     face: Indices
+    beyond: Indices
     first: Indices
 
 
@@ -50,8 +54,11 @@ def mesh(faces: Faces) -> Mesh:
     start, end, after = (
         np.array([v for f in faces for v in f[k:] + f[:k]], dtype=np.int64) for k in range(3)
     )
-    first = np.cumsum(counts) - counts
-    return Mesh(start, end, after, np.repeat(np.arange(len(faces)), counts), first)
+    face = np.repeat(np.arange(len(faces)), counts)
+    # each edge is used once in each direction: sorted either way, a half-edge meets its twin
+    beyond = np.empty_like(face)
+    beyond[np.lexsort((start, end))] = face[np.lexsort((end, start))]
+    return Mesh(start, end, after, face, beyond, np.cumsum(counts) - counts)
 
 
 @lru_cache(maxsize=1024)
@@ -99,15 +106,30 @@ def shape(points: Array, edges: Mesh) -> Shape:
 
 
 def face_planes(points: Array, edges: Mesh, area_vectors: Array) -> tuple[Array, Array]:
-    """Return unit normals (m, 3) and offsets (m,) of the face planes `normals @ x = offsets`."""
+    """Return unit normals (m, 3) and offsets (m,) of the face planes `normals @ x = offsets`.
+
+    The plane is square to the area vector, which makes the projected area of the face largest, and passes
+    through the mean corner, which makes the sum of squared heights of the corners least.
+    """
     normals = area_vectors / np.sqrt(np.einsum("ij,ij->i", area_vectors, area_vectors))[:, None]
     counts = np.diff(edges.first, append=len(edges.start))
     middles = np.add.reduceat(points[edges.start], edges.first) / counts[:, None]
     return normals, np.einsum("ij,ij->i", normals, middles)
 
 
+def is_convex(points: Array, edges: Mesh, size: float, planes: tuple[Array, Array]) -> bool:
+    """Tell whether no vertex of a sound polyhedron lies above a face by more than 1e-4 of its size."""
+    if len(points) - len(edges.start) // 2 + len(edges.first) != 2:  # several shells, or a hole through it
+        return False
+    normals, offsets = planes
+    rows = max(1, _CHUNK // len(points))
+    parts = (slice(k, k + rows) for k in range(0, len(normals), rows))
+    limit = CONVEX_TOLERANCE * size
+    return all(((normals[part] @ points.T).max(axis=1) - offsets[part]).max() <= limit for part in parts)
+
+
 def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
-    """Say what keeps a closed surface from being a convex polyhedron with planar faces; empty when sound."""
+    """Say what keeps a closed surface from bounding a volume; empty when sound."""
     sides = points[edges.end] - points[edges.start]
     lengths2 = np.einsum("ij,ij->i", sides, sides)
     if lengths2.min() <= (ZERO_TOLERANCE * size) ** 2:
@@ -123,29 +145,18 @@ def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
     areas = np.sqrt(np.einsum("ij,ij->i", body.area_vectors, body.area_vectors))
     if areas.min() <= ZERO_TOLERANCE * size**2:
         return f"face {areas.argmin()} has no area; its vertices must span a plane"
-    return _plane_fault(points, edges, size, body)
+    return ""
 
 
-def _plane_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
-    normals, offsets = face_planes(points, edges, body.area_vectors)
+def plane_fault(points: Array, edges: Mesh, size: float, planes: tuple[Array, Array]) -> str:
+    """Say which vertex lies out of the plane of its face; empty when none does."""
+    normals, offsets = planes
     limit = PLANE_TOLERANCE * size
-    heights = normals @ points.T - offsets[:, None]
-    warp = np.abs(heights[edges.face, edges.start])
+    warp = np.abs(np.einsum("ij,ij->i", normals[edges.face], points[edges.start]) - offsets[edges.face])
     if warp.max() > limit:
         k = warp.argmax()
         return (
             f"face {edges.face[k]} is not planar: vertex {edges.start[k]} is {warp[k]:.3g} m out of its "
             f"plane; at most {limit:.3g} m is allowed, split the face or move the vertex"
         )
-    if heights.max() > limit:
-        face, vertex = np.unravel_index(heights.argmax(), heights.shape)
-        return (
-            f"not convex: vertex {vertex} lies {heights.max():.3g} m outside face {face}; "
-            "non-convex blocks are not supported yet, split the block into convex parts"
-        )
-    turns = np.cross(points[edges.end] - points[edges.start], points[edges.after] - points[edges.end])
-    bends = np.einsum("ij,ij->i", turns, normals[edges.face])
-    if bends.min() < -limit * size:
-        k = bends.argmin()
-        return f"face {edges.face[k]} is not convex at vertex {edges.end[k]}; split it into convex faces"
     return ""

@@ -40,7 +40,7 @@ class Box(Document):
 
 
 class BlockDocument(Document):
-    """A rigid convex block: either vertices with faces, or a box."""
+    """A rigid block: either vertices with faces, or a box."""
 
     model_config = ConfigDict(json_schema_extra=_ONE_FORM)  # type: ignore[typeddict-item] # a schema is JSON
 

@@ -61,18 +61,19 @@ def parse(text: str) -> Any:
 
 def text(value: Any) -> str:
     """Return `value` as JSON text; a dictionary with a line a key. NaN and infinities become null."""
-    value = _finite(value)
+    value = finite(value)
     if not isinstance(value, dict):
         return json.dumps(value, allow_nan=False)
     lines = (f" {json.dumps(key)}: {json.dumps(part, allow_nan=False)}" for key, part in value.items())
     return "{\n" + ",\n".join(lines) + "\n}"
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
+    """Return `value` with null for NaN and infinities."""
     if isinstance(value, dict):
-        return {key: _finite(part) for key, part in value.items()}
+        return {key: finite(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(part) for part in value]
+        return [finite(part) for part in value]
     return None if isinstance(value, float) and not isfinite(value) else value
 
 

@@ -1,18 +1,20 @@
-"""The curve of a load path as lines for an SVG."""
+"""Load path and convergence as curves for an SVG."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.results import LoadPath
+from limitblocks.analysis.results import Iteration, LoadPath
 from limitblocks.arrays import Array
 from limitblocks.model import Model
 
 WIDTH, HEIGHT = 1000.0, 360.0  # user units of the SVG
 LEFT, RIGHT, TOP, BOTTOM = 110.0, 30.0, 20.0, 60.0
 AXES = "XYZ"
+Ticks = Sequence[tuple[float, str]]
 
 
 class Tick(NamedTuple):
@@ -23,9 +25,10 @@ class Tick(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """Curve in user units of a 1000 by 360 view box: labels, SVG path, dots with their text, ticks."""
+    """Curve in user units of a 1000 by 360 view box: title, caption, labels, SVG path, dots, ticks."""
 
     title: str
+    caption: str
     x_label: str
     y_label: str
     line: str
@@ -46,21 +49,60 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
     else:
         x, loads = np.arange(float(len(path.steps))), path.curve(0, 0)[1]
         label = "step"
-    x_low, x_high = _range(x)
-    y_low, y_high = _range(loads)
-    across = LEFT + (x - x_low) / (x_high - x_low) * (WIDTH - LEFT - RIGHT)
-    up = HEIGHT - BOTTOM - (loads - y_low) / (y_high - y_low) * (HEIGHT - TOP - BOTTOM)
-    places = list(zip(across.round(1).tolist(), up.round(1).tolist(), strict=True))
-    said = (f"step {k}: load factor {value:.6g}" for k, value in enumerate(loads))
+    title = f"Load factor against {label.removesuffix(', m')}"
+    said = [f"step {k}: load factor {value:.6g}" for k, value in enumerate(loads)]
+    caption = "a dot a step. The sizes of the displacements follow from the compliance chosen for the joints."
+    x_ticks, y_ticks = _numbers(*_range(x), float(label == "step")), _numbers(*_range(loads))
+    return _curve((title, f"{title}, {caption}", label, "load factor"), (x, loads), said, (x_ticks, y_ticks))
+
+
+def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
+    """Return the largest residual of each stage of the outer loop, on a scale of decades."""
+    worst = [max(stage.residuals.values(), default=np.nan) for stage in history]
+    found = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
+    if len(found) < 2:
+        return None
+    x, y = np.array(found, dtype=float) + 1.0, np.log10([worst[k] for k in found])
+    said = [f"stage {k + 1}, {history[k].kind}: largest residual {worst[k]:.1e}" for k in found]
+    low, high = float(np.floor(y.min())), float(np.ceil(y.max()))
+    every = max(1, int(np.ceil((high - low) / 8)))
+    decades = np.arange(low, max(high, low + 1.0) + 1.0, every)
+    decades = decades if decades[-1] >= high else np.append(decades, decades[-1] + every)
+    y_ticks = [(value, f"1e{value:.0f}") for value in decades.tolist()]
+    title = "Largest residual of each stage"
+    caption = f"{title} of the outer loop, from the permanent loads on, in mean block weights and lengths."
+    return _curve((title, caption, "stage", "residual"), (x, y), said, (_numbers(*_range(x), 1.0), y_ticks))
+
+
+def _curve(
+    words: tuple[str, str, str, str],
+    values: tuple[Array, Array],
+    said: Sequence[str],
+    ticks: tuple[Ticks, Ticks],
+) -> Curve:
+    """Draw values through ticks; the first and the last tick, or a value beyond, end an axis."""
+    (x_places, x_ticks), (y_places, y_ticks) = (
+        _axis(values[0], ticks[0], LEFT, WIDTH - RIGHT),
+        _axis(values[1], ticks[1], HEIGHT - BOTTOM, TOP),
+    )
+    places = list(zip(x_places, y_places, strict=True))
     return Curve(
-        title=f"Load factor against {label.removesuffix(', m')}",
-        x_label=label,
-        y_label="load factor",
+        *words,
         line="M" + " ".join(f"{a:g},{b:g}" for a, b in places),
         dots=tuple((a, b, text) for (a, b), text in zip(places, said, strict=True)),
-        x_ticks=_ticks(x_low, x_high, LEFT, WIDTH - RIGHT),
-        y_ticks=_ticks(y_low, y_high, HEIGHT - BOTTOM, TOP),
+        x_ticks=x_ticks,
+        y_ticks=y_ticks,
     )
+
+
+def _axis(values: Array, ticks: Ticks, start: float, end: float) -> tuple[list[float], tuple[Tick, ...]]:
+    """Places of values and ticks along an axis from `start` to `end`."""
+    numbers = np.array([number for number, _ in ticks])
+    low, high = min(values.min(), numbers.min()), max(values.max(), numbers.max())
+    places = start + (values - low) / (high - low) * (end - start)
+    marks = (start + (numbers - low) / (high - low) * (end - start)).round(1).tolist()
+    shown = zip(marks, ticks, strict=True)
+    return places.round(1).tolist(), tuple(Tick(mark, text) for mark, (_, text) in shown)
 
 
 def _range(values: Array) -> tuple[float, float]:
@@ -68,13 +110,10 @@ def _range(values: Array) -> tuple[float, float]:
     return (low, high) if high > low else (low, low + 1.0)
 
 
-def _ticks(low: float, high: float, start: float, end: float) -> tuple[Tick, ...]:
-    """Ticks at round numbers, four to ten of them."""
+def _numbers(low: float, high: float, least: float = 0.0) -> Ticks:
+    """Round numbers at least `least` apart, four to ten of them if they can be, with their text."""
     size = 10.0 ** np.floor(np.log10((high - low) / 2.0))
     step = next(size * share for share in (0.2, 0.5, 1.0, 2.0) if (high - low) / (size * share) <= 10.0)
+    step = max(step, least)
     numbers = step * np.arange(np.ceil(low / step - 1e-9), np.floor(high / step + 1e-9) + 1)
-    places = start + (numbers - low) / (high - low) * (end - start)
-    return tuple(
-        Tick(round(place, 1), f"{number:g}")
-        for place, number in zip(places.tolist(), (numbers.round(12) + 0.0).tolist(), strict=True)
-    )
+    return [(number, f"{number:g}") for number in (numbers.round(12) + 0.0).tolist()]

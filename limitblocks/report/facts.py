@@ -10,14 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.errors import ModelError
-from limitblocks.geometry import find_interfaces
+from limitblocks.analysis.diagnosis import diagnose
 from limitblocks.geometry.polygon import areas
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
 
-#: Gap (block lengths) and angle (rad) within which blocks without an interface get a warning.
-NEAR_GAP, NEAR_ANGLE = 1e-2, 5e-2
 _SHOWN = 8
 
 
@@ -87,23 +84,7 @@ def warnings(model: Model) -> list[str]:
         found.append(f"blocks without weight: {_some(weightless)}")
     if not model.dead.terms:
         found.append("no dead load: the structure has no weight to stabilise it")
-    near = _near_misses(model)
-    if near:
-        within = f"{NEAR_GAP:g} block lengths and {NEAR_ANGLE:g} rad"
-        found.append(f"no interface between blocks that nearly touch (within {within}): {_some(near)}")
-    return found
-
-
-def _near_misses(model: Model) -> list[str]:
-    """Pairs of blocks that would touch if they were a little closer or more parallel."""
-    supports = set(model.supports)
-    tied = {frozenset((interface.block_i, interface.block_j)) for interface in model.interfaces}
-    try:
-        close = find_interfaces(model.blocks, None, gap=NEAR_GAP, angle=NEAR_ANGLE)
-    except ModelError as error:  # explicit interfaces may join blocks that overlap
-        return list(error.problems)
-    pairs = dict.fromkeys(frozenset((one.block_i, one.block_j)) for one in close)
-    return ["|".join(sorted(pair)) for pair in pairs if pair not in tied and not pair <= supports]
+    return found + diagnose(model).warnings
 
 
 def _counted(words: Iterable[str]) -> dict[str, int]:

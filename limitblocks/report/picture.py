@@ -11,12 +11,13 @@ import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import polyhedron
+from limitblocks.geometry.painter import Body, painting_order, placed
 from limitblocks.model import Model
-from limitblocks.report.painter import Body, painting_order, placed
 
 WIDTH, MARGIN = 1000.0, 12.0  # user units of the SVG
 DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
 TURN = 0.25  # largest rotation drawn, rad: the drawing is linear in it
+MOST_GHOSTS = 500  # more moving blocks, and only the outline around them shows where they were
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 SHADES = 4
 LIGHT = np.array([-0.35, -0.5, 0.8])
@@ -71,15 +72,12 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
     middle = np.mean([block.centroid for block in model.blocks], axis=0)
     points = [block.vertices - middle for block in model.blocks]
     faces = [block.faces for block in model.blocks]
-    shifts = [
-        rate[:3] + np.cross(rate[3:], block.vertices - block.centroid)
-        for block, rate in zip(model.blocks, rates, strict=True)
-    ]
+    shifts = _shifts(model, rates)
     sizes = np.array([np.linalg.norm(shift, axis=1).max() for shift in shifts])
-    magnification = _magnification(points, sizes, rates)
+    scale = _magnification(points, sizes, rates)
     view = _view(np.concatenate(points))
     before = [placed(p, f) for p, f in zip(points, faces, strict=True)]
-    after = [placed(p + magnification * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
+    after = [placed(p + scale * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
     page = _Page.around(np.concatenate([body.points for body in (*before, *after)]), view)
     moving = sizes > MOVING * max(sizes.max(), 1e-300)
     kinds = np.where(moving, "moving", "still").tolist()
@@ -88,17 +86,32 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
     names = [block.name for block in model.blocks]
     drawn = [_drawn(*each, view, page) for each in zip(names, kinds, faces, after, strict=True)]
     shown = np.flatnonzero(moving).tolist()
-    ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in shown]
+    ghostly = shown if len(shown) <= MOST_GHOSTS else []
+    ghosts = [_drawn(names[k], "ghost", faces[k], before[k], view, page) for k in ghostly]
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
     return Picture(
         height=page.height,
         blocks=tuple(drawn[k] for k in painting_order(after, view[2])),
-        ghosts=tuple(ghosts[k] for k in painting_order([before[k] for k in shown], view[2])),
+        ghosts=tuple(ghosts[k] for k in painting_order([before[k] for k in ghostly], view[2])),
         outline=_outline([before[k] for k in shown], view, page),
         axes=_axes(live, view),
-        magnification=magnification,
+        magnification=scale,
         largest=names[int(sizes.argmax())],
     )
+
+
+def magnification(model: Model, rates: Array) -> float:
+    """Return by how much displacement rates (n, 6) are drawn larger; 0 where nothing moves."""
+    sizes = np.array([np.linalg.norm(shift, axis=1).max() for shift in _shifts(model, rates)])
+    return _magnification([block.vertices for block in model.blocks], sizes, rates)
+
+
+def _shifts(model: Model, rates: Array) -> list[Array]:
+    """Displacement rates of the vertices of each block."""
+    return [
+        rate[:3] + np.cross(rate[3:], block.vertices - block.centroid)
+        for block, rate in zip(model.blocks, rates, strict=True)
+    ]
 
 
 def _magnification(points: Sequence[Array], sizes: Array, rates: Array) -> float:

@@ -1,9 +1,8 @@
-"""A report: one HTML file that needs nothing else, and the same content as JSON."""
+"""A report: one HTML file that needs nothing else, and the same content as JSON, Markdown and PDF."""
 
 from __future__ import annotations
 
-import base64
-import hashlib
+import json
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
@@ -12,18 +11,20 @@ from typing import Any
 
 from limitblocks.analysis.bounds import Bounds
 from limitblocks.analysis.results import LoadPath, Nonassociated
-from limitblocks.errors import LimitBlocksError
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
-from limitblocks.report.comparison import NOT_UNIQUE, comparison
-from limitblocks.report.facts import assumptions, fact_rows, facts
+from limitblocks.report import files
+from limitblocks.report.comparison import comparison
+from limitblocks.report.content import content
+from limitblocks.report.facts import assumptions, facts
+from limitblocks.report.interfaces import interface_rows
+from limitblocks.report.markdown import markdown
+from limitblocks.report.page import page
 from limitblocks.report.picture import Picture, mechanism_picture
 from limitblocks.report.sections import Section, section
 
-_FOLDER = Path(__file__).parent
-_MARK = '<meta name="generator" content="limitblocks '
-_MARK_WITHIN = 4096  # bytes from the start of the file
+REPORT_SCHEMA_VERSION = 1
 _DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough
 
 
@@ -51,15 +52,19 @@ class Report:
         return tuple(section(self.model, result) for result in self.results)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the content as plain numbers, lists and text; SI units."""
+        """Return the content as plain numbers, lists and text, SI units; see :func:`report_schema`."""
         return {
+            "format": files.FORMAT,
+            "schema_version": REPORT_SCHEMA_VERSION,
             "title": self.title,
             "date": self.date.isoformat(timespec="seconds"),
             "versions": versions(),
             "model": facts(self.model),
             "assumptions": assumptions(self.model),
             "comparison": [list(row) for row in comparison(self.results)],
+            "warnings": [warning for one in self.sections for warning in one.warnings],
             "results": [result.to_dict() for result in self.results],
+            "interfaces": [interface_rows(self.model, result) for result in self.results],
         }
 
     @property
@@ -75,40 +80,37 @@ class Report:
     @cached_property
     def html(self) -> str:
         """The report as one HTML document without references to other files."""
-        from jinja2 import Environment, FileSystemLoader, StrictUndefined
+        return page(self)
 
-        environment = Environment(
-            loader=FileSystemLoader(_FOLDER),
-            autoescape=True,
-            undefined=StrictUndefined,
-            trim_blocks=True,
-            lstrip_blocks=True,
-        )
-        style = (_FOLDER / "report.css").read_text(encoding="utf-8")
-        known = facts(self.model)
-        return environment.get_template("report.html").render(
-            title=self.title,
-            date=self.date,
-            sections=[(one, self._picture(one)) for one in self.sections],
-            comparison=comparison(self.results),
-            not_unique=NOT_UNIQUE,
-            warnings=[warning for one in self.sections for warning in one.warnings] + known["warnings"],
-            model=fact_rows(known),
-            assumptions=assumptions(self.model),
-            digest=self.model.digest,
-            versions=versions(),
-            style=style,
-            style_hash=base64.b64encode(hashlib.sha256(style.encode()).digest()).decode(),
-        )
-
-    def _picture(self, one: Section) -> Picture | None:
-        """The drawing of a section's mechanism, if this report draws that one."""
+    @cached_property
+    def drawn(self) -> Section | None:
+        """The section whose mechanism is drawn: one says enough."""
         kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
-        drawn = next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
-        return mechanism_picture(self.model, one.rates) if one is drawn and one.rates is not None else None
+        return next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
+
+    @cached_property
+    def picture(self) -> Picture | None:
+        """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
+        rates = self.drawn.rates if self.drawn else None
+        return None if rates is None else mechanism_picture(self.model, rates)
+
+    @property
+    def markdown(self) -> str:
+        """The report as Markdown, without drawings."""
+        return markdown(content(self))
+
+    def pdf(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
+        """Write the report as PDF, whatever the suffix, and return its path; see :meth:`save`.
+
+        Raises
+        ------
+        MissingDependency
+            reportlab is not installed.
+        """
+        return files.save(self, file, ".pdf", overwrite)
 
     def save(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
-        """Write the report as HTML and return its path.
+        """Write the report as its suffix says, .html, .json, .md or .pdf, and return its path.
 
         Parameters
         ----------
@@ -120,21 +122,11 @@ class Report:
         Raises
         ------
         LimitBlocksError
-            The file exists and may not be replaced, or it cannot be written.
+            The suffix is none of these, the file exists and may not be replaced, or it cannot be written.
+        MissingDependency
+            reportlab, which a PDF needs, is not installed.
         """
-        path, html = Path(file), self.html
-        try:
-            if overwrite or (overwrite is None and _ours(path)):
-                path.write_text(html, encoding="utf-8")
-            else:
-                with path.open("x", encoding="utf-8") as stream:
-                    stream.write(html)
-        except FileExistsError:
-            said = "exists" if overwrite is False else "exists and was not written by limitblocks"
-            raise LimitBlocksError(f"{path} {said}; give another name or overwrite=True") from None
-        except OSError as error:
-            raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-        return path
+        return files.save(self, file, files.suffix(file), overwrite)
 
 
 def report(model: Model, *results: Any) -> Report:
@@ -157,9 +149,8 @@ def report(model: Model, *results: Any) -> Report:
     return made
 
 
-def _ours(path: Path) -> bool:
-    """Whether `path` is a report of ours, by the mark in its head."""
-    if not path.is_file():
-        return False
-    with path.open("rb") as stream:
-        return _MARK.encode() in stream.read(_MARK_WITHIN)
+def report_schema() -> dict[str, Any]:
+    """Return the JSON Schema of the report as JSON."""
+    text = (Path(__file__).parent / "schema.json").read_text(encoding="utf-8")
+    schema: dict[str, Any] = json.loads(text)
+    return schema

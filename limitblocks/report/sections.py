@@ -14,7 +14,7 @@ from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
-from limitblocks.report.curve import Curve, path_curve
+from limitblocks.report.curve import Curve, convergence_curve, path_curve
 
 _ACTIVE_SHOWN = 4
 
@@ -154,6 +154,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
         tolerance=result.tolerance,
         rates=result.displacement_rates,
         warnings=(() if result.converged else (result.status.value,)) + _loose(result.tolerance),
+        curve=convergence_curve(result.history),
     )
 
 
@@ -161,7 +162,7 @@ def _path(model: Model, path: LoadPath) -> Section:
     end = _nonassociated(model, path.collapse)
     last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
     return Section(
-        title="Load path",
+        title="Load path" if path.collapse.converged else "Load path, not converged",
         meaning=(
             "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
             f"step is in equilibrium and within the yield surface, and the last {last}, Eqs (54)-(59). "

@@ -181,23 +181,7 @@ def test_inward_faces_are_refused_and_not_mended():
         Block("stone", BOX.vertices, [face[::-1] for face in BOX.faces])
 
 
-def _extruded(outline):
-    """Prism of unit height over a counter-clockwise outline (n, 2)."""
-    n = len(outline)
-    points = np.concatenate([np.column_stack([outline, np.full(n, z)]) for z in (0.0, 1.0)])
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    return points, [tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides]
-
-
-def test_non_convex_block_is_refused():
-    corner = np.array([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], dtype=float)
-    with pytest.raises(
-        GeometryError, match=r"not convex: vertex \d+ lies 1 m outside face \d.*not supported yet"
-    ):
-        Block("L", *_extruded(corner))
-
-
-def test_non_convex_face_of_a_convex_block_is_refused():
+def test_non_convex_face_of_a_convex_block():
     # the top of a box divided into an L and a square
     points = np.array(
         [(x, y, 0) for x, y in ((0, 0), (2, 0), (2, 2), (0, 2))]
@@ -205,19 +189,21 @@ def test_non_convex_face_of_a_convex_block_is_refused():
         dtype=float,
     )
     sides = [(0, 3, 2, 1), (0, 1, 5, 4), (1, 2, 10, 6, 5), (2, 3, 9, 8, 10), (3, 0, 4, 9)]
-    with pytest.raises(GeometryError, match="face 5 is not convex at vertex 7"):
-        Block("box", points, [*sides, (4, 5, 6, 7, 8, 9), (6, 10, 8, 7)])
+    whole = Block("box", points, [*sides, (4, 5, 6, 7, 8, 9), (6, 10, 8, 7)])
     split = Block("box", points, [*sides, (4, 5, 6, 7), (4, 7, 8, 9), (6, 10, 8, 7)])
-    assert split.volume == pytest.approx(2 * 2 * 1)
+    assert [whole.volume, split.volume] == pytest.approx([2 * 2 * 1] * 2)
+    assert whole.areas[5:] == pytest.approx([3, 1])
+    assert whole.convex
+    assert split.convex
 
 
-@pytest.mark.parametrize(("lift", "sound"), [(0.9e-4, True), (4.5e-4, False)])
+@pytest.mark.parametrize(("lift", "sound"), [(3.9e-3, True), (4.1e-3, False)])
 def test_planarity_tolerance_is_relative_to_the_size(lift, sound):
     size = 10.0  # a vertex lifted by h leaves a square face warped by h / 4 about its mean plane
     points = BOX.vertices * size
     points[7, 2] += lift * size
     if sound:
-        assert Block("stone", points, BOX.faces).volume == pytest.approx(size**3, rel=1e-4)
+        assert Block("stone", points, BOX.faces).volume == pytest.approx(size**3, rel=2e-3)
     else:
         with pytest.raises(GeometryError, match="face 5 is not planar"):
             Block("stone", points, BOX.faces)

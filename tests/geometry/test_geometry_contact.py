@@ -262,12 +262,12 @@ def test_collinear_vertices_are_removed():
     assert interface.polygon == pytest.approx(corners)
 
 
-def test_each_pair_of_faces_has_its_own_interface():
+def test_triangles_in_one_plane_are_one_face():
     low = Block.box("low", (1, 1, 1), (0, 0, 0))
     triangles = [t for a, b, c, d in low.faces for t in ((a, b, c), (a, c, d))]
     found = find_interfaces([Block("low", low.vertices, triangles), box("high", (1, 1, 1), (0, 0, 1))], JOINT)
-    assert [area(f) for f in found] == pytest.approx([0.5, 0.5])
-    assert all(len(f.polygon) == 3 for f in found)
+    assert [area(f) for f in found] == pytest.approx([1.0])
+    assert all(len(f.polygon) == 4 for f in found)
 
 
 def test_octagonal_contact_of_two_squares():

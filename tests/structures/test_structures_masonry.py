@@ -134,6 +134,14 @@ def test_a_buttress_props_the_wall_and_holds_it_back_if_bonded():
     assert found[True][1] > found[False][1] >= alone
 
 
+def test_without_dilatancy_a_wall_leaves_its_loose_buttress_at_b_over_h():
+    model = structures.buttressed_wall(
+        JOINT, length=2.0, courses=6, buttress_length=0.8, bonded=False, direction=(0.0, -1.0, 0.0)
+    )
+    assert load_factor(model) > 1.05 * 0.4 / 2.4  # associated flow opens the joint that slides
+    assert lb.nonassociated(model).load_factor == pytest.approx(0.4 / 2.4, rel=1e-4)
+
+
 @pytest.mark.parametrize("overlap", [0.0, 0.04])
 def test_cantilever_stair(overlap):
     treads, length, going, rise, thick, above = 3, 0.9, 0.3, 0.17, 0.4, 4

@@ -12,6 +12,7 @@ import shapely
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry import polyhedron
 
+TOUCHING = 1e-6  # of a body's size: less overlap on the page is none
 INTERPENETRATION = 1e-2  # of a body's size: deeper, and no plane counts as separating
 
 
@@ -65,13 +66,15 @@ def _hiding(bodies: Sequence[Body], eye: Array, depth: Array) -> Indices:
     right = np.cross([0.0, 0.0, 1.0], eye)
     plane = np.array([right, np.cross(eye, right)]).T
     hulls = shapely.convex_hull([shapely.multipoints(body.points @ plane) for body in bodies])
-    pairs = shapely.STRtree(hulls).query(hulls, predicate="intersects").T
+    # bodies that only touch on the page hide nothing: as pairs they could close rings
+    size = np.array([np.ptp(body.points, axis=0).max() for body in bodies])
+    inner = shapely.buffer(hulls, -TOUCHING * size, join_style="mitre")
+    pairs = shapely.STRtree(inner).query(inner, predicate="intersects").T
     pairs = pairs[pairs[:, 0] < pairs[:, 1]]
     gaps, facing = _separation(bodies, pairs, eye)
     others, away = _separation(bodies, pairs[:, ::-1], eye)
     swapped = np.where(gaps >= others, facing <= 0.0, away > 0.0)  # the first body is in front
-    size = np.array([np.ptp(body.points, axis=0).max() for body in bodies])[pairs].min(axis=1)
-    deep = np.maximum(gaps, others) < -INTERPENETRATION * size
+    deep = np.maximum(gaps, others) < -INTERPENETRATION * size[pairs].min(axis=1)
     swapped = np.where(deep, depth[pairs[:, 0]] > depth[pairs[:, 1]], swapped)
     return np.asarray(np.where(swapped[:, None], pairs[:, ::-1], pairs))
 

@@ -1,0 +1,71 @@
+"""What the blocks of a model show that its interfaces do not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeVar
+
+from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, find_contacts
+from limitblocks.model import Model
+
+_Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver)
+
+
+@dataclass(frozen=True)
+class Diagnosis(Contacts):
+    """What contact detection sees in the blocks of a model beside its interfaces; see :class:`Contacts`.
+
+    Attributes
+    ----------
+    interfaces : tuple of Interface
+        Contacts of blocks between which the model has no interface; their joint is None.
+    near_misses, slivers
+        Of blocks between which the model has no interface.
+    overlaps : tuple of Overlap
+    isolated : tuple of str
+        Blocks that touch no other and have no interface.
+    """
+
+    @property
+    def warnings(self) -> list[str]:
+        """A line for each kind of thing found, and for each overlap."""
+        pairs = dict.fromkeys(one.name for one in self.interfaces)
+        missing = self._line("no interface between blocks that touch", tuple(pairs))
+        return missing + super().warnings
+
+    def __str__(self) -> str:
+        return f"beside the interfaces of the model: {super().__str__()}"
+
+
+def diagnose(model: Model, *, gap: float = 1e-3, angle: float = 1e-2) -> Diagnosis:
+    """Return what the blocks of `model` show that its interfaces do not; nothing between two supports.
+
+    Parameters
+    ----------
+    model : Model
+    gap, angle : float
+        Tolerances of :func:`limitblocks.find_interfaces`.
+
+    Raises
+    ------
+    ModelError
+        A tolerance is out of range.
+    """
+    found = find_contacts(model.blocks, None, gap=gap, angle=angle)
+    supports = set(model.supports)
+    tied = {frozenset((one.block_i, one.block_j)) for one in model.interfaces}
+    ends = {name for pair in tied for name in pair}
+
+    def loose(items: tuple[_Pair, ...]) -> tuple[_Pair, ...]:
+        return tuple(one for one in items if frozenset((one.block_i, one.block_j)) not in tied)
+
+    def free(items: tuple[_Pair, ...]) -> tuple[_Pair, ...]:
+        return tuple(one for one in items if not {one.block_i, one.block_j} <= supports)
+
+    return Diagnosis(
+        interfaces=free(loose(found.interfaces)),
+        near_misses=free(loose(found.near_misses)),
+        overlaps=free(found.overlaps),
+        isolated=tuple(name for name in found.isolated if name not in ends),
+        slivers=free(loose(found.slivers)),
+    )

@@ -1,0 +1,201 @@
+"""What each interface does at collapse: sticks, slides, twists, hinges, crushes or opens. numpy only."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.analysis.results import LoadPath
+from limitblocks.analysis.utilisation import utilisation
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import LimitBlocksError
+from limitblocks.geometry import Interface
+from limitblocks.mechanics import LimitProblem
+from limitblocks.model import Model
+
+MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
+LOADED = 1e-6  # of the mean block weight: a contact force below it counts as none
+HINGING = {"hinge", "crush", "open"}  # modes whose rows open one side of an interface
+
+
+class Collapse(Protocol):
+    """A stress state with a mechanism: what Bounds, Nonassociated and the end of a LoadPath have."""
+
+    @property
+    def stress_resultants(self) -> Array:
+        """(V1, V2, N, M1, M2, T) of each interface, shape (m, 6)."""
+
+    @property
+    def generalised_stresses(self) -> Array:
+        """What the joints' rows act on, shape (s,)."""
+
+    @property
+    def displacement_rates(self) -> Array:
+        """Mechanism, shape (n, 6)."""
+
+    @property
+    def flow_multipliers(self) -> Array:
+        """Flow multiplier of each row, shape (R,)."""
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the model."""
+
+
+@dataclass(frozen=True, eq=False)
+class InterfaceStates:
+    """State of each of the m interfaces of a model, in its order.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Names of the interfaces.
+    state : tuple of str
+        "stick", "open" (moves apart all over, without a force), or what it does, joined by "-" in this
+        order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
+        pressed together), "slide", "twist". A twist about the centre of pressure does not slide.
+    active_modes : tuple of tuple of str
+        Failure modes, in the joint's words, whose flow multipliers are not zero.
+    centroid : Array, shape (m, 3)
+        Global axes, m.
+    strain_rates : Array, shape (m, 6)
+        (ds1, ds2, dn, dth1, dth2, dthn) of block j relative to block i at the centroid, local axes, m and
+        rad, in the scale of the mechanism; dn > 0 opens. Eqs (44)-(47).
+    stress_resultants : Array, shape (m, 6)
+        (V1, V2, N, M1, M2, T), local axes, N and N m; N <= 0 in compression.
+    centre_of_pressure : Array, shape (m, 3)
+        Where the normal force acts, (e1, e2) = (-M2, M1) / N off the centroid; global axes, m. NaN without
+        a normal force.
+    force : Array, shape (m, 3)
+        Force that block i exerts on block j, global axes, N; block i feels the opposite.
+    utilisation : Array, shape (m,)
+        How much of the strength is used, N held, from 0 to 1 on the yield surface; see
+        :func:`limitblocks.analysis.utilisation.utilisation`. 0 without a force.
+    """
+
+    names: tuple[str, ...]
+    state: tuple[str, ...]
+    active_modes: tuple[tuple[str, ...], ...]
+    centroid: Array
+    strain_rates: Array
+    stress_resultants: Array
+    centre_of_pressure: Array
+    force: Array
+    utilisation: Array
+
+
+def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStates:
+    """Return what each interface of `model` does in the mechanism of `result`, and what it carries.
+
+    A motion counts as such if it is at least 1e-3 of the largest displacement rate: sliding of the centre
+    of pressure, rotations times the distance of the farthest corner.
+
+    Parameters
+    ----------
+    model : Model
+        The structure.
+    result : Bounds, Nonassociated or LoadPath
+        Of this model. A load path counts by its collapse.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the result has no stress state and mechanism, or belongs to another model.
+    """
+    found = collapse_of(model, result)
+    problem = model.problem
+    axes = np.stack([interface.axes for interface in model.interfaces])
+    centroid = np.stack([interface.centroid for interface in model.interfaces])
+    Q = found.stress_resultants
+    loaded = np.linalg.norm(Q[:, :3], axis=1) > LOADED * problem.scales.force
+    N = np.where(-Q[:, 2] > LOADED * problem.scales.force, Q[:, 2], np.nan)
+    e = np.stack([-Q[:, 4], Q[:, 3]], axis=1) / N[:, None]
+    dq = _strain_rates(model, found.displacement_rates, axes, centroid)
+    least = MOVING * _largest(model, found.displacement_rates)
+    modes = _active_modes(problem, found.flow_multipliers, least)
+    return InterfaceStates(
+        names=problem.interfaces,
+        state=_states(model.interfaces, dq, e, modes, loaded, least),
+        active_modes=modes,
+        centroid=read_only(centroid),
+        strain_rates=read_only(dq),
+        stress_resultants=read_only(Q),
+        centre_of_pressure=read_only(centroid + np.einsum("ma,mab->mb", e, axes[:, :2])),
+        force=read_only(-np.einsum("ma,mab->mb", Q[:, :3], axes)),
+        utilisation=read_only(np.where(loaded, utilisation(model, found.generalised_stresses), 0.0)),
+    )
+
+
+def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
+    """Return the stress state and mechanism of `result`; LimitBlocksError unless it is one of `model`."""
+    found = result.collapse if isinstance(result, LoadPath) else result
+    kind = type(result).__name__
+    if any(getattr(found, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
+        raise LimitBlocksError(
+            f"{kind} has no mechanism; expected the result of bounds, nonassociated or load_path"
+        )
+    if found.digest != model.digest:
+        raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
+    return found
+
+
+def _strain_rates(model: Model, rates: Array, axes: Array, centroid: Array) -> Array:
+    """Relative displacement rates v + w x r of block j to block i, local axes, shape (m, 6)."""
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    centres = np.stack([block.centroid for block in model.blocks])
+
+    def at(block: str) -> Array:
+        k = [place[getattr(interface, block)] for interface in model.interfaces]
+        v, w = rates[k, :3], rates[k, 3:]
+        return np.stack([v + np.cross(w, centroid - centres[k]), w], axis=1)
+
+    return np.asarray(((at("block_j") - at("block_i")) @ axes.swapaxes(1, 2)).reshape(-1, 6))
+
+
+def _largest(model: Model, rates: Array) -> float:
+    """Largest displacement rate of the mechanism, rotations times the size of the block."""
+    sizes = np.array([block.size for block in model.blocks])
+    speed = np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)
+    return float(speed.max())
+
+
+def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[str, ...], ...]:
+    found: list[dict[str, None]] = [{} for _ in problem.interfaces]
+    for row in np.flatnonzero(np.abs(multipliers) > least).tolist():
+        found[problem.row_interface[row]][problem.row_mode[row]] = None
+    return tuple(tuple(modes) for modes in found)
+
+
+def _states(
+    interfaces: Sequence[Interface],
+    dq: Array,
+    e: Array,
+    modes: tuple[tuple[str, ...], ...],
+    loaded: npt.NDArray[np.bool_],
+    least: float,
+) -> tuple[str, ...]:
+    """Name the motion of each interface; `e` (m, 2) is NaN without a normal force."""
+    lift = [dq[k, 2] + i.polygon @ (-dq[k, 4], dq[k, 3]) for k, i in enumerate(interfaces)]
+    lowest, highest = np.array([(one.min(), one.max()) for one in lift]).T
+    reach = np.array([np.linalg.norm(i.polygon, axis=1).max() for i in interfaces])
+    about = np.nan_to_num(e)
+    sliding = dq[:, :2] + dq[:, 5:] * np.stack([-about[:, 1], about[:, 0]], axis=1)
+    hinging = np.array([bool(HINGING.intersection(names)) for names in modes])
+    motions = {
+        "hinge": hinging & (highest - lowest > least) & (lowest >= -least),
+        "crush": lowest < -least,
+        "slide": np.linalg.norm(sliding, axis=1) > least,
+        "twist": np.abs(dq[:, 5]) * reach > least,
+    }
+    opened = (lowest > least) & ~loaded
+    table = zip(opened.tolist(), *(motion.tolist() for motion in motions.values()), strict=True)
+    return tuple(
+        "open"
+        if free
+        else "-".join(word for word, moves in zip(motions, row, strict=True) if moves) or "stick"
+        for free, *row in table
+    )

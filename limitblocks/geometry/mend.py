@@ -1,0 +1,184 @@
+"""A block from the polygons of one solid as other programs write them: welded, closed, turned outward."""
+
+from __future__ import annotations
+
+import operator
+import reprlib
+from collections.abc import Iterable, Sequence
+from typing import NoReturn
+
+import numpy as np
+import numpy.typing as npt
+from scipy import sparse
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.errors import GeometryError
+from limitblocks.geometry import coplanar
+from limitblocks.geometry.block import Block
+from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
+from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
+
+#: Distance, relative to the block's size, below which two vertices are one.
+WELD = 1e-6
+#: Width, relative to the block's size, of a crack between faces that is closed.
+CRACK = 5e-4
+#: Plane faces of a block; a finer mesh costs time and says nothing more.
+_MOST_FACES = 5000
+_MOST_POLYGONS = 200_000  # before those in one plane are merged
+
+
+def mended(
+    name: str,
+    vertices: npt.ArrayLike,
+    faces: Iterable[Sequence[int]],
+    unit_weight: float | None = None,
+) -> tuple[Block, tuple[str, ...]]:
+    """Return the block enclosed by the polygons of one solid, and what had to be mended, a line each.
+
+    Vertices within 1e-6 of the block's size become one; faces without area and repeated faces go; cracks up
+    to 5e-4 of the size are closed, with vertices that lie on the edge of another face; faces are turned
+    counter-clockwise seen from outside; adjacent faces in one plane become one face. What every triangle file
+    needs (equal vertices, triangles in one plane) is not worth a note.
+
+    Parameters
+    ----------
+    name : str
+        Name of the block.
+    vertices : array_like, shape (n, 3)
+        Global axes, m.
+    faces : iterable of sequences of int
+        Vertex indices around each face, in either sense.
+    unit_weight : float, optional
+        N/m3.
+
+    Raises
+    ------
+    GeometryError
+        The polygons do not enclose one solid, or it is no block; names the block and the place.
+    """
+    points, loops = _checked(name, vertices, faces)
+    notes: list[str] = []
+    size = float(np.ptp(points, axis=0).max())
+    points, loops = _welded(name, points, loops, WELD * size, notes)
+    loops = coplanar.divided(points, tidy(loops, notes))
+    if open_sides(loops).size:
+        points, loops = closed(name, points, loops, CRACK * size, notes)
+    if not loops:
+        _wrong(name, "no face has an area; a solid is needed")
+    loops = _outward(name, points, loops, notes)
+    loops, warp = coplanar.merged(points, loops, size)
+    if len(loops) > _MOST_FACES:
+        _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
+    if warp > WELD * size:
+        notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
+    used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
+    ends = np.cumsum([len(loop) for loop in loops])[:-1]
+    rings = tuple(tuple(part.tolist()) for part in np.split(places, ends))
+    try:
+        block = Block(name, points[used], rings, unit_weight)
+    except GeometryError:  # its numbers of faces and vertices say nothing to whoever drew the solid
+        _refuse_warped(name, points, loops, PLANE_TOLERANCE * size)
+        raise
+    return block, tuple(f"block {name!r}: {note}" for note in notes)
+
+
+def _wrong(name: str, fault: str) -> NoReturn:
+    raise GeometryError(f"block {name!r}: {fault}")
+
+
+def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]]) -> tuple[Array, Faces]:
+    """Return the vertices that faces use, and the faces."""
+    try:
+        points = np.asarray(vertices, dtype=np.float64)
+        loops = tuple(tuple(map(operator.index, face)) for face in faces)
+    except (TypeError, ValueError, OverflowError):
+        _wrong(name, f"{reprlib.repr(faces)} are not faces over vertices of shape (n, 3)")
+    if points.ndim != 2 or points.shape[1] != 3:
+        _wrong(name, f"vertices: shape {points.shape} given; shape (n, 3) is needed")
+    if len(loops) > _MOST_POLYGONS:
+        _wrong(name, f"it has {len(loops)} faces; at most {_MOST_POLYGONS} are taken, make the mesh coarser")
+    for k, loop in enumerate(loops):
+        if loop and not 0 <= min(loop) <= max(loop) < len(points):
+            _wrong(name, f"face {k} = {reprlib.repr(loop)}: vertex indices run from 0 to {len(points) - 1}")
+    used = np.unique([vertex for loop in loops for vertex in loop]).astype(np.int64)
+    if len(used) < 4:
+        _wrong(name, f"its {len(loops)} faces have {len(used)} vertices; a solid has at least 4")
+    if not (np.abs(points[used]) <= 1e30).all():
+        k = used[np.argwhere(~(np.abs(points[used]) <= 1e30))[0, 0]]
+        _wrong(name, f"vertex {k} is {_place(points[k])}; finite numbers up to 1e30 are needed")
+    number = np.zeros(len(points), dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return points[used], tuple(tuple(number[list(loop)].tolist()) for loop in loops)
+
+
+def _welded(
+    name: str, points: Array, loops: Faces, tolerance: float, notes: list[str]
+) -> tuple[Array, Faces]:
+    """Return the distinct vertices, and the faces over them."""
+    distinct, number = np.unique(points, axis=0, return_inverse=True)
+    target = clusters(name, distinct, tolerance)
+    moved = np.linalg.norm(distinct - distinct[target], axis=1).max()
+    if moved > 0.0:
+        merged = int((target != np.arange(len(target))).sum())
+        notes.append(f"{merged} vertices up to {moved:.2g} m from another one merged with it")
+    return distinct, renumbered(loops, target[number.reshape(-1)])
+
+
+def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
+    """Return the faces turned outward, after a check that they enclose one solid."""
+    sides, owner = sides_of(loops)
+    edges, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    _refuse_open(name, points, edges, uses)
+    first, second = np.argsort(edge.reshape(-1), kind="stable").reshape(-1, 2).T
+    f, g, m = owner[first], owner[second], len(loops)
+    turned = np.where(sides[first, 0] == sides[second, 0], m, 0)
+    # each face appears twice, as given and turned: what is tied together has one sense
+    ties = np.concatenate([f, f + m]), np.concatenate([g + turned, (g + turned + m) % (2 * m)])
+    graph = sparse.coo_array((np.ones(len(ties[0])), ties), shape=(2 * m, 2 * m))
+    _, part = sparse.csgraph.connected_components(graph, directed=False)
+    if (part[:m] == part[m:]).any():
+        _wrong(
+            name, "the faces have no inner and outer side, as on a Moebius strip; a closed surface is needed"
+        )
+    # one label of each shell, that of most of its faces as given
+    shell, labels = np.unique(np.minimum(part[:m], part[m:]), return_inverse=True)
+    flip = part[:m] != shell[labels]
+    flip ^= (np.bincount(labels, flip) * 2 > np.bincount(labels))[labels]
+    arms = points[[loop[0] for loop in loops]] - points.mean(axis=0)
+    volumes = np.einsum("ij,ij->i", coplanar.area_vectors(points, loops), arms) * np.where(flip, -1.0, 1.0)
+    volume = np.bincount(labels, volumes)
+    outer = np.abs(volume).argmax()
+    if np.sum(volume * volume[outer] > 0.0) > 1:
+        _wrong(name, f"it has {len(shell)} separate closed surfaces; one is needed, split it into blocks")
+    flip ^= volume[outer] < 0.0
+    if flip.any():
+        whole = f"{flip.sum()} of {m} faces turned"
+        notes.append("all faces pointed inward and are turned" if flip.all() else whole)
+    return tuple(loop[::-1] if t else loop for loop, t in zip(loops, flip, strict=True))
+
+
+def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> None:
+    for wrong, word in ((uses > 2, "faces meet wrongly"), (uses == 1, "the surface is open")):
+        if wrong.any():
+            a, b = points[edges[wrong.argmax()]]
+            _wrong(
+                name,
+                f"{word}: edges that belong to {uses[wrong.argmax()]} faces: {wrong.sum()}, the first from "
+                f"{_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
+            )
+
+
+def _refuse_warped(name: str, points: Array, loops: Faces, limit: float) -> None:
+    for loop in loops:
+        off = coplanar.warp_of(points, loop, loop)
+        if off > limit:
+            corners = ", ".join(_place(points[vertex]) for vertex in loop[:8]) + ", ..." * (len(loop) > 8)
+            _wrong(
+                name,
+                f"the face {corners} is not planar: a corner lies {off:.3g} m out of its plane; at most "
+                f"{limit:.3g} m is allowed, split it into triangles",
+            )
+
+
+def _place(point: Array) -> str:
+    return f"({', '.join(f'{value:.6g}' for value in point)})"

@@ -1,0 +1,70 @@
+"""Blocks as COMPAS JSON: an assembly that compas.json_load of COMPAS 2 reads without any other package."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+from uuid import NAMESPACE_URL, uuid5
+
+from limitblocks.geometry import Block
+from limitblocks.io.imported import SUPPORT_LAYERS
+
+_FRAME = {"point": [0.0, 0.0, 0.0], "xaxis": [1.0, 0.0, 0.0], "yaxis": [0.0, 1.0, 0.0]}
+
+
+def compas(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+    """Return a compas.datastructures.Assembly whose graph has "block", a mesh, and "is_support" at each node.
+
+    The graph is that of an assembly of compas_assembly, with a part beside each block.
+    """
+    nodes = {
+        str(k): _node(k, block, layers.get(block.name, "").lower() in SUPPORT_LAYERS)
+        for k, block in enumerate(blocks)
+    }
+    graph = {
+        "attributes": {},
+        "default_node_attributes": {"part": None, "block": None, "is_support": False},
+        "default_edge_attributes": {},
+        "node": nodes,
+        "edge": {key: {} for key in nodes},
+        "max_node": len(blocks) - 1,
+    }
+    document = _object(
+        "datastructures/Assembly", {"graph": graph, "attributes": {}}, "limitblocks", "assembly"
+    )
+    return json.dumps(document, allow_nan=False).encode()
+
+
+def _node(k: int, block: Block, support: bool) -> dict[str, Any]:
+    part = {"attributes": {"name": block.name}, "key": k, "frame": _FRAME, "features": []}
+    x, y, z = block.centroid.tolist()
+    return {
+        "part": _object("datastructures/Part", part, block.name, f"part {k}"),
+        "block": _object("datastructures/Mesh", _mesh(block), block.name, f"block {k}"),
+        "is_support": support,
+        "x": x,
+        "y": y,
+        "z": z,
+    }
+
+
+def _mesh(block: Block) -> dict[str, Any]:
+    points = enumerate(block.vertices.tolist())
+    return {
+        "attributes": {},
+        "default_vertex_attributes": {"x": 0.0, "y": 0.0, "z": 0.0},
+        "default_edge_attributes": {},
+        "default_face_attributes": {},
+        "vertex": {str(k): {"x": x, "y": y, "z": z} for k, (x, y, z) in points},
+        "face": {str(k): list(face) for k, face in enumerate(block.faces)},
+        "facedata": {str(k): {} for k in range(len(block.faces))},
+        "edgedata": {},
+        "max_vertex": len(block.vertices) - 1,
+        "max_face": len(block.faces) - 1,
+    }
+
+
+def _object(dtype: str, data: dict[str, Any], name: str, key: str) -> dict[str, Any]:
+    guid = str(uuid5(NAMESPACE_URL, f"limitblocks {key}"))  # the same blocks give the same file
+    return {"dtype": f"compas.{dtype}", "data": data, "name": name, "guid": guid}

@@ -1,0 +1,209 @@
+"""Blocks from DXF drawings: solids in space. See dxf_outlines for drawings in the plane."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+
+#: Application under whose name the name of a block is kept beside an entity.
+APPLICATION = "LIMITBLOCKS"
+_DEEPEST = 32  # block references within block references
+_NO_UNIT = "states no unit of length ($INSUNITS is 0); metres unless units=... is given"
+
+
+class Part(NamedTuple):
+    """An entity of a drawing, out of its block references.
+
+    `matrix` (4, 4) takes its coordinates to those of the drawing; `layer` and `name` are what a solid made
+    of it has, `handle` is where the drawing holds it and `reference` a number for the block reference.
+    """
+
+    entity: Any
+    matrix: Array
+    layer: str
+    name: str
+    reference: int
+
+    @property
+    def kind(self) -> str:
+        """Type of the entity, such as "LWPOLYLINE"."""
+        return str(self.entity.dxftype())
+
+    @property
+    def handle(self) -> str:
+        """What the drawing calls the entity."""
+        return str(self.entity.dxf.handle)
+
+    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Return faces in the sense they have in the drawing, which a mirror image turns."""
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
+        return [face[::-1] for face in faces] if mirrored else faces
+
+    def placed(self, points: Any) -> Array:
+        """Return points (n, 3) of the entity in the coordinates of the drawing."""
+        rows = np.array([tuple(point) for point in points], dtype=np.float64).reshape(-1, 3)
+        return np.asarray(rows @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+
+
+def ezdxf() -> ModuleType:
+    """Return the package ezdxf.
+
+    Raises
+    ------
+    MissingDependency
+        It is not installed.
+    """
+    try:
+        import ezdxf as package
+    except ImportError:
+        raise MissingDependency("DXF files need ezdxf: pip install limitblocks[dxf]") from None
+    return package
+
+
+def contents(path: Path) -> Contents:
+    """Return the solids in a DXF drawing: meshes, polyfaces, 3D faces, bodies with plane faces."""
+    from limitblocks.io import dxf_solids, shells
+
+    drawing = opened(path)
+    left_out: Counter[str] = Counter()
+    faces: list[Part] = []
+    solids: list[Solid] = []
+    with foreign("DXF"):
+        for part in parts(drawing, left_out):
+            if part.kind == "3DFACE":
+                faces.append(part)
+                continue
+            found = dxf_solids.polygons(part)
+            if found is None:
+                left_out[part.kind] += 1
+                continue
+            for points, loops in found:
+                solids += shells.solids(part.name, part.layer, points, part.turned(loops))
+        solids += dxf_solids.from_3d_faces(faces)
+    if not solids:
+        raise ModelError(f"holds no solid{_instead(left_out)}")
+    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)])
+
+
+def _instead(left_out: Counter[str]) -> str:
+    drawn = left_out["LWPOLYLINE"] + left_out["POLYLINE"]
+    if drawn:
+        return f" but {drawn} polylines; limitblocks.read_drawing makes blocks of outlines and a thickness"
+    return f" but {listed(left_out)}" if left_out else ""
+
+
+def opened(path: Path) -> Any:
+    """Return the drawing in a DXF file, text or binary."""
+    package = ezdxf()
+    if read_bytes(path)[:6].startswith(b"AC10"):
+        raise ModelError("is a DWG, not a DXF; save it as DXF")
+    with foreign("DXF"):
+        return package.readfile(path)
+
+
+def metres_per_unit(drawing: Any) -> float | None:
+    """Return metres per unit of the drawing; None where it states none.
+
+    Raises
+    ------
+    ModelError
+        The code of the unit is unknown.
+    """
+    from ezdxf.enums import InsertUnits
+    from ezdxf.units import conversion_factor
+
+    code = drawing.header.get("$INSUNITS", 0)
+    if code == 0:
+        return None
+    try:
+        return float(conversion_factor(InsertUnits(code), InsertUnits.Meters))
+    except (ValueError, TypeError, KeyError):
+        raise ModelError(f"unit of length $INSUNITS is {code!r}; expected a code from 0 to 24") from None
+
+
+def unit_notes(drawing: Any) -> list[str]:
+    """Return a note where the drawing states no unit."""
+    return [] if drawing.header.get("$INSUNITS", 0) else [_NO_UNIT]
+
+
+def notes_on(left_out: Counter[str]) -> list[str]:
+    """Return a note on what was left out."""
+    return [f"left out: {listed(left_out)}"] if left_out else []
+
+
+def listed(counts: Counter[str]) -> str:
+    """Return counts in words."""
+    return ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
+
+
+def parts(drawing: Any, left_out: Counter[str]) -> Iterator[Part]:
+    """Yield what the model space shows, block references taken apart; count what is hidden.
+
+    Raises
+    ------
+    ModelError
+        A block is missing or contains itself, or the drawing has too many entities.
+    """
+    hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
+    return _Expansion(hidden, left_out).parts(drawing.modelspace(), np.eye(4), "", "", 0)
+
+
+class _Expansion:
+    """State of taking a drawing apart: entities met and block references met so far."""
+
+    def __init__(self, hidden: set[str], left_out: Counter[str]) -> None:
+        self.hidden, self.left_out = hidden, left_out
+        self.met = self.references = 0
+
+    def parts(
+        self, entities: Iterable[Any], matrix: Array, layer: str, name: str, depth: int
+    ) -> Iterator[Part]:
+        reference = self.references
+        for entity in entities:
+            self.met += 1
+            if self.met > MOST_FACES:
+                raise ModelError(f"has more than {MOST_FACES} entities, the most that are read")
+            # what is on layer 0 of a block takes on the layer of the reference
+            own = layer if layer and entity.dxf.layer == "0" else entity.dxf.layer
+            if own.lower() in self.hidden or entity.dxf.get("invisible", 0):
+                self.left_out["hidden entities"] += 1
+            elif entity.dxftype() == "INSERT":
+                yield from self.inserted(entity, matrix, own, depth)
+            else:
+                # the name that was written, else a name by which the entity is found in the drawing
+                given = _given_name(entity) or name or f"{own} {entity.dxf.handle}"
+                yield Part(entity, matrix, own, given, reference)
+
+    def inserted(self, insert: Any, matrix: Array, layer: str, depth: int) -> Iterator[Part]:
+        title, handle = insert.dxf.name, insert.dxf.handle
+        block = insert.block()
+        if block is None:
+            raise ModelError(f"block reference {handle}: block {title!r} is missing")
+        if depth == _DEEPEST:
+            raise ModelError(f"block {title!r} contains itself, or blocks nest deeper than {_DEEPEST}")
+        if insert.mcount > MOST_FACES:
+            raise ModelError(
+                f"block reference {handle}: {insert.mcount} copies; at most {MOST_FACES} are read"
+            )
+        for one in insert.multi_insert() if insert.mcount > 1 else (insert,):
+            self.references += 1
+            # ezdxf writes points as rows
+            where = matrix @ np.array(list(one.matrix44())).reshape(4, 4).T
+            yield from self.parts(block, where, layer, f"{title} {handle}", depth + 1)
+            for label in one.attribs:
+                yield Part(label, matrix, layer, "", self.references)
+
+
+def _given_name(entity: Any) -> str:
+    if not entity.has_xdata(APPLICATION):
+        return ""
+    return next((str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000), "")

@@ -1,0 +1,39 @@
+"""Blocks as a DXF drawing: MESH entities in double precision, on layers, in metres."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Mapping, Sequence
+
+from limitblocks.geometry import Block
+from limitblocks.io.dxf import APPLICATION, ezdxf
+
+_METRES = 6  # $INSUNITS
+_LONGEST = 255  # of names
+_COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of the colour index
+
+
+def dxf(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+    """Return the drawing; the name of each block is kept beside its mesh, for the reader of this library."""
+    package = ezdxf()
+    drawing = package.new("R2010", units=_METRES)
+    drawing.appids.add(APPLICATION)
+    names = {block.name: _layer(layers.get(block.name, "")) for block in blocks}
+    for k, layer in enumerate(dict.fromkeys(names.values())):
+        if layer not in drawing.layers:
+            drawing.layers.add(layer, color=_COLOURS[k % len(_COLOURS)])
+    space = drawing.modelspace()
+    for block in blocks:
+        mesh = space.add_mesh({"layer": names[block.name]})
+        mesh.vertices = block.vertices.tolist()
+        mesh.faces = block.faces
+        mesh.set_xdata(APPLICATION, [(1000, " ".join(block.name.split())[:_LONGEST])])
+    stream = io.StringIO()
+    drawing.write(stream)
+    return bytes(drawing.encode(stream.getvalue()))
+
+
+def _layer(name: str) -> str:
+    """Return `name` without what DXF does not allow in the name of a layer; without one, layer 0."""
+    return re.sub(r'[<>/\\":;?*|=,`\x00-\x1f]', "_", name.strip())[:_LONGEST] or "0"

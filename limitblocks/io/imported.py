@@ -1,0 +1,231 @@
+"""Blocks from files of other programs, and what the readers of all formats share."""
+
+from __future__ import annotations
+
+import logging
+import warnings
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.geometry import Block
+from limitblocks.geometry.mend import mended
+from limitblocks.io import faults
+from limitblocks.io.strict_json import LARGEST_FILE
+
+#: Metres per unit of length.
+UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
+MOST_SOLIDS = 100_000
+#: Layers, in small letters, whose blocks are supports unless the format says otherwise.
+SUPPORT_LAYERS = ("support", "supports")
+MOST_FACES = 1_000_000
+
+#: From axes with Y up to axes with Z up.
+Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+UnitWeight = float | Mapping[str, float] | None
+
+
+@dataclass(frozen=True)
+class ImportedBlocks:
+    """Blocks read from a file.
+
+    Attributes
+    ----------
+    blocks : tuple of Block
+        In the order of the file; names are unique.
+    layers : mapping of str to str
+        Layer, group or material of each block, by block name; empty text where the file has none.
+    notes : tuple of str
+        What was mended and renamed, a line each.
+    supports : tuple of str
+        Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
+        layer named "support" or "supports".
+    """
+
+    blocks: tuple[Block, ...]
+    layers: Mapping[str, str]
+    notes: tuple[str, ...]
+    supports: tuple[str, ...] = ()
+
+
+class Solid(NamedTuple):
+    """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file.
+
+    `support` says whether the file marks it so; None: its layer says it.
+    """
+
+    name: str
+    layer: str
+    vertices: Any
+    faces: Sequence[Sequence[int]]
+    support: bool | None = None
+
+
+class Contents(NamedTuple):
+    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
+
+    solids: Sequence[Solid]
+    metres: float | None = None
+    notes: Sequence[str] = ()
+    up: str = "z"
+
+
+def read_bytes(path: Path) -> bytes:
+    """Return the content of the file at `path`.
+
+    Raises
+    ------
+    ModelError
+        It cannot be read, is not a plain file, is empty or too large.
+    """
+    try:
+        if path.exists() and not path.is_file():  # reading a pipe or a device may never end
+            raise ModelError("is not a file; name a file")
+        with path.open("rb") as stream:
+            data = stream.read(LARGEST_FILE + 1)
+    except OSError as error:
+        raise ModelError(f"cannot be read: {error.strerror or error}") from None
+    except ValueError as error:  # a null character in the name
+        raise ModelError(f"cannot be read: {error}") from None
+    if len(data) > LARGEST_FILE:
+        raise ModelError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB, the most that is read")
+    if not data.strip():
+        raise ModelError("is empty; expected blocks")
+    return data
+
+
+def refuse_many(solids: int = 0, faces: int = 0) -> None:
+    """Raise ModelError where a file has more blocks or faces than are read."""
+    for number, most, word in ((solids, MOST_SOLIDS, "blocks"), (faces, MOST_FACES, "faces")):
+        if number > most:
+            raise ModelError(f"has {number} {word}; at most {most} are read, split the file")
+
+
+@contextmanager
+def foreign(word: str) -> Iterator[None]:
+    """Turn whatever another package does with a damaged file into one ModelError; `word` is the format."""
+    try:
+        with warnings.catch_warnings(), np.errstate(all="ignore"), _silent():
+            warnings.simplefilter("ignore")
+            yield
+    except LimitBlocksError:
+        raise
+    except Exception as error:
+        said = " ".join(str(error).split()) or "no reason given"
+        raise ModelError(f"is not sound {word}: {type(error).__name__}: {said}") from None
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Keep other packages from logging; the caller gets one error."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logging.disable(before)
+
+
+def metres(units: str | None, stated: float | None = None) -> float:
+    """Return metres per unit: those of `units`, else what the file states, else 1.
+
+    Raises
+    ------
+    ModelError
+        `units` is unknown.
+    """
+    if units is None:
+        return 1.0 if stated is None else stated
+    if units not in UNITS:
+        raise ModelError(f"units are {units!r}; expected one of {', '.join(UNITS)}")
+    return UNITS[units]
+
+
+def imported(
+    contents: Contents, units: str | None, unit_weight: UnitWeight, up: str | None = None
+) -> ImportedBlocks:
+    """Return the solids of a file as blocks with unique names, in metres, with Z up.
+
+    Raises
+    ------
+    ModelError
+        With all faults: solids that are no blocks, no solid, an unknown unit, axis or layer.
+    """
+    solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
+    refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
+    if not solids:
+        raise ModelError("holds no solid; expected at least one block")
+    names, notes = unique_names([solid.name for solid in solids])
+    layers = {name: solid.layer for name, solid in zip(names, solids, strict=True)}
+    weights = _weights(layers, unit_weight)
+    wrong: list[str] = []
+    blocks, notes = [], [*contents.notes, *notes]
+    for name, solid in zip(names, solids, strict=True):
+        try:
+            vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
+            block, said = mended(name, vertices, solid.faces, weights[name])
+        except ModelError as error:
+            wrong += error.problems
+        else:
+            blocks.append(block)
+            notes += said
+    if wrong:
+        raise ModelError(*wrong)
+    supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
+    return ImportedBlocks(tuple(blocks), layers, tuple(notes), supports)
+
+
+def _is_support(solid: Solid) -> bool:
+    on_layer = solid.layer.strip().lower() in SUPPORT_LAYERS
+    return on_layer if solid.support is None else solid.support
+
+
+def _upright(up: str) -> Array:
+    """Return the matrix (3, 3) that turns rows of coordinates to Z up."""
+    if up not in ("y", "z"):
+        raise ModelError(f"up is {up!r}; expected 'y' or 'z'")
+    return Z_UP.T if up == "y" else np.eye(3)
+
+
+def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return names that are unique and not empty, and a note for each name that was shared.
+
+    The first of a name keeps it, the others get a number: "stone", "stone 2", "stone 3".
+    """
+    given = [" ".join(name.split()) or "block" for name in names]
+    times, taken, last = Counter(given), set(given), dict.fromkeys(given, 1)
+    unique = []
+    for name in given:
+        new = name
+        if last[name] > 1:
+            while (new := f"{name} {last[name]}") in taken:
+                last[name] += 1
+            taken.add(new)
+        last[name] += 1
+        unique.append(new)
+    shared = [name for name, k in times.items() if k > 1]
+    return unique, [
+        f"{times[name]} blocks are named {name!r}; all but the first got a number" for name in shared
+    ]
+
+
+def _weights(layers: Mapping[str, str], unit_weight: UnitWeight) -> dict[str, float | None]:
+    """Return the unit weight of each block; None on layers without one."""
+    if not isinstance(unit_weight, Mapping):
+        return dict.fromkeys(layers, unit_weight)
+    known = sorted(set(layers.values()))
+    unknown = [layer for layer in unit_weight if layer not in known]
+    if unknown:
+        raise ModelError(
+            *(f"unit weight of layer {layer!r}: there are layers {known[:8]}{faults.near(layer, known)}"
+              for layer in unknown)
+        )  # fmt: skip
+    return {name: unit_weight.get(layer) for name, layer in layers.items()}

@@ -1,0 +1,75 @@
+"""How blocks move in a result, scaled to be seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.results import LoadPath
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
+from limitblocks.model import Model
+
+#: Largest displacement shown, over the diagonal of the structure, and largest rotation shown, rad.
+SHOWN, TURN = 0.08, 0.25
+
+
+class Motion(NamedTuple):
+    """Displacements (k, n, 6) of n blocks in k states, as shown, and what they were multiplied by."""
+
+    states: Array
+    magnification: float
+
+
+def motion(model: Model, result: Any) -> Motion:
+    """Return the displacements of a result of `model`, scaled to be seen.
+
+    One factor scales all: the largest displacement of a vertex becomes 8 % of the diagonal of the structure,
+    or the largest rotation 0.25 rad where that is less.
+
+    Parameters
+    ----------
+    model : Model
+    result : LoadPath, or any result with `displacement_rates` (n, 6)
+        A load path has a state a step; another result one state, the mechanism.
+
+    Raises
+    ------
+    ModelError
+        The result has no displacements, or they are not of the blocks of the model.
+    """
+    n = len(model.blocks)
+    if isinstance(result, LoadPath):
+        states = np.array([step.displacements for step in result.steps], dtype=float)
+    else:
+        rates = getattr(result, "displacement_rates", None)
+        if rates is None:
+            raise ModelError(
+                f"{type(result).__name__} has no displacement rates; expected a mechanism or a load path"
+            )
+        states = np.array([rates], dtype=float)
+    if states.shape[1:] != (n, 6) or not np.isfinite(states).all():
+        raise ModelError(
+            f"the result has displacements of shape {states.shape[1:]}; the model has {n} blocks"
+        )
+    factor = _magnification(model.blocks, states)
+    return Motion(factor * states, factor)
+
+
+def displaced(block: Block, moved: Array) -> Array:
+    """Return the displacements (n, 3), m, of the vertices of a block: v + w x r about its centroid."""
+    return np.asarray(moved[:3] + np.cross(moved[3:], block.vertices - block.centroid))
+
+
+def _magnification(blocks: Sequence[Block], states: Array) -> float:
+    points = np.concatenate([block.vertices for block in blocks])
+    shifts = (displaced(block, moved) for state in states for block, moved in zip(blocks, state, strict=True))
+    largest = max(float(np.linalg.norm(shift, axis=1).max()) for shift in shifts)
+    turn = float(np.linalg.norm(states[..., 3:], axis=-1).max())
+    if largest == 0.0:
+        return 0.0
+    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
+    return min(SHOWN * diagonal / largest, TURN / turn if turn > 0.0 else np.inf)

@@ -1,0 +1,76 @@
+"""Wavefront OBJ: each object a block, or each group where there are no objects; faces as they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from limitblocks.errors import ModelError
+from limitblocks.io.imported import Contents, Solid, read_bytes, refuse_many
+from limitblocks.io.shells import solids
+
+_Section = tuple[str, str]  # name and layer of what is drawn
+_Face = tuple[int, ...]
+
+
+def contents(path: Path) -> Contents:
+    """Return the solids of an OBJ file; an object's layer is its group, else its material.
+
+    Raises
+    ------
+    ModelError
+        A line cannot be read.
+    """
+    vertices: list[list[float]] = []
+    drawn: dict[_Section, list[_Face]] = {}
+    state = {"o": "", "g": "", "usemtl": ""}
+    for number, (word, *rest) in _lines(read_bytes(path)):
+        try:
+            if word == "v":
+                x, y, z = map(float, rest[:3])
+                vertices.append([x, y, z])
+            elif word == "f":
+                drawn.setdefault(_section(state, path), []).append(_face(rest, len(vertices)))
+            elif word in state:
+                state[word] = " ".join(rest)
+        except ValueError as error:
+            raise ModelError(
+                f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {error}"
+            ) from None
+    refuse_many(faces=sum(map(len, drawn.values())))
+    found: list[Solid] = []
+    for (name, layer), faces in drawn.items():
+        used = sorted({vertex for face in faces for vertex in face})
+        place = {vertex: k for k, vertex in enumerate(used)}
+        loops = [tuple(place[vertex] for vertex in face) for face in faces]
+        found += solids(name, layer, [vertices[vertex] for vertex in used], loops)
+    return Contents(found)
+
+
+def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
+    """Yield number and words of each line that says something."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = data.decode("latin-1")
+    if "\0" in text:
+        raise ModelError("is not text; an OBJ file is")
+    for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").splitlines(), 1):
+        words = line.split()
+        if words and not words[0].startswith("#"):
+            yield number, words
+
+
+def _section(state: dict[str, str], path: Path) -> _Section:
+    if state["o"]:
+        return state["o"], state["g"] or state["usemtl"]
+    return state["g"] or path.stem, state["usemtl"]
+
+
+def _face(corners: list[str], known: int) -> _Face:
+    """Return the vertices of a face from 0; an OBJ file counts from 1, or back from the last with -1."""
+    indices = [int(corner.partition("/")[0]) for corner in " ".join(corners).partition("#")[0].split()]
+    for index in indices:
+        if not (1 <= index <= known or -known <= index <= -1):
+            raise ValueError(f"vertex {index} is not one of the {known} vertices before it")
+    return tuple(index - 1 if index > 0 else known + index for index in indices)

@@ -1,0 +1,171 @@
+"""Blocks from Rhino 3dm files: meshes, polysurfaces and extrusions with plane faces, block instances."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.io import rhino_breps, rhino_chunks, rhino_trial, shells
+from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+
+_DEEPEST = 32  # instances within instances
+#: Metres per unit of Rhino's unit systems.
+_METRES = {
+    "Microns": 1e-6, "Millimeters": 1e-3, "Centimeters": 1e-2, "Decimeters": 0.1, "Meters": 1.0,
+    "Dekameters": 10.0, "Hectometers": 100.0, "Kilometers": 1e3, "Microinches": 2.54e-8, "Mils": 2.54e-5,
+    "Inches": 0.0254, "Feet": 0.3048, "Yards": 0.9144,
+}  # fmt: skip
+
+
+class Part(NamedTuple):
+    """A geometry out of its block instances: `matrix` (4, 4) takes it to the model."""
+
+    geometry: Any
+    matrix: Array
+    layer: str
+    name: str
+
+    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Return faces in the sense they have in the model, which a mirror image turns."""
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
+        return [face[::-1] for face in faces] if mirrored else faces
+
+    def placed(self, points: Array) -> Array:
+        """Return points (n, 3) of the geometry in the coordinates of the model."""
+        return np.asarray(points @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+
+
+def rhino3dm() -> ModuleType:
+    """Return the package rhino3dm.
+
+    Raises
+    ------
+    MissingDependency
+        It is not installed.
+    """
+    try:
+        import rhino3dm as package
+    except ImportError:
+        raise MissingDependency("3dm files need rhino3dm: pip install limitblocks[rhino]") from None
+    return package
+
+
+def contents(path: Path) -> Contents:
+    """Return the solids in a Rhino file; hidden objects and all that is no solid are left out with a note."""
+    package = rhino3dm()
+    model, notes = _model(package, path)
+    left_out: Counter[str] = Counter()
+    wrong: list[str] = []
+    solids: list[Solid] = []
+    with foreign("3dm"):
+        for part in _Expansion(package, model, left_out).everything():
+            try:
+                found = rhino_breps.polygons(package, part.geometry)
+            except ModelError as error:
+                wrong += [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
+                continue
+            if found is None:
+                left_out[type(part.geometry).__name__] += 1
+            else:
+                points, faces = part.placed(found[0]), part.turned(found[1])
+                solids += shells.solids(part.name, part.layer, points, faces)
+        metres, said = _metres(model)
+    if wrong:
+        raise ModelError(*wrong)
+    listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
+    if not solids:
+        raise ModelError(
+            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
+        )
+    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
+
+
+def _model(package: ModuleType, path: Path) -> tuple[Any, list[str]]:
+    """Return the model in a file, and a note where rhino3dm left out objects without a word."""
+    data = read_bytes(path)
+    fault = rhino_chunks.fault(data) or rhino_trial.fault(path)
+    if fault:
+        raise ModelError(fault)
+    with foreign("3dm"):
+        model = package.File3dm.FromByteArray(data)
+        if model is None:
+            raise ModelError("is not sound 3dm: rhino3dm cannot read it; save it again in Rhino")
+        lost = rhino_chunks.objects(data) - len(model.Objects)
+    return model, [f"left out: {lost} objects that rhino3dm cannot read, damaged or of plug-ins"] * (lost > 0)
+
+
+def _metres(model: Any) -> tuple[float | None, list[str]]:
+    unit = str(model.Settings.ModelUnitSystem).rpartition(".")[2]
+    if unit in {"None", "Unset"}:
+        return None, ["states no unit of length; metres unless units=... is given"]
+    if unit not in _METRES:
+        raise ModelError(f"unit of length is {unit!r}; set one of {', '.join(_METRES)} in Rhino")
+    return _METRES[unit], []
+
+
+class _Expansion:
+    """State of taking a model apart."""
+
+    def __init__(self, package: ModuleType, model: Any, left_out: Counter[str]) -> None:
+        self.package, self.model, self.left_out = package, model, left_out
+        self.met = 0
+        self.layers = {layer.Index: layer for layer in model.Layers}
+        shown = {str(layer.Id): layer for layer in model.Layers}
+        self.hidden = {
+            index for index, layer in self.layers.items() if not all(_visible(layer, shown, len(shown)))
+        }
+
+    def everything(self) -> Iterator[Part]:
+        """Yield what the model shows, instances taken apart."""
+        top = [item for item in self.model.Objects if not item.Attributes.IsInstanceDefinitionObject]
+        return self.parts(top, np.eye(4), "", 0)
+
+    def parts(self, items: Sequence[Any], matrix: Array, name: str, depth: int) -> Iterator[Part]:
+        for item in items:
+            self.met += 1
+            if self.met > MOST_FACES:
+                raise ModelError(f"has more than {MOST_FACES} objects, the most that are read")
+            attributes, geometry = item.Attributes, item.Geometry
+            layer = self.layers.get(attributes.LayerIndex)
+            # objects of a definition are hidden themselves; only their layer counts
+            if attributes.LayerIndex in self.hidden or (depth == 0 and not attributes.Visible):
+                self.left_out["hidden objects"] += 1
+                continue
+            title = name or attributes.Name
+            if isinstance(geometry, self.package.InstanceReference):
+                yield from self.instances(geometry, matrix, title, depth)
+            elif geometry is not None:
+                path = layer.FullPath if layer is not None else ""
+                yield Part(geometry, matrix, path, title or f"{path} {str(attributes.Id)[:8]}".strip())
+
+    def instances(self, reference: Any, matrix: Array, name: str, depth: int) -> Iterator[Part]:
+        definition = self.model.InstanceDefinitions.FindId(reference.ParentIdefId)
+        if definition is None:
+            raise ModelError(f"block instance {name!r}: its definition {reference.ParentIdefId} is missing")
+        if depth == _DEEPEST:
+            raise ModelError(
+                f"block {definition.Name!r} contains itself, or blocks nest deeper than {_DEEPEST}"
+            )
+        items = [self.model.Objects.FindId(key) for key in definition.GetObjectIds()]
+        where = matrix @ _matrix(reference.Xform)
+        yield from self.parts([i for i in items if i is not None], where, name or definition.Name, depth + 1)
+
+
+def _visible(layer: Any, known: dict[str, Any], steps: int) -> Iterator[bool]:
+    """Yield whether a layer and each one above it are switched on."""
+    above: Any = layer
+    while above is not None and steps >= 0:
+        yield bool(above.Visible)
+        above, steps = known.get(str(above.ParentLayerId)), steps - 1
+
+
+def _matrix(transform: Any) -> Array:
+    """Return a transform as a matrix (4, 4), with the digits that its ToFloatArray drops."""
+    return np.array([[getattr(transform, f"M{i}{j}") for j in range(4)] for i in range(4)], dtype=np.float64)

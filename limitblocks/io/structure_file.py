@@ -1,0 +1,147 @@
+"""A model from a file of any format: the model file, or blocks with what makes them a model."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry import Block, find_contacts
+from limitblocks.io import faults, model_file
+from limitblocks.io.formats import is_model_file, read_blocks
+from limitblocks.io.imported import ImportedBlocks, UnitWeight
+from limitblocks.joints import Joint
+from limitblocks.mechanics import Load, self_weight
+from limitblocks.model import Model
+
+Supports = str | Iterable[str] | Callable[[Block], bool]
+
+_log = logging.getLogger("limitblocks")
+
+
+def read(
+    file: str | Path,
+    *,
+    joint: Joint | None = None,
+    supports: Supports | None = None,
+    unit_weight: UnitWeight = None,
+    units: str | None = None,
+    up: str | None = None,
+    dead: Load | None = None,
+    live: Load | None = None,
+    gap: float | None = None,
+    angle: float | None = None,
+) -> Model:
+    """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
+
+    A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
+    bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
+    :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
+    warnings, a line each; :func:`limitblocks.read_blocks` and :func:`limitblocks.find_contacts` return them.
+
+    Parameters
+    ----------
+    file : str or Path
+        The suffix of its name says the format.
+    joint : Joint, optional
+        What every interface can carry.
+    supports : str, iterable of str, or function of a Block, optional
+        Names of blocks or of layers, or what is true for a block that does not move; left out, the supports
+        that the file marks: :attr:`ImportedBlocks.supports`.
+    unit_weight : float or mapping of str to float, optional
+        N/m3, of all blocks or by layer.
+    units : str, optional
+        Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
+        metres where it says nothing.
+    up : str, optional
+        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+    dead, live : Load, optional
+        Loads; `dead` is self weight if left out.
+    gap, angle : float, optional
+        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, the model in it is wrong, or something that the format needs is missing;
+        `problems` has one line per fault, each with the file and the place in it.
+    MissingDependency
+        The format needs a package that is not installed.
+    """
+    path = Path(file)
+    given: dict[str, object] = {
+        "joint": joint,
+        "supports": supports,
+        "unit_weight": unit_weight,
+        "units": units,
+        "up": up,
+    }
+    said = [key for key, value in given.items() if value is not None]
+    if is_model_file(path) and said:
+        raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
+    if is_model_file(path):
+        return model_file.read(path)
+    found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    with faults.named(path):
+        model, warnings = model_of(
+            found, joint=joint, supports=supports, live=live, dead=dead, gap=gap, angle=angle, name=path.stem
+        )
+    for line in (*found.notes, *warnings):
+        _log.warning("%s: %s", path, line)
+    return model
+
+
+def model_of(
+    found: ImportedBlocks,
+    *,
+    joint: Joint | None,
+    supports: Supports | None,
+    live: Load | None,
+    dead: Load | None = None,
+    gap: float | None = None,
+    angle: float | None = None,
+    name: str = "",
+) -> tuple[Model, list[str]]:
+    """Return the model of blocks that were read, and what is worth a look in their contacts, a line each.
+
+    Raises
+    ------
+    ModelError
+        An argument is missing, a support is unknown, or the model is wrong.
+    """
+    supports = supports or found.supports or None
+    if joint is None or supports is None or live is None:
+        given = {"joint": joint, "supports": supports, "live": live}
+        missing = (key for key, value in given.items() if value is None)
+        raise ModelError(
+            *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
+        )
+    names = supports_of(found, supports)
+    tolerances = {key: value for key, value in (("gap", gap), ("angle", angle)) if value is not None}
+    contacts = find_contacts(found.blocks, joint, **tolerances)
+    if contacts.overlaps:
+        raise GeometryError(*map(str, contacts.overlaps))
+    loads = self_weight() if dead is None else dead
+    return Model(found.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
+
+
+def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
+    """Return the names of the supports: blocks named, of named layers, or that a function picks.
+
+    Raises
+    ------
+    ModelError
+        A name is neither that of a block nor that of a layer.
+    """
+    if callable(supports):
+        return tuple(block.name for block in found.blocks if supports(block))
+    wanted = {supports} if isinstance(supports, str) else set(supports)
+    names, layers = set(found.layers), set(found.layers.values()) - {""}
+    unknown = sorted(wanted - names - layers)
+    if unknown:
+        raise ModelError(
+            *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
+              for name in unknown)
+        )  # fmt: skip
+    return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)

@@ -1,0 +1,32 @@
+"""Figures for papers, drawn by matplotlib: `pip install limitblocks[plots]`.
+
+Every function returns the Axes it drew on; `ax` is where to draw, a new figure without it. No function
+touches pyplot, so that nothing is left open: save by ``ax.figure.savefig("wall.pdf")``.
+"""
+
+from limitblocks.errors import MissingDependency
+
+try:
+    import matplotlib as _matplotlib  # noqa: F401
+except ImportError as error:
+    raise MissingDependency(
+        "limitblocks.plots needs matplotlib, which is not installed; pip install limitblocks[plots]"
+    ) from error
+
+from limitblocks.plots.contacts import forces, interface_states, thrust_line
+from limitblocks.plots.curves import bracket, convergence, load_path, polar
+from limitblocks.plots.structures import mechanism, structure
+from limitblocks.plots.surfaces import interaction
+
+__all__ = [
+    "bracket",
+    "convergence",
+    "forces",
+    "interaction",
+    "interface_states",
+    "load_path",
+    "mechanism",
+    "polar",
+    "structure",
+    "thrust_line",
+]

@@ -1,0 +1,210 @@
+"""What contacts carry and do: forces, the line of thrust, interface states."""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from typing import Any
+
+import numpy as np
+
+from limitblocks.analysis import interface_states as states
+from limitblocks.analysis.results import LoadPath
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Interface
+from limitblocks.model import Model
+from limitblocks.plots.drawing import Canvas
+from limitblocks.plots.structures import draw_structure
+from limitblocks.plots.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PALE,
+    PURPLE,
+    SKY,
+    VERMILION,
+    YELLOW,
+    in_newtons,
+)
+from limitblocks.plots.views import canvas
+
+LONGEST = 0.15  # arrow of the largest force, over the diagonal of the structure
+SHORTEST = 1e-2  # of the largest force: less is not drawn
+STICK = "#8c8c8c"
+# Colours of the states, widths of their lines so that print in grey tells some apart.
+COLOURS = {
+    "stick": (STICK, 1.0),
+    "open": (ORANGE, 2.2),
+    "slide": (BLUE, 2.6),
+    "twist": (GREEN, 2.6),
+    "slide-twist": (SKY, 2.6),
+    "hinge": (VERMILION, 2.6),
+    "hinge-slide": (PURPLE, 2.6),
+    "hinge-twist": (YELLOW, 2.6),
+    "hinge-slide-twist": ("#7b4a12", 2.6),
+    "crush": (BLACK, 3.4),
+}
+
+
+def forces(
+    model: Model, result: states.Collapse | LoadPath, ax: Any = None, *, plane: str | None = None
+) -> Any:
+    """Draw the contact forces as arrows from the points where they act.
+
+    Each arrow is the force on the upper of the two blocks (on block j, if their centroids are level); the
+    other block feels the opposite. Forces below 1 % of the largest are left out.
+
+    Parameters
+    ----------
+    model : Model
+        The structure.
+    result : Bounds, Nonassociated or LoadPath
+        Of this model; the largest force is written above the drawing.
+    ax, plane
+        As for :func:`structure`.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the result belongs to another model or has no forces to draw.
+    """
+    found = states.interface_states(model, result)
+    drawn = canvas(model, ax, plane)
+    _pale(drawn, model)
+    height = {block.name: block.centroid[2] for block in model.blocks}
+    up = [height[i.block_i] > height[i.block_j] * (1 + 1e-9) for i in model.interfaces]
+    vectors = np.where(np.array(up)[:, None], -found.force, found.force)
+    sizes = np.linalg.norm(vectors, axis=1)
+    shown = sizes > SHORTEST * sizes.max()
+    points = np.concatenate([block.vertices for block in model.blocks])
+    longest = LONGEST * float(np.linalg.norm(np.ptp(points, axis=0)))
+    length = longest / max(float(sizes.max()), np.finfo(float).tiny)
+    tails = applied(found)[shown]
+    drawn.arrows(tails, length * vectors[shown], color=BLUE)
+    drawn.plot(tails, "o", color=BLACK, markersize=1.2 if drawn.spatial else 2.0)
+    drawn.frame(np.concatenate([points, tails + length * vectors[shown]]))
+    drawn.title(f"contact forces; longest arrow {in_newtons(sizes.max())}")
+    return drawn.ax
+
+
+def applied(found: states.InterfaceStates) -> Array:
+    """Where the contact forces act: centres of pressure, or centroids without pressure; (m, 3)."""
+    return np.where(np.isnan(found.centre_of_pressure), found.centroid, found.centre_of_pressure)
+
+
+def thrust_line(
+    model: Model, result: states.Collapse | LoadPath, ax: Any = None, *, plane: str | None = None
+) -> Any:
+    """Draw the line of thrust of an arch, a column or another chain of blocks, and its hinges.
+
+    The line joins the centres of pressure, (e1, e2) = (-M2, M1) / N off the centroids, in the order of the
+    blocks; it breaks at an interface without a normal force.
+
+    Parameters
+    ----------
+    model : Model
+        Its free blocks are a chain: none has more than two interfaces, and they do not form a ring.
+    result : Bounds, Nonassociated or LoadPath
+        Of this model.
+    ax, plane
+        As for :func:`structure`.
+
+    Raises
+    ------
+    ModelError
+        If the blocks are not a chain.
+    LimitBlocksError
+        If the result belongs to another model.
+    """
+    order = chain(model)
+    found = states.interface_states(model, result)
+    drawn = canvas(model, ax, plane)
+    _pale(drawn, model)
+    line = found.centre_of_pressure[order]
+    drawn.plot(line, "-", color=VERMILION, linewidth=1.6, label="line of thrust")
+    hinges = line[["hinge" in found.state[k] for k in order]]
+    if len(hinges):
+        style = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5}
+        drawn.plot(hinges, "o", label="hinge", **style)
+    drawn.legend()
+    return drawn.ax
+
+
+def chain(model: Model) -> list[int]:
+    """Positions of the interfaces in the order of a chain of blocks; ModelError if they are none."""
+    free = {block.name for block in model.free_blocks}
+    touching = defaultdict(list)
+    for k, interface in enumerate(model.interfaces):
+        for name in free & {interface.block_i, interface.block_j}:
+            touching[name].append(k)
+    crowded = [name for name in touching if len(touching[name]) > 2]
+    if crowded:
+        raise ModelError(
+            f"block {crowded[0]!r} has {len(touching[crowded[0]])} interfaces; "
+            "a line of thrust needs a chain of blocks, at most two each"
+        )
+    starts = [(k, name) for name, ks in touching.items() for k in ks if _other(model, k, name) not in free]
+    starts += [(ks[0], _other(model, ks[0], name)) for name, ks in touching.items() if len(ks) == 1]
+    order, name = ([starts[0][0]], starts[0][1]) if starts else ([], "")
+    while onward := [k for k in touching.get(name, []) if k not in order]:
+        order.append(onward[0])
+        name = _other(model, onward[0], name)
+    if len(order) < len(model.interfaces):
+        raise ModelError("the blocks form more than one chain, or a ring; a line of thrust needs one chain")
+    return order
+
+
+def _other(model: Model, k: int, name: str) -> str:
+    interface = model.interfaces[k]
+    return interface.block_j if interface.block_i == name else interface.block_i
+
+
+def interface_states(
+    model: Model, result: states.Collapse | LoadPath, ax: Any = None, *, plane: str | None = None
+) -> Any:
+    """Draw each interface in the colour of its state: stick, slide, twist, hinge, crush, open.
+
+    Dots are the centres of pressure of hinges. The legend counts the interfaces of each state.
+
+    Parameters
+    ----------
+    model : Model
+        The structure.
+    result : Bounds, Nonassociated or LoadPath
+        Of this model; see :func:`limitblocks.analysis.interface_states.interface_states`.
+    ax, plane
+        As for :func:`structure`.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the result belongs to another model.
+    """
+    found = states.interface_states(model, result)
+    drawn = canvas(model, ax, plane)
+    _pale(drawn, model)
+    counted = Counter(found.state)
+    for state in sorted(counted, key=[*COLOURS, *sorted(counted)].index):
+        colour, width = COLOURS.get(state, COLOURS["crush"])
+        these = [_corners(i) for i, s in zip(model.interfaces, found.state, strict=True) if s == state]
+        style = {
+            "facecolors": colour,
+            "edgecolors": colour,
+            "linewidths": width if not drawn.spatial else 0.6,
+        }
+        alpha = {"alpha": 0.35 if state == "stick" else 0.85} if drawn.spatial else {}
+        drawn.polygons(these, label=f"{state} ({counted[state]})", **style, **alpha)
+    hinges = found.centre_of_pressure[["hinge" in state for state in found.state]]
+    drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4)
+    drawn.legend()
+    return drawn.ax
+
+
+def _corners(interface: Interface) -> Array:
+    return np.asarray(interface.centroid + interface.polygon @ interface.axes[:2])
+
+
+def _pale(drawn: Canvas, model: Model) -> None:
+    """The structure as a background for what is drawn over it."""
+    draw_structure(drawn, model, edgecolor=PALE, alpha=0.25 if drawn.spatial else 1.0)

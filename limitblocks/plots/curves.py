@@ -1,0 +1,245 @@
+"""Load factors as curves: convergence, load path, direction of the push, comparison of the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from limitblocks.analysis.bounds import Bounds
+from limitblocks.analysis.results import LoadPath, Nonassociated
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.model import Model
+from limitblocks.plots.style import (
+    BLACK,
+    BLUE,
+    CYCLE,
+    ORANGE,
+    PALE,
+    SKY,
+    VERMILION,
+    curve_axes,
+    legend_below,
+    plain,
+)
+
+COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
+KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*"}
+FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
+
+
+def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
+    """Draw the residuals of the outer loop on a logarithmic scale, and the load factor beside them.
+
+    Parameters
+    ----------
+    result : Nonassociated or LoadPath
+        With its history.
+    ax : Axes, optional
+        Where to draw; the load factor is on a second vertical axis to the right.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the result has no history.
+    """
+    found = result.collapse if isinstance(result, LoadPath) else result
+    history = getattr(found, "history", ())
+    if not history:
+        raise LimitBlocksError(f"this {type(result).__name__} has no history to draw")
+    ax = curve_axes(ax)
+    steps = np.arange(1, len(history) + 1)
+    names = list(dict.fromkeys(name for one in history for name in one.residuals))
+    for name, colour in zip(names, [c for c in CYCLE if c != BLACK] * len(names), strict=False):
+        values = [max(one.residuals.get(name, np.nan), FLOOR) for one in history]
+        ax.semilogy(steps, values, ".-", color=colour, linewidth=1.0, label=name)
+    ax.axhline(found.tolerance, color=PALE, linestyle=":", label="tolerance")
+    ax.set(xlabel="stage of the outer loop (–)", ylabel="residual (–)")
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+    right = ax.twinx()
+    loads = [one.load_factor for one in history]
+    right.plot(steps, loads, "s-", color=BLACK, markersize=3.0, linewidth=1.4, label="load factor")
+    right.set_ylabel("load factor (–)")
+    ax.spines["top"].set_visible(False)
+    right.spines["top"].set_visible(False)
+    handles = [*ax.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
+    legend_below(ax, handles=handles, ncols=4)
+    return ax
+
+
+def load_path(
+    path: LoadPath,
+    model: Model,
+    block: str | None = None,
+    component: str | None = None,
+    ax: Any = None,
+) -> Any:
+    """Draw the load factor against a displacement of one block, from the permanent loads to collapse.
+
+    Parameters
+    ----------
+    path : LoadPath
+        Its steps.
+    model : Model
+        The structure it belongs to.
+    block : str, optional
+        Name of the block; the one that moves most unless given.
+    component : {"X", "Y", "Z", "rX", "rY", "rZ"}, optional
+        Displacement of its centroid, m, or rotation, rad; that which grows most unless given.
+    ax : Axes, optional
+        Where to draw.
+
+    Raises
+    ------
+    LimitBlocksError
+        If the path belongs to another model, or the block or the component is unknown.
+    """
+    if path.collapse.digest != model.digest:
+        raise LimitBlocksError("this LoadPath belongs to another model; give the model it is a result of")
+    names = [one.name for one in model.blocks]
+    if block is not None and block not in names:
+        raise ModelError(f"block {block!r} is not a block of the model")
+    if component is not None and component not in COMPONENTS:
+        raise ModelError(f"component is {component!r}, expected one of {', '.join(COMPONENTS)}")
+    moved = np.abs(path.steps[-1].displacements)
+    axes = [COMPONENTS[component]] if component else [0, 1, 2]
+    rows = [names.index(block)] if block else list(range(len(names)))
+    row, column = np.unravel_index(int(moved[np.ix_(rows, axes)].argmax()), (len(rows), len(axes)))
+    k, axis = rows[int(row)], axes[int(column)]
+    x, loads = path.curve(k, axis)
+    ax = curve_axes(ax)
+    ax.plot(x, loads, "-", color=BLUE, linewidth=1.4)
+    for kind in dict.fromkeys(step.kind for step in path.steps):
+        these = [step.kind == kind for step in path.steps]
+        size = 11.0 if kind == "fixed point" else 4.5
+        style = {"color": VERMILION if kind == "fixed point" else BLUE, "markersize": size}
+        ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
+    word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
+    ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
+    ax.set_ylabel("load factor (–)")
+    ax.legend(frameon=False, fontsize="small", loc="lower right")
+    plain(ax)
+    return ax
+
+
+def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: str | None = None) -> Any:
+    """Draw the load factor against the direction of the push.
+
+    Parameters
+    ----------
+    directions : study or array_like, shape (k,)
+        Angles, rad, counter-clockwise from X; or a study with the fields `angles` and `load_factors`. Those
+        that are not finite, of a vertical push, are left out.
+    load_factors : array_like, shape (k,), optional
+        Not with a study. Infinite and undefined ones are left out.
+    ax : Axes, optional
+        Polar axes.
+    label : str, optional
+        In the legend.
+
+    Raises
+    ------
+    LimitBlocksError
+        If `ax` is not polar, or there are not as many angles as load factors.
+    """
+    if load_factors is None:
+        missing = [name for name in ("angles", "load_factors") if not hasattr(directions, name)]
+        if missing:
+            raise LimitBlocksError(
+                f"{type(directions).__name__} has no {missing[0]}; give angles and load factors"
+            )
+        directions, load_factors = directions.angles, directions.load_factors
+    angles, values = (np.asarray(each, dtype=float) for each in (directions, load_factors))
+    if angles.shape != values.shape or angles.ndim != 1 or not np.isfinite(angles).any():
+        raise LimitBlocksError(
+            f"angles have shape {angles.shape} and load factors {values.shape}; "
+            "expected (k,) both and at least one angle that is finite"
+        )
+    order = np.argsort(angles)[: np.isfinite(angles).sum()]  # a vertical push has no angle
+    angles, values = angles[order], np.where(np.isfinite(values[order]), values[order], np.nan)
+    steps = np.diff(angles, append=angles[0] + 2 * np.pi)
+    if steps[-1] <= 1.5 * steps[:-1].max(initial=0.0):  # all around: close the curve
+        angles, values = np.append(angles, angles[0] + 2 * np.pi), np.append(values, values[0])
+    ax = curve_axes(ax, "polar")
+    (line,) = ax.plot(angles, values, ".-", color=CYCLE[len(ax.lines) % len(CYCLE)], label=label)
+    ax.fill(angles, np.nan_to_num(values), color=line.get_color(), alpha=0.1, linewidth=0)
+    ax.set_rlim(0.0, max(ax.get_rmax(), 1.08 * float(np.nan_to_num(values).max())))
+    ax.set_rlabel_position(112.5)
+    ax.tick_params(axis="x", pad=8)
+    ax.set_title("load factor (–) by direction of the push", fontsize="small", pad=14)
+    ticks = [f"{degrees}°" for degrees in range(0, 360, 45)]
+    ticks[0], ticks[2] = "0° (X)", "90° (Y)"
+    ax.set_xticks(np.radians(range(0, 360, 45)), ticks)
+    ax.yaxis.set_major_locator(MaxNLocator(5, prune="lower"))
+    if label is not None:
+        ax.legend(frameon=False, fontsize="small", loc="upper left", bbox_to_anchor=(1.05, 1.05))
+    return ax
+
+
+def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
+    """Draw the load factors of one model as bars: frictionless, non-associated, load path, associated.
+
+    Parameters
+    ----------
+    *results : Bounds, Nonassociated or LoadPath
+        Of one model. A non-associated result and a load path bring the frictionless and the associated value.
+    ax : Axes, optional
+        Where to draw.
+
+    Raises
+    ------
+    LimitBlocksError
+        If there is no result, one is of another kind, or they belong to different models.
+    """
+    if not results:
+        raise LimitBlocksError("no result given; expected those of bounds, nonassociated and load_path")
+    values: dict[str, float] = {}
+    digests = set()
+    for result in results:
+        values = _load_factors(result) | values
+        digests.add(getattr(result, "collapse", result).digest)  # type: ignore[union-attr] # checked above
+    if len(digests) > 1:
+        raise LimitBlocksError("the results belong to different models; compare results of one")
+    order = [name for name in COLOURS if name in values]
+    ax = curve_axes(ax, size=(6.0, 0.9 + 0.42 * len(order)))
+    numbers = np.array([values[name] for name in order])
+    finite = np.isfinite(numbers)
+    longest = float(np.abs(numbers[finite]).max(initial=0.0)) or 1.0
+    drawn = np.where(finite, numbers, np.where(np.isposinf(numbers), 1.25 * longest, 0.0))
+    ax.barh(order, drawn, height=0.6, color=[COLOURS[name] for name in order], edgecolor=BLACK, linewidth=0.6)
+    for k, (number, end) in enumerate(zip(numbers.tolist(), drawn.tolist(), strict=True)):
+        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "does not stand"
+        ax.annotate(
+            said, (max(end, 0.0), k), (4, 0), textcoords="offset points", va="center", fontsize="small"
+        )
+    ax.invert_yaxis()
+    ax.margins(x=0.18)
+    ax.set_xlabel("load factor (–)")
+    plain(ax)
+    return ax
+
+
+COLOURS = {
+    "frictionless": PALE,
+    "non-associated": BLUE,
+    "load path": SKY,
+    "associated, static": ORANGE,
+    "associated, kinematic": VERMILION,
+    "associated": ORANGE,
+}
+
+
+def _load_factors(result: Any) -> dict[str, float]:
+    if isinstance(result, Bounds):
+        if result.gap < 1e-3:
+            return {"associated": result.lower}
+        return {"associated, static": result.lower, "associated, kinematic": result.upper}
+    found = result.collapse if isinstance(result, LoadPath) else result
+    if not isinstance(found, Nonassociated):
+        raise LimitBlocksError(
+            f"{type(result).__name__} given; expected results of bounds, nonassociated or load_path"
+        )
+    name = "load path" if isinstance(result, LoadPath) else "non-associated"
+    return {"frictionless": found.frictionless, name: found.load_factor, "associated": found.associated}

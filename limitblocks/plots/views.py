@@ -1,0 +1,68 @@
+"""From which side a structure is seen, and the axes for it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import LimitBlocksError
+from limitblocks.model import Model
+from limitblocks.plots.drawing import Canvas
+from limitblocks.plots.style import new_axes
+
+# Directions on the page to the right, up, and towards the eye.
+PLANES = {
+    "xz": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
+    "yz": np.array([[0, 1.0, 0], [0, 0, 1], [1, 0, 0]]),
+    "xy": np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]),
+}
+
+
+def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
+    """Return `ax`, or new Axes, with the view of `model`.
+
+    Without a plane, `ax` decides; without `ax` too, models whose contacts and loads lie in one vertical plane
+    are drawn in elevation, others axonometrically.
+    """
+    if plane not in (None, "3d", *PLANES):
+        known = ", ".join(map(repr, (*PLANES, "3d")))
+        raise LimitBlocksError(f"plane is {plane!r}, expected one of {known}")
+    if ax is not None and getattr(ax, "name", None) not in ("3d", "rectilinear"):
+        raise LimitBlocksError(f"ax is {ax!r}, expected plain or 3d Axes of matplotlib")
+    if ax is not None and plane is not None and (ax.name == "3d") != (plane == "3d"):
+        raise LimitBlocksError(f"plane is {plane!r}, but ax has the projection {ax.name!r}; leave one out")
+    plane = plane or ("3d" if ax is not None and ax.name == "3d" else _plane(model, ax is not None))
+    if plane != "3d":
+        return Canvas(ax or new_axes(size=_size(model, PLANES[plane])), PLANES[plane], False, False)
+    own = ax is None
+    if own:
+        ax = new_axes("3d")
+        wide, deep, _ = np.ptp(_vertices(model), axis=0)
+        ax.view_init(elev=22.0, azim=-60.0 if wide >= deep else -30.0)
+    ax.computed_zorder = False
+    elev, azim = np.radians([ax.elev, ax.azim])
+    eye = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
+    right = np.array([-np.sin(azim), np.cos(azim), 0.0])
+    return Canvas(ax, np.array([right, np.cross(eye, right), eye]), True, own)
+
+
+def _plane(model: Model, flat: bool) -> str:
+    """Name of the elevation in which contacts and live load lie, or else 3d, or xz if it must be `flat`."""
+    vectors = np.stack([interface.axes[2] for interface in model.interfaces])
+    live = model.live.on(model.free_blocks)[:, :3]
+    live = live / max(float(np.abs(live).max()), np.finfo(float).tiny)
+    out = np.abs(np.concatenate([vectors, live])).max(axis=0) < 1e-6
+    return "xz" if out[1] else "yz" if out[0] else "xz" if flat else "3d"
+
+
+def _vertices(model: Model) -> Array:
+    return np.concatenate([block.vertices for block in model.blocks])
+
+
+def _size(model: Model, view: Array) -> tuple[float, float]:
+    """Size of a figure, inches, whose shape is that of the structure."""
+    wide, high = np.ptp(_vertices(model) @ view[:2].T, axis=0)
+    width = float(np.clip(4.5 * wide / high, 3.0, 6.5))
+    return width + 0.6, float(np.clip(width * high / wide, 1.2, 6.5)) + 1.0

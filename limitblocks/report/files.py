@@ -1,0 +1,73 @@
+"""Writing a report to a file, by its suffix, without harm to the files of others."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from limitblocks.errors import LimitBlocksError
+from limitblocks.report.content import content
+from limitblocks.report.markdown import MARK
+from limitblocks.report.pdf import CREATOR, pdf
+
+if TYPE_CHECKING:
+    from limitblocks.report.report import Report
+
+FORMAT = "limitblocks report"
+#: Suffixes of the formats, and what is in files of ours and in no others.
+MARKS = {
+    ".html": b'<meta name="generator" content="limitblocks ',
+    ".json": f'"format": "{FORMAT}"'.encode(),
+    ".md": MARK.encode(),
+    ".pdf": f"/Creator ({CREATOR})".encode(),
+}
+_MARK_WITHIN = 4096  # bytes from the start of the file, except in a PDF
+
+
+def suffix(file: str | Path) -> str:
+    """Return the suffix of a report file in small letters.
+
+    Raises
+    ------
+    LimitBlocksError
+        It is none of the formats of reports.
+    """
+    found = Path(file).suffix.lower()
+    found = ".html" if found == ".htm" else found
+    if found not in MARKS:
+        known = ", ".join(MARKS)
+        raise LimitBlocksError(f"{file}: a report cannot be written as {found or 'no suffix'!r}; use {known}")
+    return found
+
+
+def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) -> Path:
+    """Write `report` to `file` in the format of suffix `kind`; see :meth:`limitblocks.Report.save`."""
+    path = Path(file)
+    data = _bytes(report, kind)
+    try:
+        if overwrite or (overwrite is None and _ours(path, kind)):
+            path.write_bytes(data)
+        else:
+            with path.open("xb") as stream:
+                stream.write(data)
+    except FileExistsError:
+        said = "exists" if overwrite is False else "exists and was not written by limitblocks"
+        raise LimitBlocksError(f"{path} {said}; give another name or overwrite=True") from None
+    except OSError as error:
+        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
+    return path
+
+
+def _bytes(report: Report, kind: str) -> bytes:
+    if kind == ".pdf":
+        return pdf(content(report), report.title)
+    text = {".html": lambda: report.html, ".json": lambda: report.json + "\n", ".md": lambda: report.markdown}
+    return text[kind]().encode("utf-8")
+
+
+def _ours(path: Path, kind: str) -> bool:
+    """Whether `path` is a report of ours, by the mark in it."""
+    if not path.is_file():
+        return False
+    with path.open("rb") as stream:
+        return MARKS[kind] in stream.read(-1 if kind == ".pdf" else _MARK_WITHIN)

@@ -1,0 +1,106 @@
+"""Starting elsewhere than from the permanent loads: any state, another dilatancy, a part of Table 5."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+
+MU = 0.6
+KINDS = [lb.OrdunaLourenco, lb.PointContact]
+
+
+def facade(kind, direction):
+    door = [(1.2, 0.0, 0.8, 1.2)]
+    return structures.facade(
+        kind(MU), length=3.2, courses=5, return_length=1.6, openings=door, direction=direction
+    )
+
+
+def crushing_corner():
+    """Twist with crushing: plain steps and jumps do not come to an end here."""
+    joint = lb.OrdunaLourenco(0.8, compressive_strength=0.3e6)
+    return structures.corner(joint, length=2.4, return_length=2.4, courses=4)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("direction", [(0, 1, 0), (1, 1, 0)], ids=["out", "diagonal"])
+def test_associated_flow_gives_the_associated_value_in_space(kind, direction):
+    model = facade(kind, direction)
+    found, bounds = lb.nonassociated(model, dilatancy=MU), lb.bounds(model)
+    assert found.residuals.worst.value <= 1e-6
+    assert found.load_factor == pytest.approx(bounds.upper, abs=1e-6)
+    assert found.load_factor == pytest.approx(bounds.lower, abs=1e-6)
+
+
+@pytest.mark.parametrize("number", [2, 3, 4])
+@pytest.mark.parametrize("kind", KINDS)
+def test_followed_from_the_associated_flow_the_answer_moves_in_small_steps(kind, number):
+    """Each dilatancy starts from the answer of the one before: no step above 3 % of the associated value."""
+    model = structures.ferris_tin_loi_wall(number, kind(0.65))
+    found, factors = None, []
+    for share in np.linspace(1.0, 0.0, 11):
+        found = lb.nonassociated(model, dilatancy=0.65 * share, start=found)
+        assert lb.check_mcp(model, found).worst.value <= 1e-6
+        factors.append(found.load_factor)
+    assert factors[0] == pytest.approx(lb.bounds(model).upper, abs=1e-6)
+    assert np.abs(np.diff(factors)).max() <= 0.03 * factors[0]
+    assert max(factors) <= factors[0] + 1e-6
+
+
+def test_no_answer_can_be_continuous_at_zero_dilatancy_where_blocks_jam():
+    """A block between floor and ceiling slides at a finite load; the least dilatancy jams it for good.
+
+    Sliding by s would lift the block by s tan(psi) > 0 into a rigid ceiling: no mechanism exists, while the
+    ceiling force balances any live load. So there is no solution at any dilatancy above zero.
+    """
+    joint = lb.PointContact(friction=0.3)
+    stones = [
+        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    live = lb.mass_proportional((1, 0, 0))
+    model = lb.Model(stones, ["floor", "ceiling"], lb.find_interfaces(stones, joint), lb.self_weight(), live)
+    assert np.isfinite(lb.nonassociated(model).load_factor)
+    with pytest.raises(lb.UnlimitedLoad):
+        lb.nonassociated(model, dilatancy=0.3)
+    with pytest.raises(lb.NotConverged):
+        lb.nonassociated(model, dilatancy=1e-3, settings=lb.Settings(budget=60))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+def test_any_admissible_state_is_a_start(kind, analysis):
+    """The associated state, as bounds or as bare stresses: of a rocking block it is the solution."""
+    model = structures.block(kind(MU), width=0.4, height=1.0)
+    bounds = lb.bounds(model)
+    for start in (bounds, bounds.generalised_stresses, bounds.generalised_stresses.tolist()):
+        assert analysis(model, start=start).load_factor == pytest.approx(0.4, abs=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_start_that_is_no_state_is_refused(kind):
+    model = structures.block(kind(MU), width=0.4, height=1.0)
+    stresses = lb.bounds(model).generalised_stresses
+    with pytest.raises(lb.ModelError, match="start is no state of this model: equilibrium residual"):
+        lb.nonassociated(model, start=1.01 * stresses)
+    with pytest.raises(lb.ModelError, match=f"start has {len(stresses) - 1} numbers; the {len(stresses)} "):
+        lb.nonassociated(model, start=stresses[:-1])
+    with pytest.raises(lb.ModelError, match="finite"):
+        lb.nonassociated(model, start=np.where(stresses == stresses.max(), np.nan, stresses))
+
+
+def test_growing_turning_terms_lead_to_a_solution_of_the_whole_flow():
+    model = crushing_corner()
+    found = lb.nonassociated(model, settings=lb.Settings(turning=(0.0, 0.5, 1.0), budget=800))
+    assert lb.check_mcp(model, found).worst.value <= 1e-6
+    assert found.load_factor <= found.associated + 1e-6
+
+
+def test_a_part_of_the_turning_terms_is_not_taken_for_the_whole():
+    """Without the turning terms the steps come to an end, but their end breaks the flow rule of Table 5."""
+    with pytest.raises(lb.NotConverged, match="residual") as caught:
+        lb.nonassociated(crushing_corner(), settings=lb.Settings(turning=(0.0,), budget=800))
+    assert caught.value.result.residuals["equilibrium"] <= 1e-6
+    assert caught.value.result.residuals.worst.value > 1e-4

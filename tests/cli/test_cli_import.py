@@ -1,0 +1,100 @@
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+
+OPTIONS = ("--friction", "0.6", "--live", "1,0,0", "--unit-weight", "20e3")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["import", *map(str, arguments)])
+
+
+@pytest.fixture
+def obj(tmp_path):
+    """A block of 0.5 m by 1 m on a base, in mm."""
+    boxes = [
+        lb.Block.box("base", (2e3, 1e3, 200), (0, 0, -100)),
+        lb.Block.box("block", (500, 500, 1e3), (0, 0, 500)),
+    ]
+    return lb.write_blocks(boxes, tmp_path / "two.obj")
+
+
+def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
+    result = run(obj, *OPTIONS, "--supports", "base", "--units", "mm")
+    assert (result.exit_code, result.stderr) == (0, "")
+    model = lb.read(tmp_path / "two.json")
+    assert "1 blocks, 1 supports, 1 interfaces" in result.stdout
+    assert model.blocks[1].volume == pytest.approx(0.25)
+    # a block half as wide as high rocks before it slides
+    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
+
+
+def test_output_is_not_overwritten_without_force(obj, tmp_path):
+    output = tmp_path / "mine.json"
+    output.write_text("mine")
+    arguments = (obj, *OPTIONS, "--supports", "base", "--output", output)
+    refused = run(*arguments)
+    assert (refused.exit_code, output.read_text()) == (2, "mine")
+    assert "exists" in refused.stderr
+    assert run(*arguments, "--force").exit_code == 0
+    assert lb.read(output).supports == ("base",)
+
+
+def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
+    boxes = [
+        lb.Block.box("base", (2, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("stone", (0.5, 1, 1), (-0.5, 0, 0.5)),
+        lb.Block.box("stone", (0.5, 1, 1), (0.004, 0, 0.5)),
+    ]
+    result = run(lb.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
+    note, warning = result.stderr.splitlines()
+    assert note == "note: 2 blocks are named 'stone'; all but the first got a number"
+    assert warning.startswith("warning: ")
+    assert "stone|stone 2" in warning
+    wide = run(tmp_path / "gap.stl", *OPTIONS, "--supports", "base", "--gap", "0.01", "--force")
+    assert "warning" not in wide.stderr
+    assert "3 interfaces" in wide.stdout
+
+
+WRONG = {
+    "support": (("--supports", "bas"), "'bas' is neither a block nor a layer; did you mean 'base'?"),
+    "units": (("--supports", "base", "--units", "km"), "'km'"),
+    "joint": (("--supports", "base", "--joint", "Glue"), "'Glue' is unknown"),
+    "live": (("--supports", "base", "--live", "1;0;0"), "1,0,0"),
+    "live of two": (("--supports", "base", "--live", "1,0"), "three"),
+    "unit weight": (("--supports", "base", "--unit-weight", "heavy"), "LAYER=NUMBER"),
+    "layer": (("--supports", "base", "--unit-weight", "brick=1"), "LAYER=NUMBER each"),
+    "gap": (("--supports", "base", "--gap", "-1"), "gap is -1.0"),
+    "friction": (("--supports", "base", "--friction", "-1"), "friction"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_wrong_options_are_said_in_one_line(name, obj, tmp_path):
+    options, said = WRONG[name]
+    result = run(obj, *OPTIONS, *options)
+    assert result.exit_code == 2
+    assert result.stderr.count("\n") == 1
+    assert said in result.stderr
+    assert not (tmp_path / "two.json").exists()
+
+
+def test_unit_weights_by_layer(tmp_path):
+    arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.8, voussoirs=7)
+    path = lb.write_blocks(arch, tmp_path / "arch.glb")
+    options = (
+        "--friction",
+        "0.6",
+        "--live",
+        "1,0,0",
+        "--unit-weight",
+        "block=20e3",
+        "--unit-weight",
+        "support=0",
+    )
+    assert run(path, *options, "--supports", "support", "--joint", "PointContact").exit_code == 0
+    model = lb.read(tmp_path / "arch.json")
+    assert {block.unit_weight for block in model.free_blocks} == {20e3}
+    assert type(model.interfaces[0].joint).__name__ == "PointContact"

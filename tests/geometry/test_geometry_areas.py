@@ -1,0 +1,365 @@
+"""Contacts of blocks that are not convex: areas divided into convex pieces, regions, facets, overlaps."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+import shapely.affinity
+from bodies import PLUS, SQUARE, L, U, extruded, hollow, joined, moved, regular, ring, triangulated
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+from test_geometry_contact import voronoi_blocks
+
+from limitblocks.errors import GeometryError
+from limitblocks.geometry import Block, find_contacts, find_interfaces, polygon
+from limitblocks.geometry.patches import common_areas
+from limitblocks.io.interfaces import interface_fault
+
+
+def area(interface):
+    return float(polygon.areas(interface.polygon))
+
+
+def placed(interface):
+    """The polygon in global axes, (n, 3)."""
+    return interface.centroid + interface.polygon @ interface.axes[:2]
+
+
+def check_pieces(found, whole):
+    """The interfaces are convex, do not overlap, and fill the plane area `whole` in X and Y."""
+    assert not any(map(interface_fault, found))
+    flat = [shapely.Polygon(placed(one)[:, :2]) for one in found]
+    assert sum(piece.area for piece in flat) == pytest.approx(whole.area, rel=1e-6)
+    assert shapely.union_all(flat).symmetric_difference(whole).area < 1e-6 * whole.area
+
+
+def decks(outline, low="low", high="high"):
+    return [extruded(low, outline, 0, 1), extruded(high, outline, 1, 2)]
+
+
+@pytest.mark.parametrize(
+    ("outline", "count"), [(L, 2), (U, 3), (PLUS, 3), (regular(7, 1.0), 1), (np.multiply(L, 1e-2), 2)]
+)
+def test_contact_of_two_prisms(outline, count):
+    blocks = decks(outline)
+    found = find_interfaces(blocks, None)
+    assert len(found) == count  # the least number of convex pieces
+    check_pieces(found, shapely.Polygon(outline))
+    assert all(one.axes[2] == pytest.approx([0, 0, 1]) for one in found)
+
+
+def test_contact_of_crossed_u_blocks_is_the_common_area():
+    # the upper one turned by a quarter about the middle of the square of side 3
+    low = extruded("low", U, 0, 1)
+    turn = Rotation.from_rotvec([0, 0, np.pi / 2]).as_matrix()
+    high = extruded("high", U, 1, 2).moved(turn, (3, 0, 0))
+    common = shapely.Polygon(U) & shapely.affinity.translate(
+        shapely.affinity.rotate(shapely.Polygon(U), 90, origin=(0, 0)), 3, 0
+    )
+    found = find_interfaces([low, high], None)
+    check_pieces(found, common)
+
+
+def test_feet_of_a_u_block_stand_apart():
+    # legs of 1 x 1 upside down on a plane: two interfaces, and a bridge between them
+    legs = np.array([(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)], dtype=float)
+    arch = extruded("arch", legs).moved(Rotation.from_rotvec([np.pi / 2, 0, 0]).as_matrix(), (0, 1, 0))
+    ground = Block.box("ground", (5, 5, 1), (1.5, 0.5, -0.5))
+    found = find_interfaces([ground, arch], None)
+    assert [area(one) for one in found] == pytest.approx([1, 1])
+    assert sorted(one.centroid.tolist() for one in found) == pytest.approx(
+        [pytest.approx([0.5, 0.5, 0]), pytest.approx([2.5, 0.5, 0])]
+    )
+
+
+@pytest.mark.parametrize("side", [1.0, 0.3])
+def test_contact_round_a_hole(side):
+    outer, inner = 2 * SQUARE, side * SQUARE + 0.1
+    found = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
+    assert len(found) == 4
+    check_pieces(found, shapely.Polygon(outer, [inner]))
+
+
+@pytest.mark.parametrize("n", [3, 5, 12, 40])
+def test_contact_of_two_tubes(n):
+    outer, inner = regular(n, 2.0), regular(n, 1.5)
+    found = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
+    assert len(found) == n
+    check_pieces(found, shapely.Polygon(outer, [inner]))
+
+
+def test_shaft_through_two_plates_touches_all_round():
+    plate = ring("plate", 4 * SQUARE, SQUARE)
+    shaft = Block.box("shaft", (1, 1, 3), (0, 0, 0))
+    found = find_interfaces([plate, shaft], None)
+    assert [area(one) for one in found] == pytest.approx([1] * 4)
+    assert {tuple(np.round(one.axes[2]).tolist()) for one in found} == {
+        (1, 0, 0),
+        (-1, 0, 0),
+        (0, 1, 0),
+        (0, -1, 0),
+    }
+
+
+def test_stone_in_a_cavity_touches_its_walls():
+    found = find_interfaces([hollow("hollow", 2.0, 1.0), Block.box("stone", (1, 1, 1), (0, 0, 0))], None)
+    assert [area(one) for one in found] == pytest.approx([1] * 6)
+
+
+@pytest.mark.parametrize("n", [6, 24, 96])
+def test_coaxial_cylinders_touch_facet_by_facet(n):
+    core, sleeve = extruded("core", regular(n, 1.0)), ring("sleeve", regular(n, 2.0), regular(n, 1.0))
+    for blocks in ([core, sleeve], [triangulated(core), triangulated(sleeve)]):
+        found = find_interfaces(blocks, None)
+        assert len(found) == n
+        assert [area(one) for one in found] == pytest.approx([2 * np.sin(np.pi / n)] * n)
+        radial = [one.centroid[:2] / np.linalg.norm(one.centroid[:2]) for one in found]
+        assert [one.axes[2, :2] for one in found] == [pytest.approx(normal, abs=1e-6) for normal in radial]
+
+
+@pytest.mark.parametrize("turn", [0.1, 0.6, 1.5])
+def test_rectangles_turned_about_their_normal(turn):
+    # bars of width a and b cross in a rhomboid of area a b / sin(turn)
+    a, b, long = 0.3, 0.2, 20.0
+    low = Block.box("low", (long, a, 1), (0, 0, 0))
+    rotation = Rotation.from_rotvec([0, 0, turn]).as_matrix()
+    high = Block.box("high", (long, b, 1), (0, 0, 1)).moved(rotation, (0, 0, 0))
+    (found,) = find_interfaces([low, high], None)
+    assert area(found) == pytest.approx(a * b / np.sin(turn))
+    assert found.centroid == pytest.approx([0, 0, 0.5], abs=1e-9)
+
+
+def shapes_of(found):
+    """Each interface as its corners in global axes, sorted, whichever block comes first."""
+    return sorted(np.round(placed(one), 6)[np.lexsort(np.round(placed(one), 6).T)].tolist() for one in found)
+
+
+NEST = [ring("b", 2 * SQUARE, SQUARE, 0, 1), *decks(L, "c", "a"), extruded("d", PLUS, -1, 0)]
+
+
+@pytest.mark.parametrize("blocks", [decks(L), decks(U), decks(PLUS), decks(np.array(U) * (1, 1.3)), NEST[:1]])
+@pytest.mark.parametrize("form", [lambda block: block, triangulated])
+@settings(max_examples=8, deadline=None)
+@given(seed=st.integers(0, 2**31), far=st.sampled_from([0.0, 5e5]))
+def test_division_moves_with_the_blocks(blocks, form, seed, far):
+    plate = extruded("plate", 9.0 * SQUARE, -1, 0)
+    blocks = [plate, *map(form, blocks)]
+    before = find_interfaces(blocks, None)
+    after_blocks, rotation, translation = moved(blocks, seed, far)
+    after = find_interfaces(after_blocks, None)
+    assert [(i.block_i, i.block_j) for i in after] == [(i.block_i, i.block_j) for i in before]
+    back = [(placed(one) - translation) @ rotation for one in after]
+    for old, new in zip(before, back, strict=True):
+        distance = np.linalg.norm(placed(old)[:, None] - new[None], axis=2)
+        assert distance.min(axis=0).max() < 1e-8
+        assert distance.min(axis=1).max() < 1e-8
+
+
+@pytest.mark.parametrize("blocks", [decks(L), decks(U), decks(PLUS)])
+def test_division_does_not_depend_on_the_order_of_the_blocks(blocks):
+    assert shapes_of(find_interfaces(blocks, None)) == shapes_of(find_interfaces(blocks[::-1], None))
+
+
+@pytest.mark.parametrize("outline", [L, U, PLUS, SQUARE])
+def test_triangulated_blocks_have_the_same_interfaces(outline):
+    blocks = decks(outline)
+    expected = shapes_of(find_interfaces(blocks, None))
+    for some in ([triangulated(blocks[0]), blocks[1]], [*map(triangulated, blocks)]):
+        assert shapes_of(find_interfaces(some, None)) == expected
+
+
+def test_noise_on_an_edge_does_not_divide_a_convex_area():
+    # a square with corners along its sides, moved in and out by up to 0.2 mm
+    corners = [*SQUARE, SQUARE[0]]
+    points = np.concatenate([np.linspace(a, b, 6)[:-1] for a, b in pairwise(corners)])
+    noise = np.random.default_rng(1).uniform(-2e-4, 2e-4, points.shape)
+    low, high = extruded("low", points + noise), extruded("high", 2 * SQUARE, 1, 2)
+    (found,) = find_interfaces([low, high], None)
+    assert interface_fault(found) == ""
+    assert area(found) == pytest.approx(1.0, rel=1e-3)
+
+
+def test_notch_larger_than_the_tolerance_divides_an_area():
+    for depth, count in ((0.5e-3, 1), (0.05, 2)):
+        notch = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0, 0.5 - depth), (-0.5, 0.5)]
+        found = find_interfaces(decks(notch), None)
+        assert len(found) == count
+        assert sum(map(area, found)) == pytest.approx(1 - depth / 2, rel=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_star_shaped_areas_at_random(seed):
+    rng = np.random.default_rng(seed)
+    angle = np.sort(rng.uniform(0, 2 * np.pi, 15))
+    outline = np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(0.4, 1.0, 15)[:, None]
+    found = find_interfaces(decks(outline), None)
+    check_pieces(found, shapely.Polygon(outline))
+    sides = np.roll(outline, -1, axis=0) - outline
+    (x, y), (u, v) = np.roll(sides, 1, axis=0).T, sides.T
+    turns = x * v - y * u
+    assert len(found) <= 2 * (turns < 0).sum() + 1  # Hertel & Mehlhorn: two diagonals a reflex corner
+
+
+@pytest.mark.parametrize("form", [lambda block: block, triangulated])
+@pytest.mark.parametrize("seed", range(4))
+def test_rubble_of_pairs_of_cells_that_fills_a_cube(seed, form):
+    """Cells of a Voronoi diagram joined two by two: not convex, and they touch exactly, nowhere deeper."""
+    cells, areas = voronoi_blocks(30, seed)
+    group, expected = np.arange(30), {}
+    for (i, j), size in areas.items():
+        if (
+            group[i] == i
+            and group[j] == j
+            and not {i, j} & set(group[group != np.arange(30)])
+            and size > 0.02
+        ):
+            group[j] = i
+    for (i, j), size in areas.items():
+        ends = tuple(sorted({int(group[i]), int(group[j])}))
+        if len(ends) == 2:
+            expected[ends] = expected.get(ends, 0.0) + size
+    blocks = [
+        form(joined(str(k), *(cells[m] for m in np.flatnonzero(group == k))))
+        for k in np.unique(group).tolist()
+    ]
+    assert sum(not block.convex for block in blocks) >= 5
+    assert sum(block.volume for block in blocks) == pytest.approx(1.0)
+    blocks, _, _ = moved(blocks, seed)
+    contacts = find_contacts(blocks, None)
+    assert contacts.overlaps == ()
+    found = {}
+    for one in [*contacts.interfaces, *contacts.slivers]:
+        ends = tuple(sorted((int(one.block_i), int(one.block_j))))
+        found[ends] = found.get(ends, 0.0) + (area(one) if one in contacts.interfaces else one.area)
+    assert found.keys() <= expected.keys()
+    for ends, size in expected.items():
+        assert found.get(ends, 0.0) == pytest.approx(size, rel=1e-4, abs=1e-6)
+
+
+def test_polygons_that_share_a_side_have_no_common_area():
+    # GEOS 3.14 gives the whole triangle
+    triangle = """POLYGON ((-0.0335973787803959 -0.0606061820642776, 0.0671947575607918 0.0303034554064244,
+    -0.0335973787803959 0.0303027266578531, -0.0335973787803959 -0.0606061820642776))"""
+    other = """POLYGON ((-0.0335973787803959 -0.1515150907864083, -0.0335973787803959 -0.0606061820642776,
+    0.0671947575607918 0.0303034554064244, 0.0668499922401276 -0.0606069083259443,
+    -0.0335973787803959 -0.1515150907864083))"""
+    pair = [np.array([shapely.from_wkt(" ".join(text.split()))]) for text in (triangle, other)]
+    assert shapely.touches(*pair).all()
+    assert shapely.area(common_areas(*pair, np.array([1e-9]), 1e-9)) == pytest.approx([0.0], abs=1e-9)
+
+
+def wavy(name, low, high, n=12):
+    """Column of unit width between two surfaces Z = low(X, Y) and high(X, Y), in triangles."""
+    x, y = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, n)] * 2, indexing="ij"))
+    points = np.concatenate([np.column_stack([x, y, z(x, y)]) for z in (low, high)])
+    place = np.arange(n * n).reshape(n, n)
+    a, b, c, d = (place[i : n - 1 + i, j : n - 1 + j].ravel() for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    rim = np.concatenate([place[:, 0], place[-1, 1:], place[-2::-1, -1], place[0, -2:0:-1]])
+    on = np.roll(rim, -1)
+    up = n * n
+    sides = [(a, c, b), (a, d, c), (up + a, up + b, up + c), (up + a, up + c, up + d)]
+    sides += [(rim, on, up + on), (rim, up + on, up + rim)]
+    return Block(name, points, np.concatenate([np.column_stack(each) for each in sides]).tolist())
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+def test_curved_surfaces_in_small_triangles_touch_all_over(seed):
+    """Some triangles count as one face on one side, and on the other not: no area is lost or counts twice."""
+
+    def wave(x, y):
+        return 0.5 + 0.1 * np.sin(5 * x) * np.cos(4 * y)
+
+    blocks = [wavy("low", lambda x, y: 0 * x, wave), wavy("high", wave, lambda x, y: 0 * x + 1)]
+    top = [k for k, face in enumerate(blocks[0].faces) if min(face) >= 144]
+    if seed is not None:
+        blocks, _, _ = moved(blocks, seed, 1e5)
+    found = find_contacts(blocks, None)
+    assert sum(map(area, found.interfaces)) == pytest.approx(blocks[0].areas[top].sum(), rel=1e-4)
+    assert found.overlaps == ()
+
+
+def test_chamfer_is_no_part_of_the_face_beside_it():
+    # 1 mm at 45 degrees off a block of 1 m: within the planarity tolerance of the top
+    leg = 1e-3
+    outline = [(0, 0), (1, 0), (1, 1 - leg), (1 - leg, 1), (0, 1)]
+    turn = Rotation.from_rotvec([np.pi / 2, 0, 0]).as_matrix()
+    low = extruded("low", outline).moved(turn, (0, 1, 0))
+    high = Block.box("high", (1, 1, 1), (0.5, 0.5, 1.5))
+    (found,) = find_interfaces([low, high], None)
+    assert area(found) == pytest.approx(1 - leg)
+
+
+# ---------------------------------------------------------------------------------------------- overlaps
+
+
+def overlap_of(*blocks):
+    (found,) = find_contacts(blocks, None).overlaps
+    return found
+
+
+def slab(a, b, thickness):
+    """Mean thickness of a box."""
+    return 2 * a * b * thickness / (2 * (a * b + (a + b) * thickness))
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+@pytest.mark.parametrize("depth", [0.2, 0.01])
+def test_overlap_of_an_l_block(depth, seed):
+    blocks = [extruded("L", L), Block.box("b", (1, 1, 1), (1.5 - depth, 1.5, 0.5))]
+    if seed is not None:
+        blocks, _, _ = moved(blocks, seed)
+    found = overlap_of(*blocks)
+    assert (found.block_i, found.block_j) == ("L", "b")
+    assert found.volume == pytest.approx(depth)
+    assert found.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
+    with pytest.raises(GeometryError, match=f"blocks 'L' and 'b' overlap by {depth:.3g} m3"):
+        find_interfaces(blocks, None)
+
+
+@pytest.mark.parametrize("seed", [None, 1, 2])
+def test_blocks_that_fill_each_others_notches_do_not_overlap(seed):
+    blocks = [
+        extruded("U", U),
+        Block.box("post", (1, 1, 4), (1.5, 1.5, 0)),
+        ring("r", 8 * SQUARE, 7 * SQUARE, 0, 1),
+    ]
+    blocks += [hollow("h", 2.0, 1.0).moved(np.eye(3), (20, 0, 0)), Block.box("stone", (1, 1, 1), (20, 0, 0))]
+    if seed is not None:
+        blocks, _, _ = moved(blocks, seed)
+    assert find_contacts(blocks, None).overlaps == ()
+
+
+def test_overlap_of_two_legs_counts_each_by_itself():
+    depth = 0.05
+    found = overlap_of(extruded("U", U), Block.box("b", (1 + 2 * depth, 1, 1), (1.5, 1.5, 0.5)))
+    assert found.volume == pytest.approx(2 * depth)
+    assert found.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
+
+
+def test_tolerance_of_overlap_of_bodies_that_are_not_convex():
+    low = extruded("low", U)
+    for depth, count in ((0.9e-3, 0), (1.6e-3, 1)):  # block length: between 1 and cbrt(5)
+        high = Block.box("high", (1, 1, 1), (1.5, 1.5, 0.5)).moved(np.eye(3), (0, -depth, 0))
+        assert len(find_contacts([low, high], None).overlaps) == count
+
+
+def test_stone_within_a_body_with_a_cavity():
+    found = overlap_of(hollow("h", 4.0, 1.0), Block.box("stone", (0.5, 0.5, 0.5), (1.2, 1.2, 1.2)))
+    assert found.volume == pytest.approx(0.5**3)
+    assert found.depth == pytest.approx(0.5 / 3, rel=1e-3)
+
+
+@pytest.mark.parametrize("at", [0.0, 0.2])
+def test_thin_blocks_do_not_hide_an_overlap(at):
+    # thinner than the tolerance of 1e-3 block lengths
+    plate = Block.box("plate", (0.5, 0.25, 1e-4), (0, 0, at))
+    for stone in (Block.box("stone", (1, 1, 1), (0, 0, 0)), hollow("stone", 1.0, 0.05, (0.3, 0.3, 0.3))):
+        found = overlap_of(stone, plate, Block.box("other", (1, 1, 1), (5, 0, 0)))
+        assert found.volume == pytest.approx(0.5 * 0.25 * 1e-4)
+        assert found.tolerance < 0.5e-4
+    half_in = plate.moved(np.eye(3), (0, 0, 0.5 - at - 1e-5))
+    assert overlap_of(Block.box("stone", (1, 1, 1), (0, 0, 0)), half_in).depth == pytest.approx(6e-5)
+    resting = plate.moved(np.eye(3), (0, 0, 0.5 - at + 0.5e-4))
+    assert len(find_interfaces([Block.box("stone", (1, 1, 1), (0, 0, 0)), resting], None)) == 1

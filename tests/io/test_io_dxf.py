@@ -1,0 +1,427 @@
+import io
+import random
+import sys
+
+import ezdxf
+import numpy as np
+import pytest
+from ezdxf.render.forms import cube, cylinder
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+from limitblocks.geometry.polygon import areas
+
+JOINT = lb.OrdunaLourenco(0.6)
+STRUCTURES = {
+    "arch": lb.structures.arch(JOINT, radius=2.0, thickness=0.3, voussoirs=9, depth=0.5),
+    "wall": lb.structures.wall(JOINT, length=1.6, courses=3, thickness=0.2),
+    "corner": lb.structures.corner(JOINT, length=2.4, return_length=1.6, courses=2),
+    "vault": lb.structures.barrel_vault(JOINT, radius=2.0, thickness=0.3, length=1.5, courses=7, stones=2),
+}
+
+
+def total_area(interfaces):
+    return float(sum(areas(interface.polygon[None])[0] for interface in interfaces))
+
+
+def drawn(path, draw, units=6, version="R2010"):
+    """A DXF file of what `draw` puts into the model space; unit code 6 is m, 4 is mm."""
+    drawing = ezdxf.new(version, units=units)
+    draw(drawing.modelspace())
+    drawing.saveas(path)
+    return path
+
+
+def elevation(model, scale=1.0, jitter=0.0):
+    """Outlines of a model in the plane X, Z, by name."""
+    rng = np.random.default_rng(1)
+    outlines = {}
+    for block in model.blocks:
+        front = block.faces[int(np.argmin(block.normals[:, 1]))]
+        corners = block.vertices[list(front)][:, [0, 2]]
+        outlines[block.name] = (corners + rng.uniform(-jitter, jitter, corners.shape)) * scale
+    return outlines
+
+
+def fault(read, path, **options):
+    with pytest.raises(lb.ModelError) as caught:
+        read(path, **options)
+    assert all("\n" not in line and line.startswith(str(path)) for line in caught.value.problems)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_round_trip(tmp_path, name):
+    model = STRUCTURES[name]
+    found = lb.read_blocks(lb.write_blocks(model, tmp_path / "a.dxf"))
+    assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
+    assert found.supports == model.supports
+    assert not found.notes
+    interfaces = lb.find_interfaces(found.blocks, JOINT)
+    assert len(interfaces) == len(model.interfaces)
+    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
+
+
+def test_round_trip_bounds(tmp_path):
+    model = STRUCTURES["wall"]
+    again = lb.read(
+        lb.write_blocks(model, tmp_path / "wall.dxf"),
+        joint=JOINT,
+        unit_weight={"block": 20e3},
+        live=model.live,
+    )
+    assert lb.bounds(again).lower == pytest.approx(lb.bounds(model).lower, rel=1e-6)
+
+
+def test_written_file_is_sound_and_in_metres(tmp_path):
+    drawing = ezdxf.readfile(lb.write_blocks(STRUCTURES["arch"], tmp_path / "a.dxf"))
+    assert drawing.units == 6
+    assert not drawing.audit().errors
+    assert {mesh.dxf.layer for mesh in drawing.modelspace().query("MESH")} == {"support", "block"}
+
+
+def test_names_and_layers_that_dxf_does_not_allow(tmp_path):
+    box = lb.Block.box("a\nb  Ä", (1, 1, 1), (0, 0, 0))
+    written = lb.ImportedBlocks((box,), {box.name: "x|y:z"}, ())
+    found = lb.read_blocks(lb.write_blocks(written, tmp_path / "a.dxf"))
+    assert [block.name for block in found.blocks] == ["a b Ä"]
+    assert set(found.layers.values()) == {"x_y_z"}
+
+
+def everything(space):
+    for k, draw in enumerate(("render_mesh", "render_polyface", "render_3dfaces", "render_3dsolid")):
+        for height in (0, 1):  # two that touch
+            mesh = cube()
+            mesh.translate(3 * k, 0, height)
+            getattr(mesh, draw)(space, {"layer": draw})
+
+
+@pytest.mark.parametrize("binary", [False, True])
+@pytest.mark.parametrize("version", ["R2000", "R2010", "R2018"])
+def test_every_kind_of_solid(tmp_path, version, binary):
+    path = drawn(tmp_path / "a.dxf", everything, version=version)
+    if binary:
+        ezdxf.readfile(path).saveas(path, fmt="bin")
+    found = lb.read_blocks(path)
+    assert len(found.blocks) == 8
+    assert [block.volume for block in found.blocks] == pytest.approx([1.0] * 8, abs=1e-9)
+    middles = sorted(np.round(block.centroid, 9).tolist() for block in found.blocks)
+    assert middles == [[3.0 * k, 0.0, float(z)] for k in range(4) for z in (0, 1)]
+
+
+def test_units(tmp_path):
+    path = drawn(tmp_path / "mm.dxf", lambda space: cube().render_mesh(space), units=4)
+    assert lb.read_blocks(path).blocks[0].size == pytest.approx(1e-3, rel=1e-12)
+    assert lb.read_blocks(path, units="cm").blocks[0].size == pytest.approx(1e-2, rel=1e-12)
+    path = drawn(tmp_path / "none.dxf", lambda space: cube().render_mesh(space), units=0)
+    found = lb.read_blocks(path)
+    assert found.blocks[0].size == pytest.approx(1.0, rel=1e-12)
+    assert any("states no unit" in note for note in found.notes)
+    drawing = ezdxf.readfile(path)
+    drawing.header["$INSUNITS"] = 99
+    drawing.saveas(path)
+    assert "$INSUNITS is 99" in fault(lb.read_blocks, path)
+
+
+def test_block_references_take_scale_rotation_mirror_and_layer(tmp_path):
+    drawing = ezdxf.new(units=6)
+    stone = drawing.blocks.new("stone", base_point=(0.5, 0.5, 0.5))
+    mesh = cube()
+    mesh.translate(0.5, 0.5, 0.5)  # its corner at the origin, its base point in its middle
+    mesh.render_mesh(stone)
+    pair = drawing.blocks.new("pair")
+    pair.add_blockref("stone", (0, 0, 0))
+    pair.add_blockref("stone", (0, 0, 1), {"layer": "top"})
+    drawing.modelspace().add_blockref(
+        "pair", (10, 0, 0), {"layer": "wall", "xscale": -2, "yscale": 3, "zscale": 4, "rotation": 90}
+    )
+    grid = {"row_count": 2, "column_count": 3, "row_spacing": 5, "column_spacing": 5, "layer": "grid"}
+    drawing.modelspace().add_blockref("stone", (0, 20, 0), grid)
+    path = tmp_path / "a.dxf"
+    drawing.saveas(path)
+    found = lb.read_blocks(path)
+    assert sorted(found.layers.values()) == ["grid"] * 6 + ["top", "wall"]
+    low, top = (next(b for b in found.blocks if found.layers[b.name] == layer) for layer in ("wall", "top"))
+    assert low.volume == pytest.approx(24.0, rel=1e-12)
+    assert np.ptp(low.vertices, axis=0) == pytest.approx([3.0, 2.0, 4.0], rel=1e-9)
+    assert top.centroid == pytest.approx([10.0, 0.0, 4.0], abs=1e-9)
+    assert not any("turned" in note for note in found.notes)
+
+
+def test_hidden_is_left_out_with_a_note(tmp_path):
+    def draw(space):
+        for layer in ("seen", "off", "frozen"):
+            mesh = cube()
+            mesh.translate(0, 0, len(layer))
+            mesh.render_mesh(space, {"layer": layer})
+        space.doc.layers.add("off").off()
+        space.doc.layers.add("frozen").freeze()
+        space.add_line((0, 0), (1, 1))
+
+    found = lb.read_blocks(drawn(tmp_path / "a.dxf", draw))
+    assert set(found.layers.values()) == {"seen"}
+    assert found.notes == ("left out: 1 LINE, 2 hidden entities",)
+
+
+def test_body_that_is_no_polyhedron_is_named(tmp_path):
+    def draw(space):
+        solid = cube().render_3dsolid(space, {"layer": "stone"})
+        solid.sat = [line.replace("plane-surface", "cone-surface", 1) for line in solid.sat]
+
+    message = fault(lb.read_blocks, drawn(tmp_path / "a.dxf", draw, version="R2000"))
+    assert "3DSOLID" in message
+    assert "'stone'" in message
+    assert "mesh" in message
+
+
+def recursive(drawing):
+    block = drawing.blocks.new("a")
+    block.add_blockref("a", (1, 0, 0))
+    drawing.modelspace().add_blockref("a", (0, 0, 0))
+
+
+def huge_grid(drawing):
+    drawing.blocks.new("a").add_point((0, 0))
+    grid = {"row_count": 30000, "column_count": 30000, "row_spacing": 1, "column_spacing": 1}
+    drawing.modelspace().add_blockref("a", (0, 0, 0), grid)
+
+
+def many_by_nesting(drawing):
+    for k in range(1, 9):
+        block = drawing.blocks.new(f"a{k}")
+        for x in range(10):
+            block.add_blockref(f"a{k - 1}", (x, 0, 0)) if k > 1 else block.add_point((x, 0))
+    drawing.modelspace().add_blockref("a8", (0, 0, 0))
+
+
+BAD = {
+    "recursive": (recursive, "contains itself"),
+    "huge grid": (huge_grid, "copies; at most"),
+    "missing block": (lambda d: d.modelspace().add_blockref("gone", (0, 0)), "'gone' is missing"),
+    "empty": (lambda d: None, "holds no solid"),
+    "open": (lambda d: cylinder(caps=False).render_mesh(d.modelspace()), "open"),
+    "faces": (lambda d: d.modelspace().add_3dface([(0, 0), (1, 0), (1, 1)]), "3 vertices"),
+    "nan": (lambda d: with_vertex(d, float("nan")), "finite"),
+    "huge": (lambda d: with_vertex(d, 1e300), "finite numbers up to 1e30"),
+    "index": (lambda d: with_faces(d, [(0, 1, 99)]), "vertex indices run from 0"),
+}
+
+
+def with_vertex(drawing, value):
+    mesh = cube()
+    mesh.vertices[0] = ezdxf.math.Vec3(value, 0, 0)
+    mesh.render_mesh(drawing.modelspace())
+
+
+def with_faces(drawing, faces):
+    mesh = drawing.modelspace().add_mesh()
+    mesh.vertices, mesh.faces = cube().vertices, faces
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_drawings_are_one_clean_error(tmp_path, case):
+    make, expected = BAD[case]
+    drawing = ezdxf.new(units=6)
+    make(drawing)
+    stream = io.StringIO()
+    drawing.write(stream)
+    path = tmp_path / "a.dxf"
+    path.write_text(stream.getvalue(), encoding="utf-8")
+    assert expected in fault(lb.read_blocks, path)
+
+
+def test_bad_nesting_ends(tmp_path, monkeypatch):
+    monkeypatch.setattr("limitblocks.io.dxf.MOST_FACES", 1000)
+    drawing = ezdxf.new(units=6)
+    many_by_nesting(drawing)
+    drawing.saveas(tmp_path / "a.dxf")
+    assert "more than 1000 entities" in fault(lb.read_blocks, tmp_path / "a.dxf")
+
+
+def test_files_that_are_no_dxf(tmp_path):
+    good = lb.write_blocks(STRUCTURES["wall"], tmp_path / "good.dxf").read_bytes()
+    for data, expected in (
+        (b"", "is empty"),
+        (b"AC1032\0\0\0", "DWG"),
+        (b"garbage" * 100, "not sound DXF"),
+        (good[: len(good) // 2], "not sound DXF"),
+        (good.replace(b"EOF\n", b""), "not sound DXF"),
+        (bytes(range(256)) * 10, "not sound DXF"),
+    ):
+        path = tmp_path / "a.dxf"
+        path.write_bytes(data)
+        assert expected in fault(lb.read_blocks, path)
+        assert expected in fault(lb.read_drawing, path, thickness=0.2)
+
+
+def test_without_ezdxf(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "ezdxf", None)
+    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+        lb.write_blocks(STRUCTURES["wall"], tmp_path / "a.dxf")
+    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+        lb.read_blocks(tmp_path / "a.dxf")
+
+
+@pytest.mark.parametrize(("name", "thickness"), [("arch", 0.5), ("wall", 0.2)])
+def test_elevation_gives_the_interfaces_of_the_generator(tmp_path, name, thickness):
+    model = STRUCTURES[name]
+
+    def draw(space):
+        for title, corners in elevation(model, scale=1000.0).items():
+            layer = "support" if title in model.supports else "stone"
+            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+            space.add_text(title, height=20).set_placement(corners.mean(axis=0))
+
+    path = drawn(tmp_path / "a.dxf", draw, units=4)
+    found = lb.read_drawing(path, thickness=thickness, unit_weight={"stone": 20e3})
+    assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
+    assert found.supports == model.supports
+    assert not found.notes
+    for block, wanted in zip(found.blocks, model.blocks, strict=True):
+        assert block.volume == pytest.approx(wanted.volume, rel=1e-9)
+        assert block.centroid == pytest.approx(wanted.centroid, abs=1e-9)
+    interfaces = lb.find_interfaces(found.blocks, JOINT)
+    assert len(interfaces) == len(model.interfaces)
+    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
+    again = lb.Model(found.blocks, found.supports, interfaces, lb.self_weight(), model.live)
+    assert lb.bounds(again).upper == pytest.approx(lb.bounds(model).upper, rel=1e-6)
+
+
+def test_import_of_an_elevation(tmp_path):
+    """A block half as wide as high on a support that its layer marks rocks at half its weight."""
+
+    def draw(space):
+        for layer, low, high in (("Support", (0, -1), (2, 0)), ("stone", (0.5, 0), (1.5, 2))):
+            corners = [low, (high[0], low[1]), high, (low[0], high[1])]
+            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    options = ["--friction", "0.7", "--live", "1,0,0", "--unit-weight", "20e3", "--thickness", "0.5"]
+    result = CliRunner().invoke(app, ["import", str(path), *options])
+    assert (result.exit_code, result.stderr) == (0, "")
+    model = lb.read(tmp_path / "a.json")
+    assert [block.volume for block in model.free_blocks] == pytest.approx([1.0 * 2.0 * 0.5])
+    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
+
+
+def test_elevation_drawn_by_hand(tmp_path):
+    """Corners off by up to 0.1 mm, outlines not closed, polylines of every kind."""
+    model = STRUCTURES["arch"]
+
+    def draw(space):
+        for k, corners in enumerate(elevation(model, jitter=1e-4).values()):
+            loop = [*corners, corners[0] + 1e-4]
+            (space.add_lwpolyline, space.add_polyline2d, space.add_polyline3d)[k % 3](
+                [(x, y, 0.0) for x, y in loop] if k % 3 == 2 else [tuple(point) for point in loop]
+            )
+
+    found = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=0.5)
+    interfaces = lb.find_interfaces(found.blocks, JOINT)
+    assert len(interfaces) == len(model.interfaces)
+    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=0.01)
+    assert sum("closed over a gap" in note for note in found.notes) == len(model.blocks)
+
+
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_arcs_become_chords_of_5_degrees(tmp_path, mirrored):
+    def draw(space):  # bulge 1: half a circle, of radius 1 here
+        space.add_lwpolyline([(-1, 0, 0), (1, 0, 1)], format="xyb", close=True)
+        if mirrored:
+            space[0].dxf.extrusion = (0, 0, -1)
+
+    block = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=2.0).blocks[0]
+    chords = 36  # half a circle in chords of 5 degrees
+    assert block.volume == pytest.approx(2.0 * chords / 2 * np.sin(np.pi / chords), rel=1e-12)
+    radii = np.hypot(block.vertices[:, 0], block.vertices[:, 2])
+    assert radii == pytest.approx(np.ones(len(radii)), rel=1e-12)
+    assert block.vertices[:, 2].min() == pytest.approx(0.0, abs=1e-12)
+
+
+def test_outlines_that_are_none(tmp_path):
+    def draw(space):
+        square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        space.add_lwpolyline(square, close=True)
+        space.add_lwpolyline(square)
+        space.add_lwpolyline([(5, 0), (6, 0), (5, 0)], close=True)
+        space.add_polyline3d([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 1)], close=True)
+        space.add_circle((0, 0), 1)
+
+    found = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
+    assert len(found.blocks) == 1
+    notes = "\n".join(found.notes)
+    for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
+        assert word in notes
+
+
+def test_drawing_layers(tmp_path):
+    def draw(space):
+        for k, layer in enumerate(("stone", "frame")):
+            square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) + k * 0.1
+            space.add_lwpolyline(square, close=True, dxfattribs={"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    assert len(lb.read_drawing(path, thickness=1.0).blocks) == 2
+    assert set(lb.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
+    block = lb.read_drawing(path, thickness=0.5, units="mm").blocks[0]
+    assert block.volume == pytest.approx(1e-3 * 1e-3 * 0.5, rel=1e-12)  # the thickness is in m
+    assert "did you mean 'stone'" in fault(lb.read_drawing, path, thickness=1.0, layers="stones")
+
+
+def test_wrong_drawings(tmp_path):
+    bow = [(0, 0), (1, 1), (1, 0), (0, 1)]
+    path = drawn(tmp_path / "a.dxf", lambda space: space.add_lwpolyline(bow, close=True))
+    assert "crosses or touches itself" in fault(lb.read_drawing, path, thickness=1.0)
+    assert "read_drawing" in fault(lb.read_blocks, path)
+    for thickness in (0.0, -1.0, np.nan, np.inf):
+        assert "thickness is" in fault(lb.read_drawing, path, thickness=thickness)
+    path = drawn(tmp_path / "o.dxf", lambda space: space.add_lwpolyline([(0, 0), (1, 0), (1, 1)]))
+    assert "open by 1.41" in fault(lb.read_drawing, path, thickness=1.0)
+    path = drawn(tmp_path / "b.dxf", lambda space: space.add_line((0, 0), (1, 0)))
+    assert "no closed outline but 1 LINE" in fault(lb.read_drawing, path, thickness=1.0)
+    path = drawn(
+        tmp_path / "c.dxf", lambda space: space.add_lwpolyline([(0, 0), (1e200, 0), (0, 1)], close=True)
+    )
+    assert "finite numbers" in fault(lb.read_drawing, path, thickness=1.0)
+
+
+WORDS = (b"nan", b"1e400", b"-1", b"99999999", b"0", b"", b"INSERT", b"1e308", b"\xff\xfe", b"x")
+
+
+def damaged(data, chance):
+    """`data` with some of its lines or bytes replaced, taken out or repeated."""
+    lines = data.split(b"\n")
+    first = next(k for k, line in enumerate(lines) if line.strip() == b"ENTITIES")
+    for _ in range(chance.choice((1, 1, 3))):
+        k = chance.randrange(first, len(lines))
+        match chance.randrange(4):
+            case 0:
+                del lines[k]
+            case 1:
+                lines.insert(k, lines[chance.randrange(first, len(lines))])
+            case 2:
+                lines[k] = bytes(chance.randrange(256) for _ in range(3))
+            case _:
+                lines[k] = chance.choice(WORDS)
+    return b"\n".join(lines)
+
+
+def test_damaged_drawings_read_or_fail_cleanly(tmp_path):
+    chance = random.Random(1)
+    solids = drawn(tmp_path / "solids.dxf", everything, version="R2000").read_bytes()
+    outline = [(0, 0, 0.2), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    flat = drawn(
+        tmp_path / "flat.dxf",
+        lambda space: (space.add_lwpolyline(outline, "xyb", close=True), space.add_mtext("a")),
+        version="R2000",
+    ).read_bytes()
+    path = tmp_path / "a.dxf"
+    problems = []
+    for k in range(140):
+        path.write_bytes(damaged(flat if k % 2 else solids, chance))
+        try:
+            lb.read_drawing(path, thickness=0.2) if k % 2 else lb.read_blocks(path)
+        except lb.ModelError as error:
+            problems.append(error.problems)
+    assert len(problems) > 30
+    assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)

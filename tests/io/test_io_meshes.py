@@ -1,0 +1,277 @@
+"""Structures through every mesh format and back: the same interfaces, areas and bounds."""
+
+import logging
+import struct
+
+import numpy as np
+import pytest
+import trimesh
+
+import limitblocks as lb
+from limitblocks.geometry.polygon import areas
+
+JOINT = lb.OrdunaLourenco(0.6)
+S = lb.structures
+STRUCTURES = {
+    "wall": S.wall(JOINT, length=2.0, courses=4),
+    "facade": S.facade(JOINT, courses=6),
+    "corner": S.corner(JOINT, length=2.4, return_length=2.4, courses=3),
+    "arch": S.arch(JOINT, radius=5.0, thickness=0.8, voussoirs=11),
+    "barrel vault": S.barrel_vault(JOINT, radius=3.0, thickness=0.4, length=3.0, courses=3, stones=7),
+    "stair": S.stair(JOINT, treads=5),
+    "portal": S.portal(JOINT, span=2.0, pier_width=0.6, pier_blocks=3),
+}
+#: Relative tolerance of areas: GLB and binary STL hold numbers in single precision, by their standards.
+PRECISION = {".obj": 1e-9, ".stl": 1e-9, ".ply": 1e-9, ".glb": 1e-6}
+DIRECTION = lb.mass_proportional((1.0, 0.0, 0.0))
+
+
+def area(interfaces):
+    return sum(float(areas(interface.polygon)) for interface in interfaces)
+
+
+def same_interfaces(blocks, model, tolerance):
+    """The interfaces found between `blocks` are those found in the model, in its order, by place and area."""
+    before, after = lb.find_interfaces(model.blocks, JOINT), lb.find_interfaces(blocks, JOINT)
+    assert len(after) == len(before)
+    assert area(after) == pytest.approx(area(before), rel=tolerance)
+    places = [np.array([interface.centroid for interface in found]) for found in (before, after)]
+    assert np.abs(places[1] - places[0]).max() <= 10 * tolerance * np.abs(places[0]).max()
+
+
+@pytest.mark.parametrize("suffix", PRECISION)
+@pytest.mark.parametrize("name", STRUCTURES)
+def test_structure_keeps_its_interfaces(name, suffix, tmp_path):
+    model = STRUCTURES[name]
+    path = lb.write_blocks(model, tmp_path / f"structure{suffix}")
+    found = lb.read_blocks(path, unit_weight=20e3)
+    same_interfaces(found.blocks, model, PRECISION[suffix])
+    if suffix == ".ply":  # has no names
+        assert found.blocks[1].name == "structure 2"
+    else:
+        assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
+        assert found.notes == ()
+    assert all(block.unit_weight == 20e3 for block in found.blocks)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".glb"])
+@pytest.mark.parametrize("name", ["arch", "portal"])
+def test_structure_keeps_its_bounds(name, suffix, tmp_path):
+    model = STRUCTURES[name]
+    path = lb.write_blocks(model, tmp_path / f"structure{suffix}")
+    again = lb.read(path, joint=JOINT, supports="support", live=DIRECTION, unit_weight={"block": 20e3})
+    assert set(again.supports) == set(model.supports)
+    before, after = lb.bounds(model), lb.bounds(again)
+    assert after.lower == pytest.approx(before.lower, rel=1e-6)
+    assert after.upper == pytest.approx(before.upper, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", ["wall", "arch", "barrel vault"])
+def test_binary_stl_without_names_is_told_apart_where_blocks_touch(name, tmp_path):
+    model = STRUCTURES[name]
+    text = lb.write_blocks(model, tmp_path / "text.stl")
+    corners = np.array(
+        [line.split()[1:] for line in text.read_text().splitlines() if "vertex" in line], float
+    )
+    records = np.zeros(len(corners) // 3, [("n", "<f4", 3), ("c", "<f4", (3, 3)), ("a", "<u2")])
+    records["c"] = corners.reshape(-1, 3, 3)
+    path = tmp_path / "binary.stl"
+    path.write_bytes(b"solid".ljust(80) + struct.pack("<I", len(records)) + records.tobytes())
+    same_interfaces(lb.read_blocks(path).blocks, model, 1e-6)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb"])
+def test_another_reader_finds_the_same_volumes(suffix, tmp_path):
+    model = STRUCTURES["arch"]
+    path = lb.write_blocks(model, tmp_path / f"arch{suffix}")
+    scene = trimesh.load_scene(path)
+    assert scene.volume == pytest.approx(sum(block.volume for block in model.blocks), rel=1e-6)
+    extents = np.ptp(np.concatenate([block.vertices for block in model.blocks]), axis=0)
+    wanted = extents[[0, 2, 1]] if suffix == ".glb" else extents  # Y up
+    assert scene.extents == pytest.approx(wanted, rel=1e-6)
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb", ".gltf"])
+def test_files_of_another_writer_are_read(suffix, tmp_path):
+    shapes = {
+        "drum": trimesh.creation.cylinder(0.5, 1.0, sections=12),
+        "plinth": trimesh.creation.box((2, 2, 1)),
+    }
+    shapes["drum"].apply_translation((0, 0, 1))
+    scene = trimesh.Scene()
+    for name, shape in shapes.items():
+        scene.add_geometry(shape, geom_name=name, node_name=name)
+    path = tmp_path / f"two{suffix}"
+    if suffix == ".gltf":
+        for file, data in scene.export(file_type="gltf").items():
+            (tmp_path / (path.name if file.endswith(".gltf") else file)).write_bytes(data)
+    else:
+        scene.export(path)
+    found = lb.read_blocks(path, up="z")
+    faces = {len(block.faces): block.volume for block in found.blocks}
+    # a regular 12-gon of radius 1/2 has the area 12/2 sin(30 deg) / 4 = 3/4
+    assert faces == pytest.approx({14: 0.75, 6: 4.0}, rel=1e-6)
+    (interface,) = lb.find_interfaces(found.blocks, JOINT)
+    assert areas(interface.polygon) == pytest.approx(0.75, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("units", "metres"), [("m", 1), ("cm", 0.01), ("mm", 1e-3), ("in", 0.0254), ("ft", 0.3048)]
+)
+def test_units_scale_lengths(units, metres, tmp_path):
+    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
+    (block,) = lb.read_blocks(path, units=units).blocks
+    assert block.volume == pytest.approx(6.0 * metres**3)
+    assert block.centroid == pytest.approx(np.array([4, 5, 6]) * metres)
+
+
+def test_axis_up_turns_the_structure(tmp_path):
+    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
+    (block,) = lb.read_blocks(path, up="y").blocks
+    assert block.centroid == pytest.approx([4, -6, 5])
+    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.glb")
+    assert lb.read_blocks(path).blocks[0].centroid == pytest.approx([4, 5, 6])
+    assert lb.read_blocks(path, up="z").blocks[0].centroid == pytest.approx([4, 6, -5])
+
+
+def test_obj_has_blocks_by_object_or_group_and_layers(tmp_path):
+    cube = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+    cube += "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (1, 2))
+    quads = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
+    low = "".join(f"f {' '.join(f'{v}/1/1' for v in quad)}\n" for quad in quads)
+    high = "".join(f"f {' '.join(str(v - 9) for v in quad)}\n" for quad in quads)  # back from the last
+    path = tmp_path / "two.obj"
+    path.write_text(f"mtllib x.mtl\n{cube}g base\nusemtl granite\n{low}g shaft\nusemtl brick\n{high}")
+    found = lb.read_blocks(path, unit_weight={"brick": 18e3})
+    assert dict(found.layers) == {"base": "granite", "shaft": "brick"}
+    assert [block.unit_weight for block in found.blocks] == [None, 18e3]
+    path.write_text(f"{cube}o stone\ng pier\n{low}o stone #2\ng pier\n{high}")
+    assert dict(lb.read_blocks(path).layers) == {"stone": "pier", "stone #2": "pier"}
+    path.write_text(f"{cube}{low}{high}")
+    assert [block.name for block in lb.read_blocks(path).blocks] == ["two", "two 2"]
+
+
+def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
+    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (0, 0, 0), 1.0)], tmp_path / "a.glb")
+    data = path.read_bytes()
+    half = np.sqrt(0.5)
+    nodes = f'"nodes":[{{"name":"a","mesh":0,"rotation":[0,{half},0,{half}],"scale":[2,2,2]}},'
+    nodes += '{"children":[0],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,10,20,30,1]}]'
+    length = struct.unpack("<I", data[12:16])[0]
+    text = data[20 : 20 + length].decode().replace('"nodes":[0]', '"nodes":[1]')
+    start = text.index('"nodes":[{')
+    text = text[:start] + nodes + text[text.index("]}]", start) + 3 :]
+    text += " " * (-len(text) % 4)
+    body = struct.pack("<I", len(text)) + b"JSON" + text.encode() + data[20 + length :]
+    path.write_bytes(data[:8] + struct.pack("<I", len(body) + 12) + body)
+    (block,) = lb.read_blocks(path).blocks
+    assert block.centroid == pytest.approx([10, -30, 20])
+    assert block.volume == pytest.approx(8 * 6.0)
+    assert np.ptp(block.vertices, axis=0) == pytest.approx([4, 2, 6])  # X and Y change places about Z
+
+
+def test_names_become_unique_and_say_so(tmp_path):
+    boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(["a", "a", "a 2", "a"])]
+    found = lb.read_blocks(lb.write_blocks(boxes, tmp_path / "a.stl"))
+    assert [block.name for block in found.blocks] == ["a", "a 3", "a 2", "a 4"]
+    assert found.notes == ("3 blocks are named 'a'; all but the first got a number",)
+
+
+def test_cavity_belongs_to_the_block_around_it(tmp_path):
+    outer, inner = trimesh.creation.box((3, 3, 3)), trimesh.creation.box((1, 1, 1))
+    inner.invert()
+    beside = trimesh.creation.box((3, 3, 3))
+    beside.apply_translation((3, 0, 0))
+    path = tmp_path / "hollow.stl"
+    trimesh.util.concatenate([inner, outer, beside]).export(path)
+    found = lb.read_blocks(path)
+    assert [block.volume for block in found.blocks] == pytest.approx([26.0, 27.0])
+    again = lb.read_blocks(lb.write_blocks(found, tmp_path / "again.obj"))
+    assert [block.volume for block in again.blocks] == pytest.approx([26.0, 27.0])
+
+
+CONCAVE = lb.Block(
+    "angle",
+    [(x, y, z) for z in (0.0, 1.0) for x, y in ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))],
+    [(5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *((k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6))],
+)
+
+
+@pytest.mark.parametrize("suffix", PRECISION)
+def test_block_that_is_not_convex_keeps_its_shape(suffix, tmp_path):
+    path = lb.write_blocks([CONCAVE], tmp_path / f"angle{suffix}")
+    (block,) = lb.read_blocks(path).blocks
+    assert block.volume == pytest.approx(3.0, rel=PRECISION[suffix])
+    assert sorted(block.areas) == pytest.approx([1, 1, 1, 1, 2, 2, 3, 3], rel=PRECISION[suffix])
+    assert not block.convex
+
+
+def test_read_makes_a_model_and_logs_what_was_mended(tmp_path, caplog):
+    path = tmp_path / "column.stl"
+    lower, upper = (lb.Block.box(name, (1, 1, 2), (0, 0, z)) for name, z in (("base", -1), ("shaft", 1)))
+    inside_out = lb.write_blocks([upper], tmp_path / "upper.stl").read_text().splitlines()
+    for k, line in enumerate(inside_out):
+        if "outer loop" in line:
+            inside_out[k + 1], inside_out[k + 2] = inside_out[k + 2], inside_out[k + 1]
+    path.write_text(lb.write_blocks([lower], tmp_path / "lower.stl").read_text() + "\n".join(inside_out))
+    with caplog.at_level(logging.WARNING, "limitblocks"):
+        model = lb.read(
+            path, joint=JOINT, supports=lambda b: b.centroid[2] < 0, live=DIRECTION, unit_weight=20e3
+        )
+    assert model.supports == ("base",)
+    assert model.name == "column"
+    assert [record.getMessage() for record in caplog.records] == [
+        f"{path}: block 'shaft': all faces pointed inward and are turned"
+    ]
+    # a block twice as high as wide rocks at width / height
+    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
+
+
+REFUSED = {
+    "no live load": ({"joint": JOINT, "supports": "base"}, "give live="),
+    "nothing": ({}, "give joint=.*give supports=.*give live="),
+    "support unknown": (
+        {"joint": JOINT, "supports": ["bas"], "live": DIRECTION},
+        "'bas' .*did you mean 'base'",
+    ),
+    "unit unknown": ({"joint": JOINT, "supports": "base", "live": DIRECTION, "units": "km"}, "'km'.*mm"),
+    "axis unknown": ({"joint": JOINT, "supports": "base", "live": DIRECTION, "up": "x"}, "'x'.*'y'"),
+    "layer unknown": (
+        {"joint": JOINT, "supports": "base", "live": DIRECTION, "unit_weight": {"brik": 1.0}},
+        "layer 'brik'",
+    ),
+    "no unit weight": ({"joint": JOINT, "supports": "base", "live": DIRECTION}, "has no unit weight"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_missing_or_unknown_is_said(name, tmp_path):
+    arguments, said = REFUSED[name]
+    boxes = [lb.Block.box("base", (1, 1, 1), (0, 0, 0)), lb.Block.box("top", (1, 1, 1), (0, 0, 1))]
+    path = lb.write_blocks(boxes, tmp_path / "two.stl")
+    with pytest.raises(lb.ModelError, match=said):
+        lb.read(path, **arguments)
+
+
+def test_model_file_takes_no_arguments(tmp_path):
+    path = STRUCTURES["portal"].save(tmp_path / "portal.json")
+    assert lb.read(path).digest == STRUCTURES["portal"].digest
+    with pytest.raises(lb.ModelError, match="a model file says joint, units itself"):
+        lb.read(path, joint=JOINT, units="mm")
+
+
+def test_nothing_is_overwritten_without_being_asked(tmp_path):
+    box = [lb.Block.box("a", (1, 1, 1), (0, 0, 0))]
+    for suffix in PRECISION:
+        path = tmp_path / f"a{suffix}"
+        path.write_text("mine")
+        with pytest.raises(lb.LimitBlocksError, match="overwrite=True"):
+            lb.write_blocks(box, path)
+        assert path.read_text() == "mine"
+        assert lb.write_blocks(box, path, overwrite=True) == path
+    with pytest.raises(lb.LimitBlocksError, match="cannot write"):
+        lb.write_blocks(box, tmp_path / "none" / "a.obj")
+    with pytest.raises(lb.ModelError, match=r"\.obj"):
+        lb.write_blocks(box, tmp_path / "a.doc")
+    with pytest.raises(lb.ModelError, match="no blocks"):
+        lb.write_blocks([], tmp_path / "b.obj")

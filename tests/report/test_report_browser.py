@@ -1,0 +1,329 @@
+"""The report in a browser, if there is one: Chromium with WebGL in software."""
+
+import base64
+import os
+import re
+import shutil
+from io import BytesIO
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+
+playwright = pytest.importorskip("playwright.sync_api", reason="the package playwright is not installed")
+Image = pytest.importorskip("PIL.Image", reason="the package pillow is not installed")
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+FOUND = os.environ.get("LIMITBLOCKS_BROWSER") or next(filter(None, map(shutil.which, NAMES)), None)
+pytestmark = pytest.mark.skipif(
+    not FOUND,
+    reason=f"no browser: none of {', '.join(NAMES)} is on the PATH and LIMITBLOCKS_BROWSER is not set",
+)
+SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run"]
+HOSTILE = "</script><img src=x onerror=alert(1)>"
+FORMULA = "=cmd|A1"
+
+
+@pytest.fixture(scope="module")
+def model():
+    blocks = [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box(FORMULA, (0.5, 1, 2), (-1, 0, 1), 20e3),
+        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
+        lb.Block.box(HOSTILE, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    return lb.Model(
+        blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)), HOSTILE
+    )
+
+
+@pytest.fixture(scope="module")
+def results(model):
+    return lb.bounds(model), lb.load_path(model)
+
+
+@pytest.fixture(scope="module")
+def file(model, results, tmp_path_factory):
+    return lb.report(model, *results).save(tmp_path_factory.mktemp("report") / "portal.html")
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    with playwright.sync_playwright() as driver:
+        yield driver.chromium
+
+
+@pytest.fixture(scope="module")
+def open_page(chromium, file):
+    """The report, once for all tests, with what went wrong in it and what it asked for."""
+    browser = chromium.launch(executable_path=FOUND, args=[*FLAGS, *SOFTWARE])
+    page = browser.new_page(viewport={"width": 800, "height": 600}, color_scheme="light")
+    page.set_default_timeout(10_000)
+    watch(page)
+    page.goto(file.as_uri())
+    page.wait_for_selector("#viewer[data-ready]")
+    yield page
+    browser.close()
+
+
+def watch(page):
+    page.faults, page.requests = [], []
+    page.on("console", lambda message: page.faults.append(message.text))
+    page.on("pageerror", lambda error: page.faults.append(str(error)))
+    page.on("dialog", lambda dialog: (page.faults.append("dialog"), dialog.dismiss()))
+    page.on("request", lambda request: page.requests.append(request.url))
+
+
+@pytest.fixture
+def page(open_page, file):
+    """The report as it was opened, and the assurance that nothing went wrong or out."""
+    open_page.emulate_media(media="screen")
+    open_page.locator("canvas").press("Escape")
+    open_page.locator("[name=result]").select_option("0")
+    show(open_page, "structure")
+    show(open_page, "mechanism")
+    open_page.locator("[data-view=iso]").click()
+    yield open_page
+    # the software renderer complains of screenshots
+    assert [fault for fault in open_page.faults if "GPU stall due to ReadPixels" not in fault] == []
+    assert [url for url in open_page.requests if not url.startswith("blob:")] == [file.as_uri()]
+
+
+def drawn(page):
+    """Pixels of the picture, without what lies over it and the frame of the focus."""
+    page.evaluate(
+        """() => {
+          for (const over of document.querySelectorAll(".stage > :not(canvas)")) over.style.opacity = 0;
+          return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+        }"""
+    )
+    page.locator("canvas").scroll_into_view_if_needed()
+    area = page.evaluate(
+        """() => {
+          const { x, y, width, height } = document.querySelector("canvas").getBoundingClientRect();
+          return { x: x + scrollX + 8, y: y + scrollY + 8, width: width - 16, height: height - 16, scale: 1 };
+        }"""
+    )
+    # not by playwright, which puts a style into the page that the page's policy refuses
+    session = page.context.new_cdp_session(page)
+    png = base64.b64decode(session.send("Page.captureScreenshot", {"clip": area})["data"])
+    session.detach()
+    page.evaluate(
+        "() => { for (const over of document.querySelectorAll('.stage > *')) over.style.opacity = ''; }"
+    )
+    with Image.open(BytesIO(png)) as image:
+        return np.asarray(image.convert("RGB")).astype(int)
+
+
+def shades(pixels):
+    """How many colours there are."""
+    return len(np.unique(pixels @ (65536, 256, 1)))
+
+
+def show(page, mode):
+    page.locator(f"input[name=mode][value={mode}]").check()
+
+
+def slide(page, name, value):
+    page.locator(f"input[name={name}]").evaluate(
+        "(input, value) => { input.value = value; input.dispatchEvent(new Event('input')); }", str(value)
+    )
+
+
+def card(page):
+    """Name and data of the card that is open, or None."""
+    if not page.locator(".card").is_visible():
+        return None, {}
+    terms, values = page.locator(".card dt").all_inner_texts(), page.locator(".card dd").all_inner_texts()
+    return page.locator(".card .name").inner_text(), dict(zip(terms, values, strict=True))
+
+
+def test_structure_is_drawn_in_every_mode(page):
+    pictures = []
+    for mode in ("structure", "mechanism", "forces", "states"):
+        show(page, mode)
+        pictures.append(drawn(page))
+        assert shades(pictures[-1]) > 20, mode
+    for one, other in pairwise(pictures):
+        assert (np.abs(one - other).sum(axis=2) > 30).mean() > 0.01
+
+
+def test_mechanism_moves_with_the_slider_and_comes_back(page):
+    show(page, "mechanism")
+    pictures = {}
+    for motion in (0, 50, 100):
+        slide(page, "motion", motion)
+        pictures[motion] = drawn(page)
+    slide(page, "motion", 0)
+    assert (drawn(page) == pictures[0]).all()
+    changed = {motion: (np.abs(pictures[motion] - pictures[0]).sum(axis=2) > 30).sum() for motion in pictures}
+    assert 500 < changed[50] < changed[100]
+    page.locator("[name=play]").click()
+    assert page.locator("[name=play]").inner_text() == "Pause"
+    motion = page.locator("[name=motion]")
+    seen = {motion.input_value() for _ in range(20) if not page.wait_for_timeout(30)}
+    assert len(seen) > 2
+    page.locator("[name=play]").click()
+    assert page.locator("[name=play]").inner_text() == "Play"
+
+
+def test_pointing_at_a_block_opens_its_card(page, model):
+    """Along a line at half height the eye meets the left leg, the opening, then the right leg."""
+    show(page, "structure")
+    page.locator("[data-view=front]").click()
+    area = page.locator("canvas").bounding_box()
+    met = []
+    for share in np.linspace(0.05, 0.95, 31):
+        page.mouse.click(area["x"] + share * area["width"], area["y"] + 0.5 * area["height"])
+        name, data = card(page)
+        met += [] if met and met[-1] == name else [name]
+        if name:
+            assert data["Weight"] == "20 kN"
+            page.keyboard.press("Escape")
+    assert met == [None, FORMULA, None, "right", None]
+
+
+def test_interface_card_says_what_the_result_says(page, model, results):
+    show(page, "states")
+    page.locator("[name=find]").fill(f"{FORMULA}|{HOSTILE}")
+    page.locator("[name=find]").press("Enter")
+    name, data = card(page)
+    k = [interface.name for interface in model.interfaces].index(name)
+    Q = results[0].stress_resultants[k]
+    for component, value in zip(("V1", "V2", "N"), Q[:3], strict=True):
+        number, unit = data[component].split()[:2]
+        assert float(number) * {"kN": 1e3, "N": 1.0}[unit] == pytest.approx(value, rel=1e-3, abs=1e-2)
+    interface = model.interfaces[k]
+    e = np.array([-Q[4], Q[3]]) / Q[2] @ interface.axes[:2]
+    centre = [float(number) for number in data["Centre of pressure"].removesuffix(" m").split(", ")]
+    assert centre == pytest.approx(interface.centroid + e, abs=1e-3)
+    page.locator(".card .links button").last.click()
+    assert card(page)[0] == HOSTILE
+
+
+def test_load_path_is_walked_step_by_step(page, results):
+    page.locator("[name=result]").select_option(label="Load path")
+    path = results[1]
+    assert page.locator("[name=step]").get_attribute("max") == str(len(path.steps) - 1)
+    slide(page, "step", 0)
+    assert f"step 0 of {len(path.steps) - 1}: load factor 0" in page.locator(".label").inner_text()
+    slide(page, "step", len(path.steps) - 1)
+    assert f"{path.load_factor:.6g}" in page.locator(".label").inner_text()
+
+
+def test_keys_turn_and_pick(page):
+    page.locator("canvas").focus()
+    before = drawn(page)
+    page.keyboard.press("ArrowLeft")
+    assert (drawn(page) != before).any()
+    page.keyboard.press("n")
+    assert card(page)[0] == "ground"
+    page.keyboard.press("n")
+    assert card(page)[0] == FORMULA
+    page.keyboard.press("Escape")
+    assert card(page)[0] is None
+    page.keyboard.press("0")
+    assert (drawn(page) == before).all()
+
+
+def test_table_sorts_by_key_and_says_so(page):
+    table = page.locator("table.sortable").first
+    head = table.locator("thead th", has_text="N, kN")
+    column = page.evaluate("(head) => head.cellIndex", head.element_handle())
+
+    def numbers():
+        return [
+            float(text) for text in table.locator(f"tbody tr > :nth-child({column + 1})").all_inner_texts()
+        ]
+
+    before = numbers()
+    assert len(set(before)) > 1
+    head.locator("button").focus()
+    page.keyboard.press("Enter")
+    assert numbers() == sorted(before, reverse=True)
+    assert head.get_attribute("aria-sort") == "descending"
+    page.keyboard.press("Enter")
+    assert numbers() == sorted(before)
+    assert head.get_attribute("aria-sort") == "ascending"
+
+
+def test_csv_holds_every_interface(page, model, results):
+    import csv
+
+    with page.expect_download() as download:
+        page.locator("button[data-csv='0']").click()
+    with open(download.value.path(), newline="", encoding="utf-8") as stream:
+        rows = list(csv.DictReader(stream))
+    names = [interface.name for interface in model.interfaces]
+    assert [row["interface"].removeprefix("'") for row in rows] == names
+    assert not any(cell.startswith("=") for row in rows for cell in row.values())
+    N = np.array([float(row["N (N)"]) for row in rows])
+    assert np.allclose(N, results[0].stress_resultants[:, 2], rtol=1e-5, atol=1e-2)
+
+
+def test_picture_is_saved_as_png(page):
+    with page.expect_download() as download:
+        page.locator("[name=png]").click()
+    with Image.open(download.value.path()) as image:
+        assert image.format == "PNG"
+        assert shades(np.asarray(image.convert("RGB")).astype(int)) > 20
+
+
+def test_dark_and_light_are_switched(page):
+    def brightness():
+        colour = page.evaluate("getComputedStyle(document.body).backgroundColor")
+        return sum(map(int, re.findall(r"\d+", colour)[:3]))
+
+    assert brightness() == 3 * 255
+    light = drawn(page)
+    page.locator("#theme").click()
+    assert brightness() < 150
+    assert drawn(page)[:40, -40:].mean() < 60 < light[:40, -40:].mean()
+    assert page.locator("#theme").get_attribute("aria-pressed") == "true"
+    page.locator("#theme").click()
+    assert (drawn(page) == light).all()
+
+
+def test_print_shows_the_drawing_in_place_of_the_canvas(page):
+    assert page.locator("canvas").is_visible()
+    assert not page.locator("figure.static").is_visible()
+    page.emulate_media(media="print")
+    assert not page.locator("canvas").is_visible()
+    assert page.locator("figure.static svg").is_visible()
+
+
+def test_model_without_results_is_shown(open_page, model, tmp_path):
+    page = open_page.context.browser.new_page()
+    watch(page)
+    page.goto(lb.report(model).save(tmp_path / "model.html").as_uri())
+    page.wait_for_selector("#viewer[data-ready]")
+    page.locator("canvas").press("n")
+    page.locator("canvas").press(" ")
+    assert card(page)[0] == "ground"
+    assert page.locator("[name=mode]").count() == 1
+    assert not page.locator("[name=play]").is_visible()
+    assert page.faults == []
+    page.evaluate(
+        """() => {
+          const foreign = document.createElement("script");
+          foreign.textContent = "window.ran = true";
+          document.body.append(foreign);
+        }"""
+    )
+    assert page.evaluate("window.ran") is None  # the policy is in force
+    assert "Content Security Policy" in page.faults[0]
+    page.close()
+
+
+def test_without_webgl_the_drawing_remains(chromium, file):
+    browser = chromium.launch(executable_path=FOUND, args=[*FLAGS, "--disable-3d-apis"])
+    page = browser.new_page()
+    page.goto(file.as_uri())
+    assert page.locator("#no-webgl").is_visible()
+    assert page.locator("figure.static svg").is_visible()
+    assert not page.locator("#viewer").is_visible()
+    browser.close()

@@ -1,0 +1,146 @@
+import builtins
+import json
+import re
+
+import jsonschema
+import pytest
+
+import limitblocks as lb
+from limitblocks.cli import app
+from limitblocks.report import pdf
+from limitblocks.report.content import Bullets, Heading, Headline
+from limitblocks.report.markdown import escaped, markdown
+from limitblocks.report.sections import Table
+
+JOINT = lb.OrdunaLourenco(0.6)
+
+
+@pytest.fixture(scope="module")
+def model():
+    return lb.structures.arch(JOINT, radius=2.0, thickness=0.4, voussoirs=9)
+
+
+@pytest.fixture(scope="module")
+def report(model):
+    path = lb.load_path(model)
+    return lb.report(model, lb.bounds(model), path.collapse, path, lb.check_mcp(model, path.collapse))
+
+
+def test_schema_describes_the_json_of_every_result(report):
+    schema = lb.report_schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    content = json.loads(report.json, parse_constant=pytest.fail)
+    jsonschema.validate(content, schema)
+    assert content["schema_version"] == 1
+    assert [one["analysis"] for one in content["results"]] == ["bounds", "nonassociated", "path", "check"]
+    assert [len(one) for one in content["interfaces"]] == [10, 10, 10, 0]
+    for broken in ({"schema_version": 2}, {"results": [{}]}, {"extra": 1}, {"format": "another"}):
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate(content | broken, schema)
+
+
+def test_markdown_says_what_the_page_says(report, model):
+    text = report.markdown
+    for part in (
+        f"# {model.name}",
+        "## Side by side",
+        "## Associated bounds",
+        "## Load path",
+        f"{report.results[0].lower:#.7g}",
+        f"{report.results[0].gap:.1e}",
+        "Interfaces that do not stick: 4 of 10",
+        model.digest,
+        lb.__version__,
+        "8.2 %",
+    ):
+        assert part in text, part
+    for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
+        widths = {len(re.findall(r"(?<!\\)\|", line)) for line in table.splitlines()}
+        assert len(widths) == 1, table
+
+
+@pytest.mark.parametrize(
+    "text", ["a|b", "# a", "- a", "1. a", "<img src=x>", "`a`", "[a](b)", "*a*", "a\n# b", "a\\"]
+)
+def test_names_are_no_markup_in_markdown(text):
+    line = escaped(text)
+    assert "\n" not in line
+    assert not re.search(r"(?<!\\)(?:\\\\)*[|#<>`*\[\]]", line)
+    assert not re.match(r"[-+]|\d+\.", line)
+    assert " ".join(text.split()) == re.sub(r"\\(.)", r"\1", line)
+
+
+def test_parts_have_their_markdown():
+    parts = [Heading(3, "A"), Headline("0.5", "load factor"), Bullets(("x", "y")), "text"]
+    parts.append(Table("Caption", ("Name", "Value"), (("a", "1"),)))
+    assert markdown(parts).split("\n\n")[1:] == [
+        "### A",
+        "**0.5** load factor",
+        "- x\n- y",
+        "text",
+        "Caption:",
+        "| Name | Value |\n| --- | ---: |\n| a | 1 |\n",
+    ]
+
+
+def test_pdf_holds_title_and_pages(report, tmp_path):
+    data = report.pdf(tmp_path / "arch.pdf").read_bytes()
+    assert data.startswith(b"%PDF-")
+    assert b"/Title (arch of 9 voussoirs)" in data
+    pages = re.search(rb"/Count (\d+)", data)
+    assert 2 <= int(pages[1]) <= 8
+    assert report.pdf(tmp_path / "arch.pdf").exists()  # its own file may be replaced
+    (tmp_path / "other.pdf").write_bytes(b"%PDF-1.4 somebody else's")
+    with pytest.raises(lb.LimitBlocksError, match="not written by limitblocks"):
+        report.save(tmp_path / "other.pdf")
+
+
+def test_every_text_can_be_printed():
+    assert pdf.marked("a<b> & α ≤ 2 – Orduña") == "a&lt;b&gt; &amp; <greek>a</greek> &lt;= 2 – Orduña"
+    assert pdf.marked("石") == r"\u77f3"  # the standard fonts lack it: its code, not a box
+    name = "<b>&\x00石" + "x" * 300
+    table = Table("<i>", ("Interface", "State"), ((name, name),))
+    parts = [Heading(1, name), Headline(name, name), Bullets((name,)), table, name]
+    assert pdf.pdf(parts, name).startswith(b"%PDF-")
+
+
+def test_pdf_names_the_package_it_needs(report, tmp_path, monkeypatch):
+    real = builtins.__import__
+
+    def without(name, *rest):
+        if name.startswith("reportlab"):
+            raise ImportError(name)
+        return real(name, *rest)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(lb.MissingDependency, match=r"reportlab.*pip install limitblocks\[pdf\]"):
+        report.save(tmp_path / "arch.pdf")
+    assert not (tmp_path / "arch.pdf").exists()
+
+
+@pytest.mark.parametrize("suffix", [".html", ".json", ".md", ".pdf", ".HTML"])
+def test_suffix_chooses_the_format(report, tmp_path, suffix):
+    file = report.save(tmp_path / f"arch{suffix}")
+    start = {".html": b"<!doctype", ".json": b"{", ".md": b"<!-- limitblocks", ".pdf": b"%PDF-"}
+    assert file.read_bytes().startswith(start[suffix.lower()])
+    assert report.save(file) == file
+    with pytest.raises(lb.LimitBlocksError, match="exists"):
+        report.save(file, overwrite=False)
+
+
+@pytest.mark.parametrize("name", ["arch.docx", "arch"])
+def test_unknown_suffix_is_refused(report, tmp_path, name):
+    with pytest.raises(lb.LimitBlocksError, match=r"\.html, \.json, \.md, \.pdf"):
+        report.save(tmp_path / name)
+
+
+def test_command_line_writes_the_format_asked_for(model, tmp_path):
+    from typer.testing import CliRunner
+
+    file = model.save(tmp_path / "arch.json")
+    done = CliRunner().invoke(app, ["report", str(file), "-o", str(tmp_path / "arch.md")])
+    assert done.exit_code == 0, done.output
+    assert (tmp_path / "arch.md").read_text(encoding="utf-8").startswith("<!-- limitblocks report -->")
+    refused = CliRunner().invoke(app, ["report", str(file), "-o", str(tmp_path / "arch.docx")])
+    assert refused.exit_code == 2
+    assert not (tmp_path / "arch.docx").exists()
