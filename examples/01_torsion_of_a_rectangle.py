@@ -31,7 +31,7 @@ def main(folder="output"):
     assert abs(T0 - 16.26) < 0.005
     assert abs(T0 - FRICTION * -N * float(rectangle_torsion_constant(L1, L2))) < 1e-12
     picture(Path(folder))
-    return T0
+    return {"T0": T0}
 
 
 def picture(folder):

@@ -28,7 +28,7 @@ def main(folder="output"):
     assert np.allclose(V, [0, 0.34855, 0.79023, 0.95344, 1], atol=1e-5)
     assert np.allclose(T, [1, 0.90943, 0.51783, 0.23519, 0], atol=1e-5)
     picture(Path(folder))
-    return V, T
+    return {"V/V0": V, "T/T0": T}
 
 
 def picture(folder):

@@ -44,15 +44,17 @@ def main(folder="output"):
     T0 = joint.joint.strength(joint, (0, 0, 0, 0, 0, 1), given=(0, 0, N, 0, 0, 0))
     print(f"T0 = {T0:.2f} N m (Fig. 12: 16.3)")
     assert abs(T0 - 16.26) < 0.005
+    points = {}
     for point, (M1, M2, T) in TABLE_4.items():
         on_plane = abs(T) + FRICTION / 2 * (abs(M1) + abs(M2) + N * (L1 + L2))
         exact = rectangle_torsion_bending(L1, L2, FRICTION, N, M1, M2)
         print(f"point {point}: M1 = {M1:5.1f}, M2 = {M2:5.1f}, T = {T:5.2f} N m, effective area {exact:.2f}")
         assert abs(on_plane) < 1e-12
         assert abs(exact - T) < 1e-12
+        points[point] = exact
         assert "moment-twist" in joint.joint.active_modes(joint, (0, 0, N, M1, M2, T))
     picture(Path(folder))
-    return T0
+    return {"T0": T0} | points
 
 
 def picture(folder):

@@ -1,23 +1,124 @@
-"""Every example runs, passes its own assertions, and leaves pictures or reports that are not blank."""
+"""Every example runs, finds the number that a formula or the literature gives, and leaves a picture."""
 
 import runpy
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-EXAMPLES = sorted((Path(__file__).parents[1] / "examples").glob("*.py"))
+ROOT = Path(__file__).parents[1]
+EXAMPLES = sorted((ROOT / "examples").glob("*.py"))
+
+
+def mean_distance(a, b):
+    """Of the points of a rectangle a x b from its centre: the torsion constant c_T, by midpoints."""
+    share = (np.arange(400) + 0.5) / 800
+    return np.hypot(a * share[:, None], b * share).mean()
+
+
+TORSION = mean_distance(1, 1)
+
+# name of the number: (expected, tolerance), with its source
+EXPECTED = {
+    "01_torsion_of_a_rectangle": {"T0": (16.26, 0.005)},  # Orduña & Lourenço (2005), Fig. 12
+    "02_stress_lines": {  # integrals of the unit square by quadrature, theory of the paper, Section 3.1
+        "V/V0": ([0, 0.34855, 0.79023, 0.95344, 1], 1e-5),
+        "T/T0": ([1, 0.90943, 0.51783, 0.23519, 0], 1e-5),
+    },
+    "03_interaction_curves": {  # Fig. 12 and Table 4 of the paper
+        "T0": (16.26, 0.005),
+        "A": (0.7 * 240 * 0.15 / 2, 1e-9),
+        "B": (0, 1e-9),
+        "C": (0.7 * 240 * 0.10 / 2, 1e-9),
+    },
+    "04_plane_surface_against_exact": {
+        "octagon": (1 / np.cos(np.pi / 8), 1e-6),  # drawn around the circle
+        "circle": (1, 1e-9),
+    },
+    "05_orduna_lourenco_against_point_contact": {
+        "excess": ([1.85, 1.89, 1.94], 0.01),  # mu |N| d/2 over Eq. (17), l1/l2 = 1, 2, 4
+        "not twisted": (0.7, 1e-6),  # slides at mu
+    },
+    "06_sliding_and_rocking_block": {
+        "load factors": (np.minimum(0.6, np.linspace(0.1, 1.2, 12)), 1e-6),  # min(mu, b/h)
+        "column of five": (0.5 / (5 * 0.4), 1e-6),
+        "angle": (np.degrees(np.arctan(0.4)), 1e-4),
+    },
+    "07_why_two_bounds": {
+        "gap": (0, 1e-6),
+        # virtual work of 4-hinge mechanisms, by hand in the example without the library's analysis
+        "kinematic less the mechanisms": (0, 1e-6),
+        "static less the mechanisms": (0, 1e-6),
+    },
+    "08_friction_is_not_associated": {  # Ferris & Tin-Loi (2001), wall 4
+        "associated": (0.33195, 1e-5),
+        "zero dilatancy, loaded": (0.264, 0.01 * 0.264),
+    },
+    "09_ferris_and_tin_loi_walls": {  # Ferris & Tin-Loi (2001), walls 1 to 4
+        "associated": ([0.64286, 0.58000, 0.40369, 0.33195], 1e-5),
+        "zero dilatancy over published": (1, 0.01),
+    },
+    "10_minimum_thickness_of_an_arch": {  # Cocchetti & Rizzi (2020)
+        "enough friction": (0.107426, 0.107426 * 4 / 51**2 + 1e-5),  # the error of 51 voussoirs
+        "equations where printed": ([0.107426, 0.200637], 2e-6),
+        "blocks over equations": (1, 0.01),
+    },
+    "11_oppenheims_arch": {"load factor": (0.37, 0.005), "hinges": (4, 0)},  # Oppenheim (1992)
+    "12_facade_and_its_returns": {
+        "free-standing": (0.4 / 2.0, 1e-6),  # t/H
+        "friction 0.3": (0.3, 1e-6),  # all slides on the base
+        "one body": (0.5, 1e-9),  # moments of 400 x 40 cm and 2 x 120 x 40 cm in plan, 2 m high
+    },
+    "13_corner_failure_with_twist": {
+        "ratio": (np.sqrt(2) / 2 / TORSION, 1e-3),  # d/2 over c_T of a square
+        "point contacts": (0.6 * 0.4 * np.sqrt(2) / 2, 1e-6),  # mu d/2
+        "Orduña & Lourenço": (0.6 * 0.4 * TORSION, 1e-5),  # mu c_T, Eqs (16)-(17)
+    },
+    "14_dome_of_lunes": {"many voussoirs": (0.0428, 5e-5)},  # lunes by thrust lines; Heyman (1967): 0.042
+    "15_two_right_answers": {  # mu (1 + 2 P/W)
+        "claimed": ([0.3, 0.9], 1e-12),
+        "worst residual": (0, 1e-6),
+        "found less the rule": (0, 1e-5),
+        "started from P = W": (0.9, 1e-5),
+        "frictionless": (0, 1e-9),
+        "associated": (np.inf, 0),
+    },
+    "16_write_your_own_joint": {  # W = 10 kN, A = 0.5 m2, c_T of 0.5 m x 1 m
+        "dry, pushed": (0.5, 1e-6),
+        "mortar, pushed": (0.5 * (1 + 1e3 * 0.5 / 10e3), 1e-6),
+        "dry, pushed off its middle": (0.6 / (1 + 0.2 / mean_distance(0.5, 1)), 1e-5),
+        "mortar, pushed off its middle": ((0.6 + 0.1) / (1 + 0.2 / mean_distance(0.5, 1)), 1e-5),
+    },
+    "17_check_somebody_elses_answer": {
+        "right": (0, 1e-9),
+        "1 % more load and forces: yield": (0.01 * 0.3, 1e-9),  # 1 % of mu W, in block weights
+        "1 % more load and forces: equilibrium": (0, 1e-9),
+        "1 % more load, same forces: equilibrium": (0.01 * 0.3, 1e-9),
+        "1 % more load, same forces: yield": (0, 1e-9),
+        "rises as it slides: flow": (0.3, 1e-6),  # mu times the rate of sliding
+        "half the load: equilibrium": (0, 1e-9),
+        "half the load: yield": (0, 1e-9),
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def gallery():
+    pytest.importorskip("nbformat")
+    return runpy.run_path(str(ROOT / "scripts" / "gallery"))
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
 def test_example(example, tmp_path, monkeypatch, capsys):
     image = pytest.importorskip("matplotlib.image")
     monkeypatch.chdir(tmp_path)
-    runpy.run_path(str(example))["main"]()
+    found = runpy.run_path(str(example))["main"]()
     assert capsys.readouterr().out.strip()
     made = [path for path in tmp_path.rglob("*") if path.suffix in {".png", ".html"}]
     assert made
     for path in made:
+        assert path.stem == example.stem
         if path.suffix == ".html":
             assert path.stat().st_size > 10_000
         else:
@@ -25,3 +126,45 @@ def test_example(example, tmp_path, monkeypatch, capsys):
             assert min(pixels.shape[:2]) > 300
             assert np.ptp(pixels) > 0.5
             assert (pixels.min(axis=2) < 0.9).mean() > 0.01  # enough that is not white
+    for name, (value, tolerance) in EXPECTED.get(example.stem, {}).items():
+        np.testing.assert_allclose(found[name], value, rtol=0, atol=tolerance, err_msg=name)
+
+
+def test_every_numbered_example_has_a_number(gallery):
+    assert set(EXPECTED) == {path.stem for path in gallery["EXAMPLES"]}
+
+
+def test_every_numbered_example_opens_with_its_question_and_names_its_source(gallery):
+    for example in gallery["EXAMPLES"]:
+        question, lesson, _ = gallery["parts"](example)
+        assert question.endswith("?"), example.name
+        assert "\nSource: " in lesson, example.name
+
+
+def test_readme_of_the_examples_lists_them(gallery):
+    text = (ROOT / "examples" / "README.md").read_text(encoding="utf-8")
+    assert gallery["table"](gallery["EXAMPLES"], ".py") in text
+
+
+def test_gallery(gallery, tmp_path, monkeypatch, capsys):
+    """Page, picture, notebook and script of one example, and nothing overwritten."""
+    nbformat = pytest.importorskip("nbformat")
+    monkeypatch.setattr(sys, "argv", ["gallery", str(tmp_path), "06"])
+    gallery["main"]()
+    stem = "06_sliding_and_rocking_block"
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "index.md",
+        *(stem + suffix for suffix in (".md", ".png", ".py", ".ipynb")),
+    }
+    page = (tmp_path / f"{stem}.md").read_text(encoding="utf-8")
+    assert page.startswith("# Does a block on a plane slide or rock")
+    assert "21.80 deg" in page
+    assert f"]({stem}.png)" in page
+    notebook = nbformat.read(tmp_path / f"{stem}.ipynb", as_version=4)
+    nbformat.validate(notebook)
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    space = {}
+    exec("\n\n".join(code[:-1]), space)
+    assert callable(space["main"])
+    with pytest.raises(SystemExit, match="not empty"):
+        gallery["main"]()
