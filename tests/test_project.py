@@ -23,7 +23,7 @@ def test_version_is_the_same_everywhere():
     assert version in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", ["environment.py", "test", "demo"])
+@pytest.mark.parametrize("name", ["environment.py", "test", "demo", "docs"])
 def test_script_can_tell_an_old_python_that_it_is_too_old(name):
     tree = ast.parse((ROOT / "scripts" / name).read_text(encoding="ascii"), feature_version=(3, 7))
     for node in ast.walk(tree):

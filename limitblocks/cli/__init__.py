@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
+from limitblocks.cli.new import new
 from limitblocks.cli.options import (
     AsJson,
     ClaimFile,
@@ -40,13 +42,13 @@ _SUFFIX = ".html"
 app = typer.Typer(
     help="Limit analysis of structures made of rigid blocks, with evidence for every answer.",
     no_args_is_help=True,
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-app.add_typer(studies, name="study")
+for _name, _group in {"study": studies, "new": new, "examples": examples}.items():
+    app.add_typer(_group, name=_name)
 
 DEFAULT_TOLERANCE = 1e-6
 
@@ -180,8 +182,10 @@ def schema() -> None:
 
 def _bounds(model: Model, **settings: float) -> Bounds:
     from limitblocks.analysis.bounds import bounds
+    from limitblocks.report.terminal import shown_progress
 
-    return bounds(model, **settings)
+    with shown_progress():
+        return bounds(model, **settings)
 
 
 def _nonassociated(model: Model, *, dilatancy: float, tolerance: float) -> Nonassociated:

@@ -1,0 +1,194 @@
+"""`limitblocks new`: model files of the generators in `limitblocks.structures`, parameters as options."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_type_hints
+
+import typer
+
+from limitblocks import joints, structures
+from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.options import Force
+from limitblocks.errors import LimitBlocksError
+
+new = typer.Typer(
+    help="Write the model file of a parametric structure.", no_args_is_help=True, rich_markup_mode=None
+)
+
+JOINTS = {
+    "orduna-lourenco": joints.OrdunaLourenco,
+    "point-contact": joints.PointContact,
+    "exact-torsion": joints.ExactTorsion,
+}
+JointName = Annotated[
+    Literal["orduna-lourenco", "point-contact", "exact-torsion"],
+    typer.Option(help="Joint of all interfaces."),
+]
+Friction = Annotated[float, typer.Option(help="Friction coefficient of the joint.", show_default=False)]
+Strength = Annotated[
+    float | None,
+    typer.Option(help="Effective compressive strength, Pa [default: infinite].", show_default=False),
+]
+NewFile = Annotated[
+    Path | None,
+    typer.Option("--output", "-o", metavar="MODEL", help="Model file (JSON) [default: STRUCTURE.json]."),
+]
+COMMON = {"joint": (JointName, "orduna-lourenco"), "friction": (Friction, ...)}
+COMMON |= {"compressive_strength": (Strength, None), "output": (NewFile, None), "force": (Force, False)}
+
+
+def make_joint(name: str, friction: float, compressive_strength: float | None) -> joints.Joint:
+    """Return the joint of that name.
+
+    Raises
+    ------
+    LimitBlocksError
+        If it has no compressive strength but one is given.
+    """
+    kind: Any = JOINTS[name]
+    if compressive_strength is None:
+        return kind(friction)  # type: ignore[no-any-return]
+    if "compressive_strength" not in inspect.signature(kind).parameters:
+        raise LimitBlocksError(
+            f"joint {name} has no compressive strength; leave --compressive-strength out "
+            "or choose --joint orduna-lourenco"
+        )
+    return kind(friction, compressive_strength=compressive_strength)  # type: ignore[no-any-return]
+
+
+def generators() -> dict[str, Callable[..., Any]]:
+    """Return every public function of `limitblocks.structures` that takes a joint, by its name there."""
+    found = ((name, getattr(structures, name)) for name in structures.__all__)
+    return {
+        name: make
+        for name, make in found
+        if inspect.isfunction(make) and "joint" in inspect.signature(make).parameters
+    }
+
+
+def command(make: Callable[..., Any]) -> Callable[..., None]:
+    """Return a function for typer with those parameters of the generator that a command line can give."""
+    own = {p.name: p for p in _options(make)}
+    common = {
+        name: inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=hint)
+        if default is not ...
+        else inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=hint)
+        for name, (hint, default) in COMMON.items()
+    }
+
+    def run(**values: Any) -> None:
+        given = {name: values[name] for name in own if values[name] is not None and values[name] != []}
+        with clean_errors():
+            joint = make_joint(values["joint"], values["friction"], values["compressive_strength"])
+            file = values["output"] or Path(f"{make.__name__}.json")
+            if file.exists() and not values["force"]:
+                raise LimitBlocksError(
+                    f"{file} exists; name another file with --output or replace it with --force"
+                )
+            model = make(joint=joint, **given)
+            typer.echo(f"{model.save(file, overwrite=values['force'])}: {model}")
+
+    parameters = {**own, **common}
+    run.__name__ = make.__name__
+    run.__signature__ = inspect.Signature(list(parameters.values()))  # type: ignore[attr-defined]
+    run.__annotations__ = {name: parameter.annotation for name, parameter in parameters.items()}
+    return run
+
+
+def left_out(make: Callable[..., Any]) -> list[str]:
+    """Return the parameters of a generator that need Python."""
+    offered = {"joint", *(parameter.name for parameter in _options(make))}
+    return [name for name in inspect.signature(make).parameters if name not in offered]
+
+
+def _options(make: Callable[..., Any]) -> Iterator[inspect.Parameter]:
+    hints, said = get_type_hints(make), _texts(make)
+    for name, parameter in inspect.signature(make).parameters.items():
+        kind, settings, keeps_default = _kind(hints[name], parameter.default)
+        if name == "joint" or kind is None:
+            continue
+        option = typer.Option(f"--{name.replace('_', '-')}", help=said.get(name, ""), **settings)
+        if kind is bool:
+            option = typer.Option(help=said.get(name, ""))
+        default = parameter.default if keeps_default or parameter.default is parameter.empty else None
+        yield inspect.Parameter(
+            name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
+        )
+
+
+def _kind(hint: Any, default: Any) -> tuple[Any, dict[str, Any], bool]:
+    """Type for typer (None: not offered), settings of the option, whether typer gets the default."""
+    kinds = get_args(hint) if get_origin(hint) in (Union, UnionType) else (hint,)
+    kind = next(part for part in kinds if part is not NoneType)
+    if kind in (float, int, bool, str) or get_origin(kind) is Literal:
+        return hint, {"show_default": default not in (None, inspect.Parameter.empty)}, True
+    if _is_record(kind):
+        return Any, {**_record(kind), "show_default": False}, False
+    if get_origin(kind) is not Sequence:
+        return None, {}, False
+    (part,) = get_args(kind)
+    record = next((option for option in get_args(part) or (part,) if _is_record(option)), None)
+    if record:
+        return list[Any], {**_record(record), "show_default": False}, False
+    if part is float and isinstance(default, tuple) and len(default) == 3:
+        return tuple[float, float, float], {"metavar": "X Y Z"}, True
+    return None, {}, False
+
+
+def _is_record(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, tuple) and hasattr(kind, "_fields")
+
+
+def _record(kind: Any) -> dict[str, Any]:
+    """Settings of an option whose value is numbers with commas between them, the fields of a named tuple."""
+    hints, least = get_type_hints(kind), len(kind._fields) - len(kind._field_defaults)
+    names = [name.upper() for name in kind._fields]
+    shown = ",".join(names[:least]) + "".join(f"[,{name}]" for name in names[least:])
+
+    def parse(text: str) -> Any:
+        words = text.split(",")
+        if not least <= len(words) <= len(names):
+            raise typer.BadParameter(f"{text!r}: expected {shown}")
+        try:
+            return kind(*(hints[name](word) for name, word in zip(kind._fields, words, strict=False)))
+        except ValueError:
+            raise typer.BadParameter(f"{text!r}: expected numbers, {shown}") from None
+
+    return {"parser": parse, "metavar": shown}
+
+
+def parameter_texts(doc: str) -> dict[str, str]:
+    """Return what the section Parameters of a numpydoc docstring says of each parameter, on one line."""
+    section = re.search(r"^Parameters\n-+\n(.*?)(?=^\w[^\n]*\n-+\n|\Z)", doc, re.MULTILINE | re.DOTALL)
+    entries = re.findall(
+        r"^(\w[^:\n]*) : [^\n]*\n((?:[ \t]+[^\n]*\n?|\n)*)", section[1] if section else "", re.M
+    )
+    return {name: " ".join(text.split()) for names, text in entries for name in names.split(", ")}
+
+
+def _texts(make: Callable[..., Any]) -> dict[str, str]:
+    """What is said of each parameter, there or in the generators that the docstring refers to."""
+    doc = inspect.getdoc(make) or ""
+    others = (getattr(structures, name, None) for name in re.findall(r":func:`(\w+)`", doc))
+    found: dict[str, str] = {}
+    for text in (*(inspect.getdoc(other) or "" for other in others), doc):
+        found |= {name: said for name, said in parameter_texts(text).items() if "As for" not in said}
+    return {name: _plain(said) for name, said in found.items()}
+
+
+def _plain(text: str) -> str:
+    """Text without reStructuredText roles."""
+    return re.sub(r":\w+:`~?([^`]*)`", r"\1", text)
+
+
+for _make in generators().values():
+    _about = (inspect.getdoc(_make) or "").split("\n\nParameters\n")[0].removeprefix("Return ")
+    _about = _plain(_about[:1].upper() + _about[1:])
+    if _rest := left_out(_make):
+        _about += f"\n\nOnly in Python: {', '.join(_rest)}."
+    new.command(_make.__name__.replace("_", "-"), help=_about)(command(_make))

@@ -1,0 +1,102 @@
+"""Arches and a dome: least thickness, thrust, hinges, and Oppenheim's arch."""
+
+from dataclasses import replace
+from functools import cache, partial
+
+import numpy as np
+
+import limitblocks as lb
+from cases.case import JOINTS, Case, associated
+from limitblocks import structures
+
+
+def semicircle(kind, friction, voussoirs, ratio):
+    return structures.arch(kind(friction), radius=1.0, thickness=ratio, voussoirs=voussoirs)
+
+
+def lumped(model):
+    """Same angles, but each weight proportional to its angle and acting on the centreline."""
+    n = len(model.free_blocks)
+    angles = (np.arange(n) + 0.5) * np.pi / n - np.pi / 2
+    weight = np.mean([part.weight for part in model.free_blocks])
+    points = np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
+    at = zip(model.free_blocks, points, strict=True)
+    return replace(model, dead=sum((lb.force(b.name, (0, 0, -weight), at=p) for b, p in at), lb.Load()))
+
+
+def least_ratio(build, low, high):
+    return lb.studies.minimum(build, low, high, parameter="t/R", tolerance=1e-7).value
+
+
+def least_lumped(friction, expected):
+    build = partial(semicircle, lb.PointContact, friction, 201)
+    return least_ratio(lambda ratio: lumped(build(ratio)), 0.97 * expected, 1.03 * expected)
+
+
+def stands(friction, ratio):
+    try:
+        lb.bounds(lumped(semicircle(lb.PointContact, friction, 201, ratio)))
+    except lb.NoEquilibrium:
+        return 0.0
+    return 1.0
+
+
+@cache
+def thinnest():
+    """The lumped arch at its least thickness, a small force on the keystone that just lets it stand."""
+    model = lumped(semicircle(lb.PointContact, 0.7, 201, 0.10743))
+    keystone = model.free_blocks[100]
+    weight = sum(part.weight for part in model.free_blocks)
+    push = lb.force(keystone.name, (0, 0, -0.02 * weight), at=keystone.centroid)
+    return model, weight / np.pi, lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
+
+
+def thrust():
+    model, weight_per_angle, found = thinnest()
+    pairs = zip(model.interfaces, found.stress_resultants, strict=True)
+    return float(np.mean([abs(i.axes.T @ Q[:3])[0] for i, Q in pairs]) / weight_per_angle)
+
+
+def haunch():
+    """Mean angle from the crown of the joints that open at the haunches, degrees."""
+    model, _, found = thinnest()
+    spin = {b.name: u[4] for b, u in zip(model.blocks, found.displacement_rates, strict=True)}
+    opening = np.array([abs(spin[i.block_j] - spin[i.block_i]) for i in model.interfaces])
+    angle = np.degrees([np.arctan2(abs(i.centroid[0]), i.centroid[2]) for i in model.interfaces])
+    near = (angle > 20) & (angle < 80)
+    return float(np.average(angle[near], weights=opening[near]))
+
+
+def oppenheim(joint):
+    return structures.arch(joint, radius=10.0, thickness=1.5, voussoirs=7, embrace=np.radians(157.5))
+
+
+def lunes(ratio):
+    return structures.dome_lunes(lb.PointContact(0.8), radius=1.0, thickness=ratio, voussoirs=101)
+
+
+def arches():
+    group, cocchetti = "Arches and domes", "Cocchetti & Rizzi (2020), Table 3"
+    centreline = "semicircle, weights on the centreline, 201 voussoirs"
+    for friction, value in ((0.7, 0.107426), (0.309215, 0.200637)):
+        yield Case(group, f"{centreline}, friction {friction}", "least t/R", cocchetti, value, 2e-4 * value,
+                   partial(least_lumped, friction, value))  # fmt: skip
+    yield Case(group, f"{centreline}, friction 0.397", "least t/R", f"{cocchetti}: as above 0.395832",
+               0.107426, 2e-5, partial(least_lumped, 0.397, 0.107426))  # fmt: skip
+    for ratio in (0.3, 0.5):
+        yield Case(group, f"{centreline}, friction 0.3085, t/R {ratio}", "stands (1) or falls (0)",
+                   f"{cocchetti}: none stands", 0.0, 0.0, partial(stands, 0.3085, ratio))  # fmt: skip
+    yield Case(group, centreline, "thrust / (gamma t d R)", cocchetti, 0.621772, 2e-3 * 0.621772, thrust)
+    yield Case(group, centreline, "haunch hinge, degrees from the crown", cocchetti, 54.50, 180 / 201, haunch)
+    yield Case(group, "semicircle, 201 voussoirs", "least t/R", "Milankovitch (1907)", 0.1075, 5e-5,
+               lambda: least_ratio(partial(semicircle, lb.PointContact, 0.7, 201), 0.104, 0.11))  # fmt: skip
+    for name, kind in JOINTS.items():
+        yield Case(group, f"semicircle, 27 voussoirs, friction 0.5, {name}", "least t/R",
+                   "0.1067 to 0.1068, no single source", 0.10675, 5e-5,
+                   partial(least_ratio, partial(semicircle, kind, 0.5, 27), 0.104, 0.11))  # fmt: skip
+        yield Case(group, f"R = 10 m, t/R = 0.15, 157.5 degrees, 7 voussoirs, {name}", "associated",
+                   "Oppenheim (1992)", 0.37, 0.005, partial(associated, oppenheim, kind(0.7)),
+                   quick=True)  # fmt: skip
+    yield Case(group, "hemisphere of two opposite lunes, 101 voussoirs", "least t/R",
+               "two-lune solution; Heyman (1967) has 0.042", 0.0428, 1e-4,
+               lambda: least_ratio(lunes, 0.041, 0.0445))  # fmt: skip

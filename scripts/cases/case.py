@@ -1,0 +1,55 @@
+"""A value to reproduce, and the analyses that have to reproduce it."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import limitblocks as lb
+
+JOINTS = {"OrdunaLourenco": lb.OrdunaLourenco, "PointContact": lb.PointContact}
+FLOWS = ("associated", "non-associated")
+
+
+@dataclass(frozen=True)
+class Case:
+    """A value to reproduce: `run` has to return `published` within the absolute `tolerance`."""
+
+    group: str
+    structure: str
+    quantity: str
+    source: str
+    published: float
+    tolerance: float
+    run: Callable[[], float]
+    quick: bool = False
+    at_least: bool = False  # every value from the published one upwards is right
+
+    def met(self, found):
+        if self.at_least:
+            return found >= self.published - self.tolerance
+        return found == self.published or abs(found - self.published) <= self.tolerance
+
+
+def associated(build, joint):
+    """The static bound; `lb.bounds` raises unless the kinematic one agrees and all residuals are small."""
+    try:
+        return lb.bounds(build(joint)).lower
+    except lb.UnlimitedLoad:
+        return math.inf
+
+
+def nonassociated(build, joint):
+    model = build(joint)
+    found = lb.nonassociated(model)
+    lb.check_mcp(model, found).require()
+    return found.load_factor
+
+
+def end_of_path(build, joint):
+    model = build(joint)
+    path = lb.load_path(model)
+    lb.check_mcp(model, path.collapse).require()
+    return path.load_factor
+
+
+ANALYSES = {"associated": associated, "non-associated": nonassociated, "load path": end_of_path}

@@ -1,0 +1,130 @@
+"""`limitblocks new`: every generator, its parameters as options, what it writes and what it refuses."""
+
+import inspect
+import re
+
+import pytest
+import typer.main
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks import cli
+from limitblocks.cli.new import generators, left_out, parameter_texts
+
+WALL = ("wall", "--length", 1.2, "--courses", 4, "--friction", 0.6)
+
+
+@pytest.fixture(autouse=True)
+def _empty_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def run(*arguments):
+    return CliRunner().invoke(cli.app, ["new", *(str(argument) for argument in arguments)])
+
+
+def command_of(name):
+    return typer.main.get_command(cli.app).commands["new"].commands[name.replace("_", "-")]
+
+
+@pytest.mark.parametrize("name", sorted(generators()))
+def test_every_generator_is_a_command_with_all_its_parameters(name):
+    parameters = inspect.signature(getattr(lb.structures, name)).parameters
+    options = {option.name: option for option in command_of(name).params}
+    assert set(parameters) - set(left_out(getattr(lb.structures, name))) <= set(options)
+    for key, parameter in parameters.items():
+        if key in options and key != "joint":
+            assert options[key].required == (parameter.default is parameter.empty)
+            assert options[key].help or key in command_of(name).help, key
+    assert {"joint", "friction", "compressive_strength", "output", "force"} <= set(options)
+
+
+def test_no_public_generator_is_missing():
+    made = {n for n in lb.structures.__all__ if inspect.isfunction(getattr(lb.structures, n))}
+    assert made == set(generators())
+    assert len(made) >= 13
+
+
+def test_the_file_is_the_model_that_python_makes():
+    opening = (0.4, 0.2, 0.4, 0.4)
+    done = run(*WALL, "--openings", "0.4,0.2,0.4,0.4", "--direction", 0, -1, 0, "--unit-weight", 24e3)
+    assert done.exit_code == 0, done.output
+    made = lb.structures.wall(
+        lb.OrdunaLourenco(0.6),
+        length=1.2,
+        courses=4,
+        openings=[opening],
+        direction=(0, -1, 0),
+        unit_weight=24e3,
+    )
+    assert lb.read("wall.json").digest == made.digest
+
+
+@pytest.mark.parametrize(
+    ("options", "joint"),
+    [
+        ((), lb.OrdunaLourenco(0.6)),
+        (("--compressive-strength", 3e6), lb.OrdunaLourenco(0.6, compressive_strength=3e6)),
+        (("--joint", "point-contact"), lb.PointContact(0.6)),
+        (("--joint", "exact-torsion"), lb.ExactTorsion(0.6)),
+    ],
+)
+def test_joints(options, joint):
+    assert run(*WALL, *options, "-o", "other.json").exit_code == 0
+    assert {interface.joint for interface in lb.read("other.json").interfaces} == {joint}
+
+
+def test_nothing_is_overwritten_unless_asked():
+    assert run(*WALL).exit_code == 0
+    again = run(*WALL)
+    assert again.exit_code == 2
+    assert "--force" in again.stderr
+    assert run(*WALL, "--force").exit_code == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((*WALL, "--joint", "point-contact", "--compressive-strength", 1e6), "no compressive strength"),
+        ((*WALL, "--friction", -1), "friction"),
+        ((*WALL, "--courses", 0), "courses"),
+        ((*WALL, "--courses", "two"), "--courses"),
+        ((*WALL, "--openings", "0.4,0.2"), "LEFT,SILL,WIDTH,HEIGHT"),
+        ((*WALL, "--openings", "a,b,c,d"), "expected numbers"),
+        ((*WALL, "--lenght", 2), "--length"),
+        (("wal", "--length", 2), "wall"),
+        (("wall", "--courses", 4, "--friction", 0.6), "--length"),
+        ((*WALL, "-o", "missing/folder/wall.json"), "missing"),
+    ],
+)
+def test_what_is_wrong_is_said_and_nothing_is_written(arguments, said, tmp_path):
+    done = run(*arguments)
+    assert done.exit_code == 2
+    assert said in done.stderr
+    assert "Traceback" not in done.output
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_named_tuples_are_numbers_with_commas():
+    if "piers" not in inspect.signature(lb.structures.arch).parameters:
+        pytest.skip("no such parameter")
+    arch = ("arch", "--radius", 2, "--thickness", 0.4, "--voussoirs", 9, "--friction", 0.7)
+    assert run(*arch, "--piers", "0.6,3").exit_code == 0
+    made = lb.structures.arch(
+        lb.OrdunaLourenco(0.7), radius=2.0, thickness=0.4, voussoirs=9, piers=lb.structures.Piers(0.6, 3)
+    )
+    assert lb.read("arch.json").digest == made.digest
+
+
+def test_help_is_the_docstring():
+    text = " ".join(run("facade", "--help").stdout.split())
+    assert "A facade with a door, a window and two return walls" in text
+    assert "Number of courses." in text
+    assert not re.search(r":func:|Parameters|----", text)
+
+
+def test_parameter_texts():
+    doc = "Return.\n\nParameters\n----------\na, b : float\n    Both, in\n    m.\nc : int\n    Count.\n"
+    doc += "\nRaises\n------\nError\n    Never.\n"
+    assert parameter_texts(doc) == {"a": "Both, in m.", "b": "Both, in m.", "c": "Count."}
+    assert parameter_texts("Nothing.") == {}

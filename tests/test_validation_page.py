@@ -1,0 +1,69 @@
+"""The validation page is that of the registry; its cases can fail."""
+
+import sys
+from dataclasses import replace
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture(scope="module")
+def validation():
+    loader = SourceFileLoader("validation_script", str(ROOT / "scripts" / "validation"))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    try:
+        loader.exec_module(module)
+    finally:
+        sys.dont_write_bytecode = writes
+    return module
+
+
+@pytest.fixture(scope="module")
+def cases(validation):
+    return validation.cases()
+
+
+def test_page_has_a_row_for_every_case_and_each_is_met(validation, cases):
+    page = (ROOT / "docs" / "validation.md").read_text(encoding="utf-8")
+    rows = [line for line in page.splitlines() if line.startswith("| ") and line.endswith(" |")]
+    rows = [row for row in rows if not row.startswith(("| structure", "| ---"))]
+    assert len(rows) == len(cases)
+    for case, row in zip(cases, rows, strict=True):
+        expected = validation.cells(case, case.published, True)
+        cells = row.strip("| ").split(" | ")
+        assert cells[:4] == [cell.replace("|N|", "abs(N)") for cell in expected[:4]]
+        assert cells[6:] == expected[6:]
+    assert f"**{len(cases)} of {len(cases)} within" in page
+
+
+def test_every_source_is_named(cases):
+    assert len({(case.structure, case.quantity, case.source) for case in cases}) == len(cases)
+    assert all(case.source and case.quantity for case in cases)
+
+
+def test_quick_cases_are_met(validation, cases):
+    quick = [case for case in cases if case.quick and case.quantity != "non-associated"]
+    quick = [case for case in quick if "wall" not in case.structure or "PointContact" in case.structure]
+    assert len(quick) > 30
+    assert [case.structure for case in quick if not validation.run(case)[1]] == []
+
+
+def test_a_wrong_value_is_not_met(validation, cases):
+    case = next(case for case in cases if case.quick and case.quantity == "associated")
+    wrong = replace(case, published=1.001 * case.published)
+    found, met = validation.run(wrong)
+    assert not met
+    assert validation.cells(wrong, found, met)[-1] == "**no**"
+
+
+def test_a_case_without_an_answer_is_not_met(validation, cases):
+    def fails():
+        raise validation.lb.SolveError("no answer")
+
+    assert not validation.run(replace(cases[0], run=fails))[1]
+    assert not validation.run(replace(cases[0], run=lambda: float("nan")))[1]
