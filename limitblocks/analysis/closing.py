@@ -81,6 +81,12 @@ def _drift(before: float, after: float) -> float:
     return abs(after - before) / max(abs(before), SMALL_LOAD)
 
 
+def flow_before_return(reach: Reach) -> float:
+    """Flow residual of a jump before its stresses were brought back to yield."""
+    z, loading = reach.point, reach.loading
+    return evidence(loading.problem, State(z.load_factor, z.x, z.u, z.y), loading.dilatancy)["flow"]
+
+
 def evidence(problem: LimitProblem, state: State, dilatancy: float) -> Residuals:
     """Residuals of Eqs (54)-(59)."""
     return mcp_residuals(problem, state.load_factor, state.x, state.u, state.y, dilatancy)

@@ -11,7 +11,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.closing import Closing, Reach, closed, evidence, leap, reached
+from limitblocks.analysis.closing import Closing, Reach, closed, evidence, flow_before_return, leap, reached
 from limitblocks.analysis.implicit_step import Loading, implicit_step
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.settings import Settings
@@ -106,7 +106,7 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
         report(reach.stage)
         if reach.stage.residuals.worst.value <= task.tolerance:
             return found
-        worth = _worth(settings, reach.stage, tried)
+        worth = _worth(settings, reach, tried)
         closing = closed(reach, task.tolerance, settings) if worth else kept
         if closing.stage and closing.drift < kept.drift:
             budget = budget if kept.stage else min(budget, pace.used + settings.patience)
@@ -135,13 +135,14 @@ def _smooth(stage: Stage) -> bool:
     return stage.kind == "step" and not stage.failures
 
 
-def _worth(settings: Settings, stage: Stage, tried: float) -> bool:
+def _worth(settings: Settings, reach: Reach, tried: float) -> bool:
     """Whether a state is so close to collapse that closing may succeed.
 
     Where the next step is cheaper than a round, it must be well beyond the state of the last try.
     """
-    flow = stage.residuals["flow"]
-    return flow < (min(settings.close, AGAIN * tried) if _smooth(stage) else settings.near)
+    if _smooth(reach.stage):
+        return reach.stage.residuals["flow"] < min(settings.close, AGAIN * tried)
+    return flow_before_return(reach) < settings.near
 
 
 def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple[Reach | None, _Pace]:

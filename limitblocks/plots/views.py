@@ -49,11 +49,16 @@ def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
 
 
 def _plane(model: Model, flat: bool) -> str:
-    """Name of the elevation in which contacts and live load lie, or else 3d, or xz if it must be `flat`."""
+    """Name of the elevation in which contacts and live load lie, or else 3d, or xz if it must be `flat`.
+
+    The free blocks must be of one depth, too: a spiral stair is no wall.
+    """
     vectors = np.stack([interface.axes[2] for interface in model.interfaces])
     live = model.live.on(model.free_blocks)[:, :3]
     live = live / max(float(np.abs(live).max()), np.finfo(float).tiny)
     out = np.abs(np.concatenate([vectors, live])).max(axis=0) < 1e-6
+    ends = np.array([(b.vertices.min(axis=0), b.vertices.max(axis=0)) for b in model.free_blocks])
+    out &= np.ptp(ends, axis=0).max(axis=0) < 1e-6 * np.ptp(ends)
     return "xz" if out[1] else "yz" if out[0] else "xz" if flat else "3d"
 
 
