@@ -17,7 +17,7 @@ NAMES = list(EXAMPLES)
 
 
 def example(name):
-    """The structure with all the interfaces that its blocks have: a two-leaf wall leaves out those of the gap."""
+    """The structure with all interfaces of its blocks: a two-leaf wall leaves out those of the gap."""
     model = EXAMPLES[name](JOINT)
     found = lb.find_interfaces(model.blocks, JOINT)
     return replace(model, interfaces=found, dead=lb.self_weight(), live=LIVE)
