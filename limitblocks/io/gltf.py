@@ -1,5 +1,6 @@
 """glTF 2.0 and its binary form GLB: each node with a mesh a block, in metres, with Y up."""
 
+# trimesh takes skins, sparse data, two parents and fans without an error, but wrongly.
 from __future__ import annotations
 
 import base64

@@ -34,6 +34,8 @@ def write_blocks(
     ------
     LimitBlocksError
         The file exists and `overwrite` is false, or it cannot be written.
+    MissingDependency
+        The format needs a package that is not installed.
     ModelError
         The suffix is unknown, or there are no blocks.
     """

@@ -1,5 +1,6 @@
 """Wavefront OBJ: each object a block, or each group where there are no objects; faces as they are drawn."""
 
+# trimesh reads triangles alone: it would lose quads, and objects that groups or materials divide.
 from __future__ import annotations
 
 from collections.abc import Iterator

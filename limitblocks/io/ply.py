@@ -1,5 +1,6 @@
 """PLY, as text or binary: each closed surface a block, faces as they are drawn."""
 
+# trimesh reads no binary polygons of mixed sizes and writes single precision; meshio reads no face data.
 from __future__ import annotations
 
 from collections.abc import Callable

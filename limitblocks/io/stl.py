@@ -1,5 +1,6 @@
 """STL, as text or binary: each named solid, or each closed surface, a block."""
 
+# trimesh renames repeated names, confuses names with words of the format, and passes over solids cut short.
 from __future__ import annotations
 
 import re

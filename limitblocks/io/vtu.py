@@ -1,10 +1,11 @@
-"""VTU out, for ParaView: blocks with their motion, interfaces with their stress resultants."""
+"""VTU out, by meshio, for ParaView: blocks with their motion, interfaces with their stress resultants."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
@@ -14,11 +15,11 @@ from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io.motion import displaced, motion
+from limitblocks.io.packages import package
 from limitblocks.io.written import refuse_existing, write
 from limitblocks.model import Model
 
 _RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
-_POLYGON = 7  # VTK cell type
 
 
 def write_vtu(
@@ -52,6 +53,8 @@ def write_vtu(
     ------
     LimitBlocksError
         A file exists and `overwrite` is false, or it cannot be written.
+    MissingDependency
+        meshio is not installed.
     ModelError
         The suffix is wrong, or the result is not one of the model.
     """
@@ -140,27 +143,17 @@ def _vtu(
     cell_data: dict[str, Any],
     field: dict[str, float],
 ) -> bytes:
-    """Return the VTU file of `polygons` over `points` with their data (VTK file formats, XML, ASCII)."""
-    sides = np.array([len(polygon) for polygon in polygons])
-    cells = {"connectivity": np.concatenate([*polygons, []]).astype(np.int64), "offsets": np.cumsum(sides)}
-    parts = [
-        ("FieldData", {name: np.array([value]) for name, value in field.items()}),
-        (f'Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(sides)}"', {}),
-        ("Points", {"Points": points}),
-        ("Cells", cells | {"types": np.full(len(sides), _POLYGON)}),
-        ("PointData", point_data),
-        ("CellData", cell_data),
-    ]
-    lines = ['<?xml version="1.0"?>', '<VTKFile type="UnstructuredGrid" version="1.0">', "<UnstructuredGrid>"]
-    for tag, arrays in parts:
-        lines += [f"<{tag}>", *(_array(name, values, tag) for name, values in arrays.items())]
-        lines += [] if tag.startswith("Piece") else [f"</{tag}>"]
-    return "\n".join([*lines, "</Piece>", "</UnstructuredGrid>", "</VTKFile>\n"]).encode()
-
-
-def _array(name: str, values: Any, tag: str) -> str:
-    kind = "Float64" if values.dtype.kind == "f" else "Int64"
-    shape = f'NumberOfTuples="{len(values)}"' if tag == "FieldData" else ""
-    columns = f'NumberOfComponents="{values.shape[1]}"' if values.ndim == 2 else ""
-    text = " ".join(map(repr, values.ravel().tolist()))
-    return f'<DataArray type="{kind}" Name="{name}" {shape}{columns} format="ascii">{text}</DataArray>'
+    """Return the VTU file of `polygons` over `points` with their data."""
+    meshio = package("meshio", "VTU")
+    cells = [("polygon", np.array(list(run))) for _, run in groupby(polygons, len)]
+    ends = np.cumsum([len(run) for _, run in cells])[:-1]
+    runs = {name: np.split(values, ends) for name, values in cell_data.items()}
+    with TemporaryDirectory() as folder:  # meshio writes VTU to files only, and no field data
+        file = Path(folder) / "mesh.vtu"
+        meshio.Mesh(points, cells, point_data, runs).write(file)
+        arrays = "".join(
+            f'<DataArray type="Float64" Name="{name}" NumberOfTuples="1" format="ascii">{value!r}</DataArray>'
+            for name, value in zip(field, map(float, field.values()), strict=True)
+        )
+        tag = b"<UnstructuredGrid>"
+        return file.read_bytes().replace(tag, tag + f"<FieldData>{arrays}</FieldData>".encode(), 1)

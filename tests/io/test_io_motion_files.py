@@ -2,6 +2,7 @@
 
 import json
 import struct
+import sys
 import xml.etree.ElementTree as ET
 
 import meshio
@@ -11,7 +12,6 @@ from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
 from limitblocks.analysis.results import LoadPath, PathStep
-from limitblocks.io.glb import quaternions
 
 JOINT = lb.OrdunaLourenco(0.6)
 ARCH = lb.structures.arch(JOINT, radius=5.0, thickness=0.8, voussoirs=7, embrace=2.8)
@@ -139,14 +139,6 @@ def test_animation_turns_blocks_about_their_centroids(path, tmp_path):
             assert Rotation.from_quat(turns[-1]).as_rotvec() == pytest.approx([wx, wz, -wy], abs=1e-6)
 
 
-def test_quaternions_are_those_of_scipy():
-    turns = np.random.default_rng(1).normal(size=(50, 3))
-    turns[0] = 0.0
-    assert quaternions(turns) == pytest.approx(
-        Rotation.from_rotvec(turns).as_quat(canonical=False), abs=1e-12
-    )
-
-
 def test_wrong_results_and_suffixes_are_refused(path, tmp_path):
     small = lb.structures.portal(JOINT, span=2.0, pier_width=0.6, pier_blocks=2)
     claim = lb.Claim(1.0, BOUNDS.stress_resultants)
@@ -174,3 +166,45 @@ def test_results_of_others_are_not_overwritten(path, tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == [mine.name]  # nothing is written by halves
     lb.write_vtu(ARCH, tmp_path / "path.pvd", path, overwrite=True)
     assert mine.read_text() != "mine"
+
+
+@pytest.mark.parametrize(
+    ("package", "suffix", "write"),
+    [
+        ("trimesh", ".glb", lambda file: lb.write_blocks(ARCH, file)),
+        ("trimesh", ".glb", lambda file: lb.write_animation(ARCH, file, BOUNDS)),
+        ("meshio", ".vtu", lambda file: lb.write_vtu(ARCH, file, BOUNDS)),
+    ],
+)
+def test_without_the_packages_of_the_extra_meshes(package, suffix, write, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(lb.MissingDependency, match=rf"need {package}: pip install limitblocks\[meshes\]"):
+        write(tmp_path / f"a{suffix}")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_cells_stay_in_order_where_faces_have_different_numbers_of_corners(tmp_path):
+    joint = lb.PointContact(0.6)
+    prism = lb.Block(
+        "prism",
+        [(x, y, z) for z in (0.0, 1.0) for x, y in ((0, 0), (1, 0), (0, 1))],
+        [(2, 1, 0), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)],
+        1.0,
+    )
+    blocks = [lb.Block.box("ground", (1, 1, 1), (0.5, 0.5, -0.5)), prism]
+    found = lb.find_interfaces(blocks, joint)
+    model = lb.Model(blocks, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    mesh = meshio.read(lb.write_vtu(model, tmp_path / "two.vtu")[0])
+    cells = [tuple(cell) for run in mesh.cells for cell in run.data.tolist()]
+    starts = {"ground": 0, "prism": 8}
+    assert cells == [tuple(v + starts[b.name] for v in face) for b in blocks for face in b.faces]
+    assert np.concatenate(mesh.cell_data["block"]).tolist() == [0] * 6 + [1] * 5
+
+
+def test_nodes_keep_names_that_are_repeated_or_of_the_format(tmp_path):
+    names = ["world", "a", "a", "0", "Stöne"]
+    boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(names)]
+    document, _ = read_glb(lb.write_blocks(boxes, tmp_path / "a.glb"))
+    assert [node["name"] for node in document["nodes"]] == names
+    assert [node["translation"][0] for node in document["nodes"]] == [0, 2, 4, 6, 8]
+    assert not any("matrix" in node for node in document["nodes"])  # or no animation may move them
