@@ -171,7 +171,7 @@ def test_a_wrong_answer_of_the_first_solver_is_passed_over(monkeypatch):
 
 
 def small_load_factor():
-    """A thin arch near collapse: with forces of 20 block weights at 400 points, violations of 1e-10 matter."""
+    """A thin arch near collapse: violations of 1e-10 of forces of 20 block weights at 400 points matter."""
     model = structures.arch(lb.PointContact(0.309215), radius=1.0, thickness=0.25, voussoirs=101)
     n = len(model.free_blocks)
     angles = (np.arange(n) + 0.5) * np.pi / n - np.pi / 2
