@@ -12,20 +12,19 @@ from limitblocks.errors import SolverFailure
 from limitblocks.joints.base import YieldRows
 
 FIRST_PLANES = 16  # tangent planes of each cone to start with
-VIOLATION = 1e-10  # of cones of forces of unit size
 LARGEST = 1e4  # of the given stresses and the direction, both of unit size: more is unlimited
 ROUNDS = 60
 FAN = np.linspace(-1.0, 1.0, 9)  # tangent planes about a violated one, of the angle by which it is violated
-# HiGHS's presolve gives up on some of these small programs; without it they are solved as quickly.
-PRECISE: Any = {"presolve": False, "primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
-METHODS: Any = ("highs", "highs-ipm")
+# Of the planes, and so of the cones of forces of unit size. HiGHS gives up on some of these programs, whose
+# planes all but coincide, with the first: with the next it does not.
+TOLERANCES = (1e-10, 1e-9, 1e-8)
 
 
 def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Array]:
     """Return the largest t with `given` + t `direction` within the yield set, and the multipliers there.
 
     Kelley's method: cones (t0, z), sizes 3, become planes t0 - d.z >= 0, and each solution adds the
-    planes it violates and some beside them, until none does by more than 1e-10.
+    planes it violates and some beside them, until none does by more than the tolerance.
 
     Parameters
     ----------
@@ -44,7 +43,7 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     Raises
     ------
     SolverFailure
-        If no method of HiGHS answers, or the planes do not converge.
+        If HiGHS gives no answer, or the planes do not converge.
     """
     F, linear = rows.F[0], rows.linear
     cones = F[linear:].reshape(-1, 3, F.shape[1])
@@ -53,12 +52,12 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     for _ in range(ROUNDS):
         d = np.column_stack([np.cos(angle), np.sin(angle)])
         planes = cones[owner, 0] - (d[:, None] @ cones[owner, 1:])[:, 0]
-        found = _solved(np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction)
+        found, tolerance = _solved(np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction)
         if found.status == 2:
             return np.nan, np.zeros(0)
         force = cones @ found.x[:-1]
         size = np.linalg.norm(force[:, 1:], axis=1)
-        bad = np.flatnonzero(size - force[:, 0] > VIOLATION * max(1.0, found.x[-1]))
+        bad = np.flatnonzero(size - force[:, 0] > tolerance * max(1.0, found.x[-1]))
         if not len(bad):
             t = np.inf if found.x[-1] > LARGEST * (1 - 1e-6) else float(found.x[-1])
             return t, _rates(np.maximum(-found.ineqlin.marginals, 0.0), rows, owner, d)
@@ -70,8 +69,8 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     raise SolverFailure(f"strength of point contacts: no answer after {ROUNDS} rounds of tangent planes")
 
 
-def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> Any:
-    """Answer of HiGHS: the largest t with A x >= 0 and resultants x = given + t direction, or none."""
+def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> tuple[Any, float]:
+    """Answer of HiGHS, and its tolerance: the largest t with A x >= 0, resultants x = given + t direction."""
     program: Any = {
         "c": np.append(np.zeros(A.shape[1]), -1.0),
         "A_ub": np.column_stack([-A, np.zeros(len(A))]),
@@ -81,11 +80,16 @@ def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> Any:
         "bounds": [(None, None)] * A.shape[1] + [(0.0, LARGEST)],
     }
     said = []
-    for method in METHODS:
-        found = linprog(**program, method=method, options=PRECISE)
+    for tolerance in TOLERANCES:
+        options: Any = {
+            "presolve": False,
+            "primal_feasibility_tolerance": tolerance,
+            "dual_feasibility_tolerance": tolerance,
+        }
+        found = linprog(**program, method="highs", options=options)
         if found.status == 2 or found.x is not None:
-            return found
-        said.append(f"{method}: {found.message}")
+            return found, tolerance
+        said.append(f"tolerance {tolerance:g}: {found.message}")
     raise SolverFailure("strength of point contacts: " + "; ".join(said))
 
 

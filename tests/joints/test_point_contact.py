@@ -157,6 +157,14 @@ def test_utilisation_of_every_interface_of_a_wall():
     assert max(np.array(used)[carries]) == pytest.approx(1, abs=1e-5)  # it collapses
 
 
+def test_an_interface_that_carries_rounding_alone():
+    """HiGHS gave up on such states, here 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side, decides."""
+    polygon = np.array([(0.3, -0.1), (0.3, 0.1), (-0.3, 0.1), (-0.3, -0.1)])
+    V2, N2, M1 = 5.51144723e-12, -3.90941282e-11, 5.87182741e-13
+    found = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
+    assert found == pytest.approx(max(V2 / (0.6 * -N2), M1 / (0.1 * -N2)), rel=1e-7)
+
+
 def test_given_stresses_outside_are_refused_even_if_the_direction_leads_inside():
     interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
     for given in (-COMPRESSION, COMPRESSION - [1.01 * MU * N, 0, 0, 0, 0, 0]):
