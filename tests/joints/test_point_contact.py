@@ -158,7 +158,7 @@ def test_utilisation_of_every_interface_of_a_wall():
 
 
 def test_an_interface_that_carries_rounding_alone():
-    """HiGHS gave up on such states, here 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side, decides."""
+    """HiGHS gave up on such states, 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side."""
     polygon = np.array([(0.3, -0.1), (0.3, 0.1), (-0.3, 0.1), (-0.3, -0.1)])
     V2, N2, M1 = 5.51144723e-12, -3.90941282e-11, 5.87182741e-13
     found = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
