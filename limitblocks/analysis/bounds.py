@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from limitblocks.analysis.residuals import (
     relative_gap,
     residual,
     static_residuals,
+    worth_of_violations,
 )
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure, UnlimitedLoad
@@ -183,10 +185,7 @@ def _solved(problem: LimitProblem, tolerance: float) -> tuple[Solution, Solution
             if worst.value <= tolerance:
                 kept.append(found)
         if statics and kinematics:
-            pair = (
-                max(statics, key=lambda s: float(s.values[0])),
-                min(kinematics, key=partial(_power, problem)),
-            )
+            pair = min(product(statics, kinematics), key=partial(_doubt, problem))
             gap = relative_gap(float(pair[0].values[0]), _power(problem, pair[1]))
             if gap <= tolerance:
                 return pair
@@ -194,6 +193,13 @@ def _solved(problem: LimitProblem, tolerance: float) -> tuple[Solution, Solution
         else:
             explain(problem)
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
+
+
+def _doubt(problem: LimitProblem, pair: tuple[Solution, Solution]) -> float:
+    """Gap between two solutions with what their violations may be worth: two that err alike agree too."""
+    (load_factor, x), (u, y) = pair[0].values, pair[1].values
+    gap = abs(_power(problem, pair[1]) - float(load_factor))
+    return gap + worth_of_violations(problem, float(load_factor), x, u, y)
 
 
 def _power(problem: LimitProblem, kinematic: Solution) -> float:

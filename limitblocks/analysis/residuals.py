@@ -86,3 +86,27 @@ def kinematic_residuals(
 def relative_gap(lower: float, upper: float) -> float:
     """Return |upper - lower| over the larger bound, or over a tenth of a block weight if both are less."""
     return abs(upper - lower) / max(abs(lower), abs(upper), SMALL_LOAD)
+
+
+def worth_of_violations(
+    problem: LimitProblem, lower: float, stresses: Array, rates: Array, multipliers: Array
+) -> float:
+    """Return what the violations of a pair of bounds may be worth in the load factor, dimensionless.
+
+    With r the unbalanced loads, f = C u + F^T y and s = F x + g, identically
+    upper - lower = s.y - x.f - r.u + lower (live.u - 1), and s.y >= 0 for s and y in K. All other terms, and
+    those that put s and y into K, are added up in size: violations of 1e-10 may hide a gap of 1e-6.
+    """
+    s = problem.F @ stresses + problem.g
+    unbalanced = problem.dead + lower * problem.live - problem.C.T @ stresses
+    flow = problem.C @ rates + problem.F.T @ multipliers
+    groups = [first + size * np.arange(count) for first, count, size in problem.cones.blocks]
+    heads = np.concatenate([np.arange(problem.cones.linear), *groups])
+    outside = [np.maximum(-problem.cones.margin(rows), 0.0) for rows in (s, multipliers)]
+    return float(
+        np.abs(stresses) @ np.abs(flow)
+        + np.abs(unbalanced) @ np.abs(rates)
+        + abs(lower * (problem.live @ rates - 1.0))
+        + outside[0] @ np.abs(multipliers[heads])
+        + outside[1] @ np.abs(s[heads])
+    )

@@ -7,27 +7,29 @@ from typing import Any
 import numpy as np
 from scipy.optimize import linprog
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.errors import SolverFailure
 from limitblocks.joints.base import YieldRows
 
 FIRST_PLANES = 16  # tangent planes of each cone to start with
-VIOLATION = 1e-10  # of cones of forces of unit size
 LARGEST = 1e4  # of the given stresses and the direction, both of unit size: more is unlimited
 ROUNDS = 60
-PRECISE: Any = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+FAN = np.linspace(-1.0, 1.0, 9)  # tangent planes about a violated one, of the angle by which it is violated
+# Of the planes, and so of the cones of forces of unit size. HiGHS gives up on some of these programs, whose
+# planes all but coincide, with the first: with the next it does not.
+TOLERANCES = (1e-10, 1e-9, 1e-8)
 
 
 def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Array]:
     """Return the largest t with `given` + t `direction` within the yield set, and the multipliers there.
 
     Kelley's method: cones (t0, z), sizes 3, become planes t0 - d.z >= 0, and each solution adds the
-    planes it violates, until none does by more than 1e-10.
+    planes it violates and some beside them, until none does by more than the tolerance.
 
     Parameters
     ----------
     rows : YieldRows
-        Of one interface, all its points alike; no constant terms.
+        Of one interface, all its points alike; no constant terms; a plane for each cone if there are cones.
     given, direction : Array, shape (6,)
         Stress resultants in units that make them of size one.
 
@@ -37,42 +39,69 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
         Infinite without limit, NaN if `given` is outside the yield set.
     multipliers : Array, shape (k,)
         Rates (>= 0) of the planes and of the cones in the mechanism that limits t.
+
+    Raises
+    ------
+    SolverFailure
+        If HiGHS gives no answer, or the planes do not converge.
     """
     F, linear = rows.F[0], rows.linear
     cones = F[linear:].reshape(-1, 3, F.shape[1])
-    angles = 2 * np.pi * np.arange(FIRST_PLANES) / FIRST_PLANES
-    planes = [_planes(cones, np.stack([np.cos(angles), np.sin(angles)], axis=1)[None])]
-    owner = [np.repeat(np.arange(len(cones)), FIRST_PLANES)]
+    owner = np.repeat(np.arange(len(cones)), FIRST_PLANES)
+    angle = np.tile(2 * np.pi * np.arange(FIRST_PLANES) / FIRST_PLANES, len(cones))
     for _ in range(ROUNDS):
-        A = np.concatenate([F[:linear], *planes])
-        found = linprog(
-            np.append(np.zeros(F.shape[1]), -1.0),
-            A_ub=np.column_stack([-A, np.zeros(len(A))]),
-            b_ub=np.zeros(len(A)),
-            A_eq=np.column_stack([rows.resultants[0], -direction]),
-            b_eq=given,
-            bounds=[(None, None)] * F.shape[1] + [(0.0, LARGEST)],
-            method="highs",
-            options=PRECISE,
-        )
+        d = np.column_stack([np.cos(angle), np.sin(angle)])
+        planes = cones[owner, 0] - (d[:, None] @ cones[owner, 1:])[:, 0]
+        found, tolerance = _solved(np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction)
         if found.status == 2:
             return np.nan, np.zeros(0)
-        if found.x is None:
-            raise SolverFailure(f"strength of point contacts: {found.message}")
         force = cones @ found.x[:-1]
-        z = force[:, 1:]
-        size = np.linalg.norm(z, axis=1)
-        bad = size - force[:, 0] > VIOLATION * max(1.0, found.x[-1])
-        if not bad.any():
-            rates = np.maximum(-found.ineqlin.marginals, 0.0)
-            slip = np.bincount(np.concatenate(owner), rates[linear:], minlength=len(cones))
+        size = np.linalg.norm(force[:, 1:], axis=1)
+        bad = np.flatnonzero(size - force[:, 0] > tolerance * max(1.0, found.x[-1]))
+        if not len(bad):
             t = np.inf if found.x[-1] > LARGEST * (1 - 1e-6) else float(found.x[-1])
-            return t, np.concatenate([rates[:linear], slip])
-        planes.append(_planes(cones[bad], (z[bad] / size[bad, None])[:, None]))
-        owner.append(np.flatnonzero(bad))
+            return t, _rates(np.maximum(-found.ineqlin.marginals, 0.0), rows, owner, d)
+        # a plane violated by 1 - cos(a) of ||z|| is off by the angle a
+        off = np.arccos(np.clip(force[bad, 0] / size[bad], np.cos(np.pi / FIRST_PLANES), 1.0))
+        about = np.arctan2(force[bad, 2], force[bad, 1])
+        owner = np.concatenate([owner, np.repeat(bad, len(FAN))])
+        angle = np.concatenate([angle, (about[:, None] + off[:, None] * FAN).ravel()])
     raise SolverFailure(f"strength of point contacts: no answer after {ROUNDS} rounds of tangent planes")
 
 
-def _planes(cones: Array, normals: Array) -> Array:
-    """Rows t0 - d.z (c k, s) of cones (c, 3, s), for unit vectors d (c or 1, k, 2)."""
-    return np.asarray((cones[:, None, 0] - normals @ cones[:, 1:]).reshape(-1, cones.shape[2]))
+def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> tuple[Any, float]:
+    """Answer of HiGHS, and its tolerance: the largest t with A x >= 0, resultants x = given + t direction."""
+    program: Any = {
+        "c": np.append(np.zeros(A.shape[1]), -1.0),
+        "A_ub": np.column_stack([-A, np.zeros(len(A))]),
+        "b_ub": np.zeros(len(A)),
+        "A_eq": np.column_stack([resultants, -direction]),
+        "b_eq": given,
+        "bounds": [(None, None)] * A.shape[1] + [(0.0, LARGEST)],
+    }
+    said = []
+    for tolerance in TOLERANCES:
+        options: Any = {
+            "presolve": False,
+            "primal_feasibility_tolerance": tolerance,
+            "dual_feasibility_tolerance": tolerance,
+        }
+        found = linprog(**program, method="highs", options=options)
+        if found.status == 2 or found.x is not None:
+            return found, tolerance
+        said.append(f"tolerance {tolerance:g}: {found.message}")
+    raise SolverFailure("strength of point contacts: " + "; ".join(said))
+
+
+def _rates(found: Array, rows: YieldRows, owner: Indices, d: Array) -> Array:
+    """Rates of the planes and the cones from those of the first planes and of tangent planes d (k, 2).
+
+    Rates (r, -r d) of one cone add up to (y0, y): it slips by ||y||, and the rest of y0 opens its point.
+    """
+    rates, tangent = found[: rows.linear].copy(), found[rows.linear :]
+    if not len(owner):
+        return rates
+    y0, *y = (np.bincount(owner, w) for w in (tangent, *(tangent * d.T)))
+    slip = np.hypot(*y)
+    rates += rows.friction * np.maximum(y0 - slip, 0.0)
+    return np.concatenate([rates, slip])

@@ -97,8 +97,13 @@ class PointContact(Queries):
         )
 
     def _largest(self, question: Question, Q: Array, d: Array) -> float:
-        t, _ = farthest(question.rows, Q / question.unit, d / question.unit)
-        return t
+        given = Q / question.unit
+        held = given * [0, 0, 1, 0, 0, 0]
+        if held[2] > OUTSIDE:
+            return np.nan
+        if (given - held).any() and not farthest(question.rows, held, given - held)[0] >= 1.0 - OUTSIDE:
+            return np.nan
+        return farthest(question.rows, given, d / question.unit)[0]
 
     def _active(self, question: Question, Q: Array, tolerance: float) -> tuple[str, ...]:
         """Modes of one mechanism at Q, because the forces of the points are not unique."""

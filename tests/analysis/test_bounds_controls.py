@@ -11,6 +11,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import programs
 from limitblocks.analysis.bounds import TOLERANCE, bounds_residuals
+from limitblocks.analysis.residuals import worth_of_violations
 
 STATIC, KINEMATIC = {"equilibrium", "yield"}, {"flow", "normalisation", "multipliers", "power"}
 
@@ -167,6 +168,45 @@ def test_a_wrong_answer_of_the_first_solver_is_passed_over(monkeypatch):
     first = programs.SOLVERS[0]
     monkeypatch.setattr(programs, "_solve", lambda program, s: (spoilt if s is first else honest)(program, s))
     assert lb.bounds(model).lower == pytest.approx(expected.lower, rel=1e-6)
+
+
+def small_load_factor():
+    """A thin arch near collapse: violations of 1e-10 of forces of 20 block weights at 400 points matter."""
+    model = structures.arch(lb.PointContact(0.309215), radius=1.0, thickness=0.25, voussoirs=101)
+    n = len(model.free_blocks)
+    angles = (np.arange(n) + 0.5) * np.pi / n - np.pi / 2
+    points = np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
+    weight = model.free_blocks[0].weight
+
+    def load(direction):
+        forces = [
+            lb.force(b.name, weight * np.array(direction), at=p)
+            for b, p in zip(model.free_blocks, points, strict=True)
+        ]
+        return sum(forces, lb.Load())
+
+    return replace(model, dead=load((0.0, 0.0, -1.0)), live=load((1.0, 0.0, 0.0)))
+
+
+def test_bounds_of_a_small_load_factor():
+    """Mirrored, an arch has the same load factor; both pass the default tolerance."""
+    model = small_load_factor()
+    there, back = lb.bounds(model), lb.bounds(replace(model, live=model.live * -1.0))
+    assert there.residuals.worst.value <= TOLERANCE
+    assert there.lower == pytest.approx(back.upper, rel=1e-6)
+    assert there.lower <= there.upper * (1 + 1e-7)
+
+
+def test_violations_are_worth_what_they_change(solved):
+    """Weak duality, upper >= lower, once the violations are paid for; and before that not."""
+    problem, (lower, x, _, u, y) = solved
+    assert worth_of_violations(problem, lower, x, u, y) < 1e-6
+    rng, gaps = np.random.default_rng(0), []
+    for size in np.repeat([1e-6, 1e-3], 10):
+        dx, du, dy = (v + size * rng.normal(size=len(v)) for v in (x, u, y))
+        gaps.append(problem.g @ dy - problem.dead @ du - lower)
+        assert gaps[-1] >= -worth_of_violations(problem, lower, dx, du, dy)
+    assert min(gaps) < 0.0
 
 
 def test_an_exception_of_the_solvers_does_not_reach_the_user(monkeypatch):

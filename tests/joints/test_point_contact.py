@@ -132,6 +132,60 @@ def test_answer_satisfies_the_cones_to_1e_10():
     assert (rates >= 0).all()
 
 
+def test_noise_in_a_stress_state_does_not_stop_the_solver():
+    """The noise a solver leaves in the out-of-plane resultants of a plane wall."""
+    interface = lb.interface(RECTANGLE, None)
+    rng = np.random.default_rng(3)
+    for size in (1e-9, 1e-12, 1e-16):
+        for noise in rng.normal(size=(8, 6)) * size * -N * [1, 1, 0, L1, L1, L1]:
+            for Q, share in (
+                ((-MU * N, 0, N, 0, -2e-3 * N * L1, 0), 1.0),  # the axial force near the middle can slide
+                ((-0.5 * MU * N, 0, N, 0, 0, 0), 0.5),
+                ((0, 0, N, 0.3 * N * L2, 0, 0), 0.3),
+            ):
+                found = lb.PointContact(MU).utilisation(interface, np.add(Q, noise))
+                assert found == pytest.approx(share, abs=20 * size + 1e-8)
+
+
+def test_utilisation_of_every_interface_of_a_wall():
+    """A stress state of the static theorem is within every yield set; HiGHS's presolve gave up on one."""
+    model = lb.structures.ferris_tin_loi_wall(1, lb.PointContact(0.6))
+    found = lb.bounds(model)
+    used = [i.joint.utilisation(i, Q) for i, Q in zip(model.interfaces, found.stress_resultants, strict=True)]
+    carries = np.abs(found.stress_resultants[:, 2]) > 1e-3 * model.problem.scales.force
+    assert np.all(np.array(used)[carries] <= 1 + 1e-5)
+    assert max(np.array(used)[carries]) == pytest.approx(1, abs=1e-5)  # it collapses
+
+
+def test_an_interface_that_carries_rounding_alone():
+    """HiGHS gave up on such states, 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side."""
+    polygon = np.array([(0.3, -0.1), (0.3, 0.1), (-0.3, 0.1), (-0.3, -0.1)])
+    V2, N2, M1 = 5.51144723e-12, -3.90941282e-11, 5.87182741e-13
+    found = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
+    assert found == pytest.approx(max(V2 / (0.6 * -N2), M1 / (0.1 * -N2)), rel=1e-7)
+
+
+def test_given_stresses_outside_are_refused_even_if_the_direction_leads_inside():
+    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
+    for given in (-COMPRESSION, COMPRESSION - [1.01 * MU * N, 0, 0, 0, 0, 0]):
+        with pytest.raises(lb.ModelError, match="outside the yield set already"):
+            joint.strength(interface, COMPRESSION, given)
+    # on the surface, back through the cone: the whole diameter
+    given = COMPRESSION - [MU * N, 0, 0, 0, 0, 0]
+    assert joint.strength(interface, (-1, 0, 0, 0, 0, 0), given) == pytest.approx(-2 * MU * N, rel=1e-8)
+
+
+def test_multipliers_are_those_of_the_mechanism():
+    """Turning about an edge opens two points and slides none; sliding slides the points and opens none."""
+    rows = lb.PointContact(MU).yield_rows(SQUARE[None])
+    held = np.array([0, 0, -1.0, 0, 0, 0])
+    for d, opens in ((np.eye(6)[3], True), (np.eye(6)[0], False), (np.eye(6)[5], False)):
+        _, rates = farthest(rows, held, d)
+        opening, slip = rates[:4].max(), rates[4:].max()
+        assert min(opening, slip) <= 1e-6 * max(opening, slip)
+        assert (opening > slip) == opens
+
+
 def test_no_flow_in_stress_resultants():
     with pytest.raises(lb.ModelError, match="no flow directions"):
         lb.PointContact(MU).flow_directions(lb.interface(RECTANGLE, None), COMPRESSION)

@@ -15,8 +15,7 @@ def least_thickness(build, start, *, change=lambda model: model, small=1e-5):
     """
 
     def load_factor(thickness):
-        # the gap is relative to a load factor that goes to zero
-        return lb.bounds(change(build(thickness)), tolerance=1e-5).lower
+        return lb.bounds(change(build(thickness))).lower
 
     before, t = start, 0.998 * start
     old, new = load_factor(before), load_factor(t)
