@@ -116,10 +116,8 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
         following = _next(task, reach.stage, pace)
         if worth and _smooth(reach.stage) and settings.leap:
             tried = reach.stage.residuals["flow"]
-            far = leap(reach, task.tolerance, settings)
-            following = following._replace(used=following.used + far.stage.inner)
-            if far.accepted:
-                reach, following = far, following._replace(rho=far.loading.rho)
+            reach, following = _leapt(task, reach, following)
+            if reach.stage is not found[-1]:
                 found.append(reach.stage)
                 report(reach.stage)
                 if reach.stage.residuals.worst.value <= task.tolerance:
@@ -129,6 +127,13 @@ def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
         report(kept.stage)
         found.append(kept.stage)
     return found
+
+
+def _leapt(task: _Task, reach: Reach, pace: _Pace) -> tuple[Reach, _Pace]:
+    """Where a leap leads and the pace after it; the state given where it fails."""
+    far = leap(reach, task.tolerance, task.settings)
+    pace = pace._replace(used=pace.used + far.stage.inner)
+    return (far, pace._replace(rho=far.loading.rho)) if far.accepted else (reach, pace)
 
 
 def _smooth(stage: Stage) -> bool:
