@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.fixed_point import fixed_point, nearest_stresses
+from limitblocks.analysis.fixed_point import NearestStresses, fixed_point
 from limitblocks.analysis.implicit_step import Loading, Point, StepResult, implicit_step
 from limitblocks.analysis.mcp import mcp_residuals
 from limitblocks.analysis.residuals import SMALL_LOAD, Residuals
@@ -20,11 +20,12 @@ FARTHEST = 300.0  # times the last step
 
 
 class Reach(NamedTuple):
-    """Where a step leads: the stage, the point it was computed at, and the step itself."""
+    """Where a step leads: the stage, the point it was computed at, the step, and the way back to yield."""
 
     stage: Stage
     point: Point
     loading: Loading
+    nearest: NearestStresses
     accepted: bool
 
 
@@ -35,17 +36,19 @@ class Closing(NamedTuple):
     drift: float
 
 
-def reached(loading: Loading, result: StepResult, kind: str, failures: int) -> Reach:
+def reached(
+    loading: Loading, nearest: NearestStresses, result: StepResult, kind: str, failures: int
+) -> Reach:
     """The state of a step; a jump, whose viscosity strays from yield, is brought back to it."""
     problem, z = loading.problem, result.point
     state = State(z.load_factor, z.x, z.u, z.y)
     if kind == "jump":
-        back = nearest_stresses(problem, z.x, np.zeros_like(z.y), loading.weights)
+        back = nearest.find(z.x, np.zeros_like(z.y))
         if back is not None:
             state = State(*back, z.u, z.y)
     proof = evidence(problem, state, loading.dilatancy)
     stage = Stage(state, proof, loading.rho, kind, result.iterations, failures)
-    return Reach(stage, z, loading, result.accepted)
+    return Reach(stage, z, loading, nearest, result.accepted)
 
 
 def leap(start: Reach, tolerance: float, settings: Settings) -> Reach:
@@ -58,7 +61,7 @@ def leap(start: Reach, tolerance: float, settings: Settings) -> Reach:
     loading = replace(start.loading, x0=z.x, y0=z.y, rho=size, damping=0.0)
     result = implicit_step(loading, settings.leap)
     near = _drift(z.load_factor, result.point.load_factor) <= settings.drift
-    return reached(loading, result, "step", 0)._replace(accepted=result.accepted and near)
+    return reached(loading, start.nearest, result, "step", 0)._replace(accepted=result.accepted and near)
 
 
 def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
@@ -66,9 +69,7 @@ def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
     stage, z, loading = reach.stage, reach.point, reach.loading
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
     for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
-        state, rounds = fixed_point(
-            problem, from_state, loading.weights, loading.dilatancy, tolerance, settings.rounds
-        )
+        state, rounds = fixed_point(reach.nearest, from_state, loading.dilatancy, tolerance, settings.rounds)
         if state is not None:
             proof = evidence(problem, state, loading.dilatancy)
             found = Stage(state, proof, loading.rho, "fixed point", rounds, 0)

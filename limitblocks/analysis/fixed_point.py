@@ -10,6 +10,9 @@ exact and Eqs (54)-(59) hold.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any
 
 import cvxpy as cp
 import numpy as np
@@ -36,7 +39,7 @@ def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
     x = cp.Variable(problem.C.shape[0])
     norm = cp.sum_squares(cp.multiply(np.sqrt(weights), x))
     constraints = [problem.C.T @ x == problem.dead, *in_cone(problem.F @ x + problem.g, problem.cones)]
-    found = _values(norm, constraints, x)
+    found = _minimised(norm, constraints, x)
     return None if found is None else found[0]
 
 
@@ -45,31 +48,65 @@ def frozen_mechanism(problem: LimitProblem, x: Array, dilatancy: float) -> tuple
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(len(problem.g))
     flow = problem.C @ u + plastic_potential(problem, x, dilatancy).T @ y == 0
     constraints = [flow, problem.live @ u == 1, *in_cone(y, problem.cones)]
-    found = _values((problem.F @ x + problem.g) @ y, constraints, u, y)
+    found = _minimised((problem.F @ x + problem.g) @ y, constraints, u, y)
     return None if found is None else (found[0], found[1])
 
 
-def nearest_stresses(problem: LimitProblem, x: Array, y: Array, weights: Array) -> tuple[float, Array] | None:
-    """Load factor and stresses in equilibrium within yield, nearest to x, that leave no gap to y."""
-    z, load_factor = cp.Variable(len(x)), cp.Variable()
-    away = 0.5 * cp.sum_squares(cp.multiply(np.sqrt(weights), z - x))
-    balance = problem.C.T @ z == problem.dead + load_factor * problem.live
-    gap = (problem.F.T @ y) @ z
-    constraints = [balance, *in_cone(problem.F @ z + problem.g, problem.cones)]
-    found = _values(away + PENALTY * gap, constraints, z, load_factor)
-    return None if found is None else (float(found[1]), found[0])
+def nearest_program(
+    problem: LimitProblem, weights: Array
+) -> tuple[cp.Variable, cp.Variable, cp.Expression, list[cp.Constraint]]:
+    """Stresses, load factor, half the squared norm x^T W x, and the constraints of equilibrium and yield."""
+    x, load_factor = cp.Variable(problem.C.shape[0]), cp.Variable()
+    norm = 0.5 * cp.sum_squares(cp.multiply(np.sqrt(weights), x))
+    balance = problem.C.T @ x == problem.dead + load_factor * problem.live
+    return x, load_factor, norm, [balance, *in_cone(problem.F @ x + problem.g, problem.cones)]
+
+
+class NearestStresses:
+    """Stresses in equilibrium within yield, nearest to given ones; compiled once, then vectors change."""
+
+    def __init__(self, problem: LimitProblem, weights: Array) -> None:
+        self.problem, self.weights = problem, weights
+
+    @cached_property
+    def _compiled(self) -> tuple[Any, ...]:
+        x, load_factor, norm, constraints = nearest_program(self.problem, self.weights)
+        program = cp.Problem(cp.Minimize(norm + cp.sum(x)), constraints)  # ones where the slope will be
+        data, chain, inverse = program.get_problem_data(cp.CLARABEL, solver_opts=dict(SETTINGS))
+        first = data["param_prob"].var_id_to_col[x.id]
+        return x, load_factor, program, data, chain, inverse, slice(first, first + x.size)
+
+    def slope(self, x: Array, y: Array) -> Array:
+        """Slope of the program: of the distance from x and of the gap to y."""
+        return np.asarray(PENALTY * (self.problem.F.T @ y) - self.weights * x)
+
+    def find(self, x: Array, y: Array) -> tuple[float, Array] | None:
+        """Load factor and stresses nearest to x that leave no gap to y; None if the solver finds none."""
+        nearest, load_factor, program, data, chain, inverse, places = self._compiled
+        slopes = data["c"].copy()
+        slopes[places] = self.slope(x, y)
+
+        def solve() -> None:
+            solved = chain.solve_via_data(
+                program, data | {"c": slopes}, warm_start=False, verbose=False, solver_opts=dict(SETTINGS)
+            )
+            program.unpack_results(solved, chain, inverse)
+
+        found = _values(solve, nearest, load_factor)
+        return None if found is None else (float(found[1]), found[0])
 
 
 def fixed_point(
-    problem: LimitProblem, start: State, weights: Array, dilatancy: float, tolerance: float, rounds: int
+    nearest: NearestStresses, start: State, dilatancy: float, tolerance: float, rounds: int
 ) -> tuple[State | None, int]:
     """Iterate from `start`; return a state within the tolerance, or None, and the number of rounds."""
+    problem = nearest.problem
     load_factor, x, y = start.load_factor, start.x, start.y
     best = np.inf
     adjusted = _admissible(problem, start)
     for k in range(1, rounds + 1):
         if not adjusted:
-            stresses = nearest_stresses(problem, x, y, weights)
+            stresses = nearest.find(x, y)
             if stresses is None:
                 return None, k
             load_factor, x = stresses
@@ -94,14 +131,22 @@ def _admissible(problem: LimitProblem, state: State) -> bool:
     return bool(np.abs(unbalanced).max() <= 1e-9 and inside >= -1e-9)
 
 
-def _values(
+def _minimised(
     objective: cp.Expression, constraints: list[cp.Constraint], *variables: cp.Variable
 ) -> tuple[Array, ...] | None:
-    """Values at the minimum, None if the solver leaves none; residuals judge their accuracy."""
+    """Values at the minimum, None if the solver leaves none."""
+    program = cp.Problem(cp.Minimize(objective), constraints)
+    return _values(lambda: program.solve(solver=cp.CLARABEL, **SETTINGS), *variables)
+
+
+def _values(solve: Callable[[], object], *variables: cp.Variable) -> tuple[Array, ...] | None:
+    """Values that a solver leaves, None if it leaves none; residuals judge their accuracy."""
+    for variable in variables:
+        variable.value = None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            cp.Problem(cp.Minimize(objective), constraints).solve(solver=cp.CLARABEL, **SETTINGS)
+            solve()
         except (cp.SolverError, ValueError, ArithmeticError):
             return None
     values = [variable.value for variable in variables]

@@ -12,6 +12,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from limitblocks.analysis.closing import Closing, Reach, closed, evidence, flow_before_return, leap, reached
+from limitblocks.analysis.fixed_point import NearestStresses
 from limitblocks.analysis.implicit_step import Loading, implicit_step
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.settings import Settings
@@ -53,7 +54,8 @@ def stages(
     for turning, dilating in settings.flows:
         partial = replace(problem, pivot=turning * problem.pivot)
         slope = dilatancy + dilating * (float(problem.friction.min()) - dilatancy)
-        task = _Task(partial, InterfaceBlocks(problem), weights, slope, tolerance, settings, first)
+        nearest = NearestStresses(partial, weights)
+        task = _Task(partial, InterfaceBlocks(problem), weights, slope, tolerance, settings, first, nearest)
         followed = _followed(task, found[-1].state.x if found else x0, report)
         found += [judged(stage) for stage in followed]
     return found
@@ -77,6 +79,7 @@ class _Task(NamedTuple):
     tolerance: float
     settings: Settings
     first: float
+    nearest: NearestStresses
 
     def loading(self, x: Array, y: Array, rho: float, viscosity: float) -> Loading:
         """The step of size 1 / rho from the state (x, y)."""
@@ -160,7 +163,7 @@ def _stepped(task: _Task, x: Array, y: Array, pace: _Pace, budget: int) -> tuple
         pace = pace._replace(used=pace.used + max(result.iterations, 1))
         if result.accepted:
             kind = "jump" if viscosity else "step"
-            return reached(loading, result, kind, pace.failures), pace._replace(rho=loading.rho)
+            return reached(loading, task.nearest, result, kind, pace.failures), pace._replace(rho=loading.rho)
         log.info("step rho %.2g viscosity %.0e failed after %d", loading.rho, viscosity, result.iterations)
         pace = pace._replace(failures=pace.failures + 1, level=pace.level + 1)
         if pace.level == len(settings.retries):

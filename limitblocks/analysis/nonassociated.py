@@ -33,7 +33,7 @@ ATTEMPTS = (
     Settings(),
     Settings(longest=5e3),
     Settings(first=1.0, longest=15.0),
-    Settings(flows=((0.0, 0.0), (0.5, 0.0), (1.0, 0.0)), budget=800),
+    Settings(flows=((0.0, 0.0), (0.5, 0.0), (1.0, 0.0))),
     Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
     Settings(flows=tuple((1.0, share) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.1, 0.0)), budget=400),
 )

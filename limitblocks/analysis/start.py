@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from limitblocks.analysis.bounds import TOLERANCE, Bounds, bounds, refuse_falling
 from limitblocks.analysis.closing import evidence
-from limitblocks.analysis.fixed_point import fixed_point, permanent_state
+from limitblocks.analysis.fixed_point import NearestStresses, fixed_point, permanent_state
 from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
 from limitblocks.analysis.results import Nonassociated
 from limitblocks.analysis.states import Stage, State
@@ -76,7 +76,8 @@ def associated_stage(problem: LimitProblem, found: Bounds, dilatancy: float, tol
     scales = problem.scales
     x, y = found.generalised_stresses / problem.stress_units, found.flow_multipliers / scales.work
     start = State(found.lower / scales.load_factor, x, np.zeros(problem.C.shape[1]), y)
-    state, rounds = fixed_point(problem, start, problem.compliance, dilatancy, tolerance, ROUNDS)
+    nearest = NearestStresses(problem, problem.compliance)
+    state, rounds = fixed_point(nearest, start, dilatancy, tolerance, ROUNDS)
     if state is None:
         return []
     return [Stage(state, evidence(problem, state, dilatancy), np.inf, "fixed point", rounds, 0)]
