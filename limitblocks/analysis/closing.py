@@ -57,7 +57,8 @@ def leap(start: Reach, tolerance: float, settings: Settings) -> Reach:
     Not accepted where the load factor drifts: so long a step may end at another solution.
     """
     z, before = start.point, start.stage
-    size = before.rho * max(LEAP * tolerance / before.residuals["flow"], 1.0 / FARTHEST)
+    aim = LEAP * tolerance
+    size = before.rho * max(aim / max(before.residuals["flow"], aim), 1.0 / FARTHEST)
     loading = replace(start.loading, x0=z.x, y0=z.y, rho=size, damping=0.0)
     result = implicit_step(loading, settings.leap)
     near = _drift(z.load_factor, result.point.load_factor) <= settings.drift

@@ -41,6 +41,7 @@ def stages(
     `scale` is the load factor that steps are measured by, the associated one.
     """
     first = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
+    blocks = InterfaceBlocks(problem)
     found: list[Stage] = []
 
     def judged(stage: Stage) -> Stage:
@@ -55,7 +56,7 @@ def stages(
         partial = replace(problem, pivot=turning * problem.pivot)
         slope = dilatancy + dilating * (float(problem.friction.min()) - dilatancy)
         nearest = NearestStresses(partial, weights)
-        task = _Task(partial, InterfaceBlocks(problem), weights, slope, tolerance, settings, first, nearest)
+        task = _Task(partial, blocks, weights, slope, tolerance, settings, first, nearest)
         followed = _followed(task, found[-1].state.x if found else x0, report)
         found += [judged(stage) for stage in followed]
     return found

@@ -1,10 +1,17 @@
 """Starting elsewhere than from the permanent loads: any state, another dilatancy, a part of Table 5."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.closing import leap, reached
+from limitblocks.analysis.fixed_point import NearestStresses, permanent_state
+from limitblocks.analysis.implicit_step import Loading, implicit_step
+from limitblocks.analysis.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.residuals import Residual, Residuals
 
 MU = 0.6
 KINDS = [lb.OrdunaLourenco, lb.PointContact]
@@ -113,3 +120,16 @@ def test_an_associated_end_is_not_taken_for_zero_dilatancy():
     model = structures.ferris_tin_loi_wall(4, lb.PointContact(0.65))
     with pytest.raises(lb.NotConverged):
         lb.nonassociated(model, settings=lb.Settings(flows=((1.0, 1.0),), budget=100))
+
+
+@pytest.mark.parametrize("flow", [0.0, 1e-12, 1e-3, 1.0])
+def test_a_leap_is_never_shorter_than_the_step_before_it(flow):
+    """However small the flow residual is, also none: only another residual is then above the tolerance."""
+    problem = structures.block(lb.PointContact(MU), width=0.4, height=1.0).problem
+    W = problem.compliance
+    x = permanent_state(problem, W)
+    step = Loading(problem, InterfaceBlocks(problem), W, x, np.zeros(len(problem.g)), 0.1, 0.0, 0.0)
+    start = reached(step, NearestStresses(problem, W), implicit_step(step, 60), "step", 0)
+    claimed = replace(start.stage, residuals=Residuals((Residual("flow", flow, ""),)))
+    far = leap(start._replace(stage=claimed), 1e-6, lb.Settings())
+    assert step.rho / 300 <= far.loading.rho <= step.rho
