@@ -17,8 +17,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.mend import mended
-from limitblocks.io import faults
-from limitblocks.io.strict_json import LARGEST_FILE
+from limitblocks.io import faults, strict_json
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -79,27 +78,8 @@ class Contents(NamedTuple):
 
 
 def read_bytes(path: Path) -> bytes:
-    """Return the content of the file at `path`.
-
-    Raises
-    ------
-    ModelError
-        It cannot be read, is not a plain file, is empty or too large.
-    """
-    try:
-        if path.exists() and not path.is_file():  # reading a pipe or a device may never end
-            raise ModelError("is not a file; name a file")
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
-    except OSError as error:
-        raise ModelError(f"cannot be read: {error.strerror or error}") from None
-    except ValueError as error:  # a null character in the name
-        raise ModelError(f"cannot be read: {error}") from None
-    if len(data) > LARGEST_FILE:
-        raise ModelError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB, the most that is read")
-    if not data.strip():
-        raise ModelError("is empty; expected blocks")
-    return data
+    """Return the content of the file of blocks at `path`; raises ModelError as `strict_json.plain_bytes`."""
+    return strict_json.plain_bytes(path, "blocks")
 
 
 def refuse_many(solids: int = 0, faces: int = 0) -> None:

@@ -13,17 +13,17 @@ from limitblocks.errors import ModelError
 LARGEST_FILE = 100_000_000
 
 
-def read_text(path: Path) -> str:
-    """Return the text of the file at `path`.
+def plain_bytes(path: Path, expected: str) -> bytes:
+    """Return the content of the file at `path`; `expected` says what it should hold.
 
     Raises
     ------
     ModelError
-        The file cannot be read, is not a plain file, is empty, too large or not UTF-8.
+        It cannot be read, is not a plain file, is empty or too large.
     """
     try:
         if path.exists() and not path.is_file():  # reading a pipe or a device may never end
-            raise ModelError("is not a file; name a file of JSON")
+            raise ModelError(f"is not a file; name a file of {expected}")
         with path.open("rb") as stream:
             data = stream.read(LARGEST_FILE + 1)
     except OSError as error:
@@ -32,11 +32,25 @@ def read_text(path: Path) -> str:
         raise ModelError(f"cannot be read: {error}") from None
     if len(data) > LARGEST_FILE:
         raise ModelError(f"is larger than {LARGEST_FILE / 1e6:.0f} MB, the most that is read")
+    if not data.strip():
+        raise ModelError(f"is empty; expected {expected}")
+    return data
+
+
+def read_text(path: Path) -> str:
+    """Return the text of the file at `path`.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, is not a plain file, is empty, too large or not UTF-8.
+    """
+    data = plain_bytes(path, "JSON")
     try:
         text = data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:
         raise ModelError(f"is not UTF-8 text: byte {error.start} cannot be decoded") from None
-    if not text.strip():
+    if not text.strip():  # a byte order mark alone
         raise ModelError("is empty; expected JSON")
     return text
 
