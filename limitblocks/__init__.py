@@ -6,12 +6,9 @@ from typing import Any
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import Bounds, bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
-from limitblocks.analysis.interface_states import InterfaceStates, interface_states
-from limitblocks.analysis.load_path import load_path
-from limitblocks.analysis.mcp import Check, Claim, check_mcp
-from limitblocks.analysis.nonassociated import nonassociated
-from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
-from limitblocks.analysis.settings import Settings
+from limitblocks.analysis.nonassociated.load_path import load_path
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.errors import (
     CheckFailed,
     GeometryError,
@@ -24,6 +21,9 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
+from limitblocks.evidence.check import Check, Claim, check_mcp
+from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import (
     ImportedBlocks,

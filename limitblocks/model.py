@@ -17,7 +17,8 @@ from scipy import sparse
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block, Interface
 from limitblocks.joints.base import joint_of
-from limitblocks.mechanics import LimitProblem, Load, limit_problem
+from limitblocks.mechanics import Load, limit_problem
+from limitblocks.problem import LimitProblem
 
 SCHEMA_VERSION = 1
 

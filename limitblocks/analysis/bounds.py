@@ -17,7 +17,9 @@ from limitblocks.analysis.programs import (
     kinematic_program,
     static_program,
 )
-from limitblocks.analysis.residuals import (
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import NoEquilibrium, SolverFailure, UnlimitedLoad
+from limitblocks.evidence.residuals import (
     Residuals,
     kinematic_residuals,
     relative_gap,
@@ -25,10 +27,8 @@ from limitblocks.analysis.residuals import (
     static_residuals,
     worth_of_violations,
 )
-from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NoEquilibrium, SolverFailure, UnlimitedLoad
-from limitblocks.mechanics import LimitProblem
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
 
 TOLERANCE = 1e-6
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still

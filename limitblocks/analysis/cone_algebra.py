@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.mechanics import Cones
+from limitblocks.problem import Cones
 
 
 def _groups(cones: Cones) -> list[Indices]:

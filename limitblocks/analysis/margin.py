@@ -11,8 +11,8 @@ from limitblocks.analysis.bounds import TOLERANCE, refuse_falling
 from limitblocks.analysis.programs import Program, attempts, in_cone
 from limitblocks.arrays import Array
 from limitblocks.errors import NoEquilibrium, SolverFailure
-from limitblocks.mechanics import LimitProblem
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
 
 MOST = 1.0  # mean block weights: a structure that can be wedged at will has no largest margin
 

@@ -11,7 +11,7 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.mechanics import Cones, LimitProblem
+from limitblocks.problem import Cones, LimitProblem
 
 log = logging.getLogger(__name__)
 

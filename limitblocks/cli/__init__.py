@@ -34,7 +34,7 @@ from limitblocks.errors import NotConverged, UnlimitedLoad
 
 if TYPE_CHECKING:
     from limitblocks.analysis.bounds import Bounds
-    from limitblocks.analysis.results import LoadPath, Nonassociated
+    from limitblocks.evidence.results import LoadPath, Nonassociated
     from limitblocks.model import Model
 
 _SUFFIX = ".html"
@@ -114,7 +114,7 @@ def check(
 ) -> None:
     """Check a result file against Eqs (54)-(59) of its model."""
     with clean_errors():
-        from limitblocks.analysis.mcp import check_mcp
+        from limitblocks.evidence.check import check_mcp
         from limitblocks.io import read, read_result
 
         structure = read(model)
@@ -189,7 +189,7 @@ def _bounds(model: Model, **settings: float) -> Bounds:
 
 
 def _nonassociated(model: Model, *, dilatancy: float, tolerance: float) -> Nonassociated:
-    from limitblocks.analysis.nonassociated import nonassociated
+    from limitblocks.analysis.nonassociated.loop import nonassociated
     from limitblocks.report.terminal import shown_progress
 
     with shown_progress() as show:
@@ -197,7 +197,7 @@ def _nonassociated(model: Model, *, dilatancy: float, tolerance: float) -> Nonas
 
 
 def _path(model: Model, *, dilatancy: float, tolerance: float) -> LoadPath:
-    from limitblocks.analysis.load_path import load_path
+    from limitblocks.analysis.nonassociated.load_path import load_path
     from limitblocks.report.terminal import shown_progress
 
     with shown_progress() as show:

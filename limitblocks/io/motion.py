@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.results import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.model import Model
 

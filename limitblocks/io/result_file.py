@@ -8,9 +8,9 @@ from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
-from limitblocks.analysis.mcp import Claim
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.evidence.check import Claim
 from limitblocks.io import faults, strict_json
 from limitblocks.model import Model
 

@@ -11,9 +11,9 @@ from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
-from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.results import LoadPath
 from limitblocks.io.motion import displaced, motion
 from limitblocks.io.packages import package
 from limitblocks.io.written import refuse_existing, write

@@ -16,13 +16,9 @@ from limitblocks.mechanics.loads import (
     tilting,
     top_force,
 )
-from limitblocks.mechanics.problem import Cones, LimitProblem, Scales
 
 __all__ = [
-    "Cones",
-    "LimitProblem",
     "Load",
-    "Scales",
     "Tilting",
     "added_mass",
     "compass",

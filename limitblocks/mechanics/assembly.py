@@ -15,7 +15,7 @@ from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
-from limitblocks.mechanics.problem import Cones, LimitProblem, Scales
+from limitblocks.problem import Cones, LimitProblem, Scales
 
 
 @dataclass(frozen=True)

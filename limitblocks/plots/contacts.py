@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis import interface_states as states
-from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence import interface_states as states
+from limitblocks.evidence.results import LoadPath
 from limitblocks.geometry import Interface
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
@@ -172,7 +172,7 @@ def interface_states(
     model : Model
         The structure.
     result : Bounds, Nonassociated or LoadPath
-        Of this model; see :func:`limitblocks.analysis.interface_states.interface_states`.
+        Of this model; see :func:`limitblocks.evidence.interface_states.interface_states`.
     ax, plane
         As for :func:`structure`.
 

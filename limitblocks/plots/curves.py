@@ -9,8 +9,8 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from limitblocks.analysis.bounds import Bounds
-from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model
 from limitblocks.plots.style import (
     BLACK,

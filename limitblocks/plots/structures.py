@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.interface_states import Collapse, collapse_of
-from limitblocks.analysis.results import LoadPath
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
+from limitblocks.evidence.interface_states import Collapse, collapse_of
+from limitblocks.evidence.results import LoadPath
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from limitblocks.analysis.bounds import Bounds
-from limitblocks.analysis.results import LoadPath, Nonassociated
+from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.report.sections import limits
 
 NOT_UNIQUE = (

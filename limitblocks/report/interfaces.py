@@ -7,9 +7,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.analysis.bounds import Bounds
-from limitblocks.analysis.interface_states import InterfaceStates, interface_states
-from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
+from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model
 from limitblocks.report.scene import short, without_noise
 

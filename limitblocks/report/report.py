@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.analysis.bounds import Bounds
-from limitblocks.analysis.results import LoadPath, Nonassociated
+from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.bounds import Bounds
-from limitblocks.analysis.interface_states import InterfaceStates, interface_states
-from limitblocks.analysis.results import LoadPath, Nonassociated, PathStep
 from limitblocks.arrays import Array
+from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.evidence.results import LoadPath, Nonassociated, PathStep
 from limitblocks.model import Model
 from limitblocks.report.picture import magnification
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
-from limitblocks.analysis import mcp
 from limitblocks.analysis.bounds import TOLERANCE, Bounds
-from limitblocks.analysis.residuals import Residuals
-from limitblocks.analysis.results import LoadPath, Nonassociated
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
+from limitblocks.evidence import check as mcp
+from limitblocks.evidence.residuals import Residuals
+from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model
 from limitblocks.report.curve import Curve, convergence_curve, path_curve
 

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from limitblocks.analysis.results import Iteration
+from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
 from limitblocks.report.sections import section
 

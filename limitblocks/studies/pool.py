@@ -10,9 +10,9 @@ from typing import Any, Literal
 import numpy as np
 
 from limitblocks.analysis.bounds import Bounds, bounds
-from limitblocks.analysis.nonassociated import nonassociated
-from limitblocks.analysis.results import Nonassociated
+from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError, UnlimitedLoad
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 
 Analysis = Literal["bounds", "nonassociated"]

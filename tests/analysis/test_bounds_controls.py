@@ -11,7 +11,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import programs
 from limitblocks.analysis.bounds import TOLERANCE, bounds_residuals
-from limitblocks.analysis.residuals import worth_of_violations
+from limitblocks.evidence.residuals import worth_of_violations
 
 STATIC, KINEMATIC = {"equilibrium", "yield"}, {"flow", "normalisation", "multipliers", "power"}
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
-from limitblocks.mechanics import Cones
+from limitblocks.problem import Cones
 
 CONES = Cones(2, ((2, 3), (1, 4)))
 PARTS = [slice(2, 5), slice(5, 8), slice(8, 12)]

@@ -6,10 +6,10 @@ import pytest
 from scipy import sparse
 
 import limitblocks as lb
-from limitblocks.analysis.fixed_point import permanent_state
-from limitblocks.analysis.implicit_step import Loading, implicit_step
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.mechanics.flow import plastic_potential
+from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
+from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
+from limitblocks.problem.flow import plastic_potential
 
 MU = 0.6
 JOINTS = [lb.OrdunaLourenco(MU), lb.OrdunaLourenco(MU, compressive_strength=1e6), lb.PointContact(MU)]

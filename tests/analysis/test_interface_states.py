@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.interface_states import LOADED, interface_states
+from limitblocks.evidence.interface_states import LOADED, interface_states
 
 CORNER = {"length": 1.6, "return_length": 1.2, "courses": 3}
 JOINTS = [lb.OrdunaLourenco, lb.PointContact, lb.ExactTorsion]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.mcp import Claim, check_mcp
+from limitblocks.evidence.check import Claim, check_mcp
 
 MU, B, H, DEPTH = 0.3, 2.0, 1.0, 1.5
 WEIGHT = 20e3 * B * H * DEPTH
@@ -130,7 +130,7 @@ def test_the_checker_runs_without_the_solver_stack():
         "import sys; sys.modules.update(cvxpy=None, clarabel=None, osqp=None)\n"
         "import types; package = types.ModuleType('limitblocks'); package.__path__ = [sys.argv[1]]\n"
         "sys.modules['limitblocks'] = package\n"
-        "import limitblocks.analysis.mcp"
+        "import limitblocks.evidence.check"
     )
     folder = lb.__path__[0]
     subprocess.run([sys.executable, "-c", code, folder], check=True)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from limitblocks.analysis.nonassociated import best_of
-from limitblocks.analysis.residuals import Residual, Residuals
-from limitblocks.analysis.states import Stage, State
+from limitblocks.analysis.nonassociated.loop import best_of
+from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.evidence.residuals import Residual, Residuals
 
 
 def stage(load_factor, residual, kind="step"):

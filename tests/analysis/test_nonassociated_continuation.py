@@ -7,11 +7,11 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.closing import leap, reached
-from limitblocks.analysis.fixed_point import NearestStresses, permanent_state
-from limitblocks.analysis.implicit_step import Loading, implicit_step
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.residuals import Residual, Residuals
+from limitblocks.analysis.nonassociated.closing import leap, reached
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, permanent_state
+from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
+from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
+from limitblocks.evidence.residuals import Residual, Residuals
 
 MU = 0.6
 KINDS = [lb.OrdunaLourenco, lb.PointContact]

@@ -8,8 +8,8 @@ import pytest
 from typer.testing import CliRunner
 
 import limitblocks as lb
-from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.cli import app
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
 PORTAL = {

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
-from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.io import strict_json
 
 PAGE = Path(__file__).parents[2] / "docs" / "result-file.md"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.mechanics.flow import SMALL_NORMAL_FORCE, dilatancy_share, plastic_potential, turning
+from limitblocks.problem.flow import SMALL_NORMAL_FORCE, dilatancy_share, plastic_potential, turning
 
 MU = 0.5
 JOINTS = [

@@ -11,7 +11,7 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from plotted import arch, bounds, corner, inked, path, rocking
 
 import limitblocks as lb
-from limitblocks.analysis.interface_states import interface_states
+from limitblocks.evidence.interface_states import interface_states
 from limitblocks.geometry.painter import painting_order, placed
 
 DRAWINGS = ["structure", "mechanism", "forces", "interface_states"]

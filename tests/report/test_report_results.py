@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.report import curve
 from limitblocks.report.comparison import comparison
 

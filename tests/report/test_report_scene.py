@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.interface_states import interface_states
+from limitblocks.evidence.interface_states import interface_states
 from limitblocks.report import assets, files
 from limitblocks.report.interfaces import MOST, active_interfaces, interface_rows
 from limitblocks.report.scene import chains, scene, short, without_noise

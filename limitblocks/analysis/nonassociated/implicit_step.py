@@ -19,10 +19,10 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.arrays import Array
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import plastic_potential, turning
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import plastic_potential, turning
 
 ACCURACY = 2e-9  # of the linear equations and the flow, dimensionless
 CENTRED = 1e-13  # mean of s o y at the end: products that vanish in both factors are found to its root

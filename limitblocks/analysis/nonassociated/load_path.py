@@ -7,18 +7,24 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from limitblocks.analysis.bounds import TOLERANCE
-from limitblocks.analysis.loading import stages
-from limitblocks.analysis.nonassociated import finished, initial, iteration
-from limitblocks.analysis.results import Iteration, LoadPath, PathStep
-from limitblocks.analysis.settings import Settings
-from limitblocks.analysis.start import Start, bracket, load_scale, refuse_unlimited, start_stresses
-from limitblocks.analysis.states import Stage, State
+from limitblocks.analysis.nonassociated.loading import stages
+from limitblocks.analysis.nonassociated.loop import finished, initial, iteration
+from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.analysis.nonassociated.start import (
+    Start,
+    bracket,
+    load_scale,
+    refuse_unlimited,
+    start_stresses,
+)
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.evidence.results import Iteration, LoadPath, PathStep
 from limitblocks.joints.base import Joint, joint_of
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import dilatancy_share
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import dilatancy_share
 
 FLOWING = 1e-6  # of the largest displacement rate: less counts as no flow
 # Small steps, halved where one fails; viscosity only where the structure snaps at every size.

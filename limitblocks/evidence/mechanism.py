@@ -8,8 +8,8 @@ import numpy as np
 from scipy import optimize, sparse
 
 from limitblocks.arrays import Array
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import plastic_potential
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import plastic_potential
 
 ACTIVE = 1e-3  # block weights: rows closer than this to yield may flow
 APEX_DIRECTIONS = 32

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.mechanics import LimitProblem
+from limitblocks.problem import LimitProblem
 
 SMALL_LOAD = 0.1  # block weights; a live load below it is compared in these units
 

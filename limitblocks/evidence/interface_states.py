@@ -9,13 +9,13 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.analysis.results import LoadPath
-from limitblocks.analysis.utilisation import utilisation
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError
+from limitblocks.evidence.results import LoadPath
+from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
-from limitblocks.mechanics import LimitProblem
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the mean block weight: a contact force below it counts as none
@@ -74,7 +74,7 @@ class InterfaceStates:
         Force that block i exerts on block j, global axes, N; block i feels the opposite.
     utilisation : Array, shape (m,)
         How much of the strength is used, N held, from 0 to 1 on the yield surface; see
-        :func:`limitblocks.analysis.utilisation.utilisation`. 0 without a force.
+        :func:`limitblocks.evidence.utilisation.utilisation`. 0 without a force.
     """
 
     names: tuple[str, ...]

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.mechanics import LimitProblem
+from limitblocks.problem import LimitProblem
 
 
 class InterfaceBlocks:

@@ -7,7 +7,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.mechanics.problem import LimitProblem
+from limitblocks.problem.limit_problem import LimitProblem
 
 SMALL_NORMAL_FORCE = 1e-3  # block weights; the epsilon of Table 5
 FARTHEST = 1.5  # of the half sides: states within the yield set stay below 1, iterates may stray

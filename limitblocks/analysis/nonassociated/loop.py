@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from limitblocks.analysis.bounds import TOLERANCE, in_model_order
-from limitblocks.analysis.closing import evidence
-from limitblocks.analysis.loading import stages
-from limitblocks.analysis.results import Iteration, Nonassociated, Status
-from limitblocks.analysis.settings import Settings
-from limitblocks.analysis.start import (
+from limitblocks.analysis.nonassociated.closing import evidence
+from limitblocks.analysis.nonassociated.loading import stages
+from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
     associated_everywhere,
@@ -21,12 +21,12 @@ from limitblocks.analysis.start import (
     refuse_unlimited,
     start_stresses,
 )
-from limitblocks.analysis.states import Stage, State
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import dilatancy_share
+from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import dilatancy_share
 
 # A snap that jams one step size is crossed by another, or by a flow rule that grows into the true one.
 ATTEMPTS = (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from limitblocks.analysis.residuals import Residuals
 from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import Residuals
 
 
 @dataclass(frozen=True, eq=False)

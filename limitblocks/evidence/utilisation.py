@@ -8,8 +8,8 @@ import numpy as np
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.joints.rows import hinge_gradients
-from limitblocks.mechanics import LimitProblem
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
 
 NOISE = 1e-9  # of the mean block weight: a strength below it counts as none
 

@@ -7,13 +7,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.fixed_point import NearestStresses, fixed_point
-from limitblocks.analysis.implicit_step import Loading, Point, StepResult, implicit_step
-from limitblocks.analysis.mcp import mcp_residuals
-from limitblocks.analysis.residuals import SMALL_LOAD, Residuals
-from limitblocks.analysis.settings import Settings
-from limitblocks.analysis.states import Stage, State
-from limitblocks.mechanics import LimitProblem
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
+from limitblocks.analysis.nonassociated.implicit_step import Loading, Point, StepResult, implicit_step
+from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.evidence.check import mcp_residuals
+from limitblocks.evidence.residuals import SMALL_LOAD, Residuals
+from limitblocks.problem import LimitProblem
 
 LEAP = 0.03  # of the tolerance: the flow residual that a leap aims at
 FARTHEST = 300.0  # times the last step

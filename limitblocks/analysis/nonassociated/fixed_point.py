@@ -17,12 +17,12 @@ from typing import Any
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.mcp import mcp_residuals
+from limitblocks.analysis.nonassociated.stage import State
 from limitblocks.analysis.programs import in_cone
-from limitblocks.analysis.states import State
 from limitblocks.arrays import Array
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import plastic_potential
+from limitblocks.evidence.check import mcp_residuals
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import plastic_potential
 
 PENALTY = 1e5  # of a remaining gap against the change of stresses
 PROGRESS = 0.5  # a round must bring the worst residual below this part of the best

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.residuals import Residuals
 from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import Residuals
 
 
 class Status(Enum):

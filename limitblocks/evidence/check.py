@@ -7,13 +7,13 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from limitblocks.analysis.mechanism import find_mechanism
-from limitblocks.analysis.residuals import Residual, Residuals, residual, static_residuals
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import plastic_potential
+from limitblocks.evidence.mechanism import find_mechanism
+from limitblocks.evidence.residuals import Residual, Residuals, residual, static_residuals
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import plastic_potential
 
 TOLERANCE = 1e-6
 

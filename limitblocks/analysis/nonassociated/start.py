@@ -8,16 +8,16 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.analysis.bounds import TOLERANCE, Bounds, bounds, refuse_falling
-from limitblocks.analysis.closing import evidence
-from limitblocks.analysis.fixed_point import NearestStresses, fixed_point, permanent_state
-from limitblocks.analysis.residuals import SMALL_LOAD, Residuals, static_residuals
-from limitblocks.analysis.results import Nonassociated
-from limitblocks.analysis.states import Stage, State
+from limitblocks.analysis.nonassociated.closing import evidence
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, permanent_state
+from limitblocks.analysis.nonassociated.stage import Stage, State
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError, SolverFailure, UnlimitedLoad
-from limitblocks.mechanics import LimitProblem
-from limitblocks.mechanics.flow import dilatancy_share
+from limitblocks.evidence.residuals import SMALL_LOAD, Residuals, static_residuals
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
+from limitblocks.problem.flow import dilatancy_share
 
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 ROUNDS = 10  # of the fixed point from an associated state

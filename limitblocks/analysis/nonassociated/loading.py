@@ -11,14 +11,22 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.closing import Closing, Reach, closed, evidence, flow_before_return, leap, reached
-from limitblocks.analysis.fixed_point import NearestStresses
-from limitblocks.analysis.implicit_step import Loading, implicit_step
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.settings import Settings
-from limitblocks.analysis.states import Stage
+from limitblocks.analysis.nonassociated.closing import (
+    Closing,
+    Reach,
+    closed,
+    evidence,
+    flow_before_return,
+    leap,
+    reached,
+)
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
+from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
+from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.arrays import Array
-from limitblocks.mechanics import LimitProblem
+from limitblocks.problem import LimitProblem
 
 log = logging.getLogger(__name__)
 

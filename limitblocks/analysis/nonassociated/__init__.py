@@ -1,0 +1,1 @@
+"""The solution for real friction and the way to it; import from the modules."""
