@@ -58,9 +58,7 @@ def wedge(
     if not abs(plunge) < np.pi / 2:
         problems.append(f"plunge is {plunge!r}, expected an angle between -pi/2 and pi/2")
     if not abs(tilt) < np.pi / 2 - half_angle:
-        problems.append(
-            f"tilt is {tilt!r}, expected less than pi/2 - half angle = {np.pi / 2 - half_angle:g}"
-        )
+        problems.append(f"tilt is {tilt!r}, expected less than pi/2 - half angle {half_angle!r}")
     refuse(problems)
     a, t, p = height * np.tan(half_angle), tilt, plunge
     about_x = np.array([(1, 0, 0), (0, np.cos(t), -np.sin(t)), (0, np.sin(t), np.cos(t))])

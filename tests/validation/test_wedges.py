@@ -105,7 +105,7 @@ def claim(model, load_factor, share):
     return lb.Claim(load_factor, np.array(Q), displacement_rates=rates)
 
 
-# ---------------------------------- two planes and a plunging line: Hoek & Bray (1981), Rock Slope Engineering
+# --------------------------------- two planes and a plunging line: Hoek & Bray (1981), Rock Slope Engineering
 
 PLANES = [  # dip and dip direction of both planes, degrees
     ((40, 130), (60, 220)),  # Itasca, verification problem "Sliding wedge" of 3DEC
