@@ -37,8 +37,8 @@ Strength = Annotated[
 Slip = Annotated[
     Literal["exact", "paper", "inner", "outer"] | None,
     typer.Option(
-        help="Friction of orduna-lourenco: Coulomb's circle, the paper's octagon, an octagon within or around "
-        "the circle [default: exact].",
+        help="Friction of orduna-lourenco: exact (Coulomb's circle), the paper's octagon, or an octagon "
+        "within the circle or around it [default: exact].",
         show_default=False,
     ),
 ]

@@ -81,10 +81,11 @@ def oblique():
     for (name, kind), flow in product(JOINTS.items(), FLOWS):
         yield Case("Closed forms", f"block pushed 0.3 rad off its side, {name}", flow, "mu", 0.3, 3e-6,
                    partial(ANALYSES[flow], build, kind(0.3)), quick=True)  # fmt: skip
+    octagon = lb.OrdunaLourenco(0.3, slip="paper")
     for flow in FLOWS:
         yield Case("Closed forms", "block pushed 0.3 rad off its side, OrdunaLourenco(slip='paper')", flow,
                    "mu / cos(0.3): octagon", 0.3 / push[0], 3e-6,
-                   partial(ANALYSES[flow], build, lb.OrdunaLourenco(0.3, slip="paper")), quick=True)  # fmt: skip
+                   partial(ANALYSES[flow], build, octagon), quick=True)  # fmt: skip
 
 
 def wedges():
