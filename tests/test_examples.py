@@ -100,6 +100,12 @@ EXPECTED = {
         "half the load: equilibrium": (0, 1e-9),
         "half the load: yield": (0, 1e-9),
     },
+    "18_round_or_eight_sided_friction": {
+        "circle over mu / sin w": (1, 1e-3),
+        "points over mu / sin w": (1, 1e-3),
+        # mu / sqrt(sin^2 w - mu^2 cos^2 w) at 45 degrees
+        "associated": (0.6 / np.sqrt(0.5 - 0.5 * 0.6**2), 1e-6),
+    },
 }
 
 
