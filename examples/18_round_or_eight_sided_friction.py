@@ -15,7 +15,8 @@ presses it down:
 
 One block then has an interval of load factors. All its values solve the equations; which one an analysis
 finds depends on its way there. Round friction has one direction of shear for each direction of slip, and
-one load factor. Polygons within the circle are not safer: their corners and sides lock in the same way.
+one load factor. Polygons within the circle are no safer: their sides lock shear as well, and upper ends of
+their intervals lie above mu / sin w.
 
 With associated flow the wedge lifts out as it slides, and limits are unique with either:
 alpha = mu / sqrt(sin^2 w - mu^2 cos^2 w) for the circle, more for the octagon around it.

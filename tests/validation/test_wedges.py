@@ -83,16 +83,27 @@ def test_the_circle_leaves_one_number():
         assert not lb.check_mcp(model, claim(model, load_factor, shift)).passed
 
 
-def claim(model, load_factor, share):
-    """Slip along the groove under V = mu N (1, share), the second part against the wedge's sinking."""
+def test_a_polygon_within_the_circle_is_not_safe():
+    """A hexagon's corners are on the circle, its sides at cos(pi/6) of it: V = mu N (cos, -+sin)(pi/6)."""
+    w, mu = np.pi / 4, 0.4
+    # shorter along the groove than up the planes: V1, to which a corner points, is up the planes
+    model = lb.structures.wedge(lb.OrdunaLourenco(mu, slip="inner", sides=6), half_angle=w, length=0.5)
+    along, across = np.cos(np.pi / 6), -np.sin(np.pi / 6)
+    load_factor = mu * along / (np.sin(w) + mu * across * np.cos(w))
+    assert load_factor > 1.08 * mu / np.sin(w)
+    assert lb.check_mcp(model, claim(model, load_factor, across, along)).worst.value < 1e-9
+
+
+def claim(model, load_factor, share, along=1.0):
+    """Slip along the groove under V = mu N (along, share), the second part against the wedge's sinking."""
     (wedge,) = model.free_blocks
     mu = model.interfaces[0].joint.friction
-    N = load_factor * wedge.weight / (2 * mu)
+    N = load_factor * wedge.weight / (2 * mu * along)
     forces, up = [], []  # on the wedge, and the unit vectors up the planes
     for interface in model.interfaces:
         into = interface.axes[2] * (1.0 if interface.block_j == "wedge" else -1.0)
         up.append(np.cross(into, (1.0, 0.0, 0.0)) * np.sign(np.cross(into, (1.0, 0.0, 0.0))[2]))
-        forces.append(N * (into - mu * np.array((1.0, 0.0, 0.0)) + mu * share * up[-1]))
+        forces.append(N * (into - mu * np.array((along, 0.0, 0.0)) + mu * share * up[-1]))
     arms = [interface.centroid - wedge.centroid for interface in model.interfaces]
     turning = np.cross(arms, forces).sum(axis=0)[1]  # balanced by N farther on: bending about `up`
     Q = []
