@@ -37,13 +37,12 @@ class OrdunaLourenco(Queries):
     with torsion (2): Coulomb's circle, where the paper puts an octagon. An engineering approximation:
 
     - the circle is exact for shear, with any flow. The paper's octagon, Eqs (24)-(26), is drawn around it:
-      ``slip="paper"``, 38 planes on a quadrilateral, with associated flow up to 1/cos(22.5 deg) - 1 = 8.2 %
+      slip "paper", 38 planes on a quadrilateral, with associated flow up to 1/cos(22.5 deg) - 1 = 8.2 %
       too strong between its eight contact directions;
     - without dilatancy no polygon, inner ones included, is on a safe side: as a joint slides along the
       contact direction of a side, its shear force may be anywhere on that side, up to mu |N| tan(pi/sides)
-      across the slip. A solution is then no load factor but an interval of them: a wedge pushed along a
-      groove of half angle w needs mu / sin w, and the octagon allows less and more
-      (:func:`limitblocks.structures.wedge`);
+      across the slip. The answer is then an interval of load factors: a wedge pushed along a groove of half
+      angle w needs mu / sin w, and the octagon allows less and more;
     - Eqs (27)-(29) neglect the aspect ratio of the interface: against uniform pressure on a rectangle they
       overestimate torsion near pure shear (by 0.3 T0 at V0) and may underestimate it in between, by up to
       0.18 T0;
