@@ -67,7 +67,10 @@ EXPECTED = {
     "11_oppenheims_arch": {"load factor": (0.37, 0.005), "hinges": (4, 0)},  # Oppenheim (1992)
     "12_facade_and_its_returns": {
         "free-standing": (0.4 / 2.0, 1e-6),  # t/H
-        "friction 0.3": (0.3, 1e-6),  # all slides on the base
+        "friction 0.3": (
+            0.3,
+            1e-5,
+        ),  # at most: all slides on the base; stones that part as they slide take 3e-6
         "one body": (0.5, 1e-9),  # moments of 400 x 40 cm and 2 x 120 x 40 cm in plan, 2 m high
     },
     "13_corner_failure_with_twist": {
