@@ -38,7 +38,8 @@ class PointContact(Queries):
     points : int
         Points on each side, its first corner included; 1 is the corners alone.
     cone : {"exact", "inner", "outer"}
-        The Coulomb circle of each point itself, or a polygon within it (safe) or around it (unsafe).
+        The Coulomb circle of each point itself, or a polygon within it or around it: safe or unsafe with
+        associated flow. Without dilatancy polygons give an interval of load factors, on neither side.
     sides : int
         Sides of the inner or outer polygon, at least 3: too weak by up to 1 - cos(pi/sides), or too strong
         by up to 1/cos(pi/sides) - 1.
