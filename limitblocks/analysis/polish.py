@@ -150,7 +150,7 @@ def _least_solution(J: sparse.csr_array, r: Array) -> Array:
     m, n = J.shape
     eps = sparse.diags_array(np.full(m, -REGULAR))
     K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = linalg.splu(K, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.001, options={"SymmetricMode": True})
+    lu = linalg.splu(K)
     right = np.concatenate([np.zeros(n), r])
     z = lu.solve(right)
     for _ in range(2):
