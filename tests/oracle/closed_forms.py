@@ -1,4 +1,6 @@
-"""Load factors known by formula: blocks that each stand on one other, grooves, and what a limit is made of."""
+"""Load factors known by formula: blocks that each stand on one other, grooves, neighbours that push."""
+
+from itertools import pairwise
 
 import numpy as np
 from coulomb import Truth
@@ -7,11 +9,11 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 def standing(model, carried, live):
-    """Interval of load factors of a forest: every block stands on one interface, under its weight and `live`.
+    """Truth of a forest: every block stands on one interface, under its weight and `live`.
 
     Dead and live load are proportional to the masses, so that all above an interface acts on it as one force
-    R = alpha live - up (per weight) through the common centroid. It is carried if and only if it presses, lies
-    within the Coulomb cone and passes through the polygon: the corners then share it, each within its cone.
+    R = alpha live - up (per weight) through the common centroid. It is carried if and only if it presses,
+    lies within the Coulomb cone and passes through the polygon: the corners then share it, each within its cone.
 
     Parameters
     ----------
@@ -26,11 +28,18 @@ def standing(model, carried, live):
         above = [blocks[name] for name in sorted(names)]
         low, high = carrying(interface, interface.block_j in names, above, np.asarray(live, dtype=float))
         least, most = max(least, low), min(most, high)
-    return Truth(True, least, most)
+    return known(least, most)
+
+
+def known(least, most):
+    """Truth where the load factors from `least` to `most`, and no others, are admissible."""
+    if not least <= 0.0 <= most:
+        return Truth("falls", interior=False)
+    return Truth("unlimited" if most == np.inf else "number", float(most))
 
 
 def carrying(interface, upwards, above, live):
-    """Interval of load factors that one interface carries; `upwards`: its normal points into what it carries."""
+    """Interval of load factors that one interface carries; `upwards`: its normal points to what it carries."""
     s1, s2, n = interface.axes if upwards else interface.axes * np.array([[1.0], [-1.0], [-1.0]])
     polygon = interface.polygon if upwards else (interface.polygon * (1.0, -1.0))[::-1]
     # relative to the interface: differences of large coordinates are formed once
@@ -69,7 +78,7 @@ def within_cone(v, up, friction):
     ends = sorted({-np.inf, *roots, np.inf, *([up[2] / v[2]] if v[2] != 0.0 else [])})
     inside = [
         (low, high)
-        for low, high in zip(ends[:-1], ends[1:], strict=True)
+        for low, high in pairwise(ends)
         if (x := between(low, high)) * x * a + 2 * b * x + c <= 0.0 and up[2] - x * v[2] >= 0.0
     ]
     return (inside[0][0], inside[-1][1]) if inside else (np.inf, -np.inf)
@@ -88,10 +97,20 @@ def groove(friction, half_angle):
     """A long prism on the two faces of a groove, pushed along it; associated flow.
 
     Each face carries n, a shear t along the groove and q down the face: n sin w + q cos w = W/2 and
-    t^2 + q^2 = mu^2 n^2. The largest t is at q = -mu^2 n cot w, the faces squeezing the prism; none is largest
+    t^2 + q^2 = mu^2 n^2. The largest t is at q = -mu^2 n cot w, the faces squeezing the prism; there is none
     if mu >= tan w. (Without dilatancy it slides at mu / sin w.)
     """
     sin, cot = np.sin(half_angle), 1.0 / np.tan(half_angle)
     if friction * cot >= 1.0:
         return np.inf
     return friction / (sin * np.sqrt(1.0 - (friction * cot) ** 2))
+
+
+def pushing(friction, weights):
+    """Low blocks in a row on a floor, smooth where they touch, pushed along the row; the last is in front.
+
+    Each can drive those before it but not pull those behind: the blocks from any one to the front slide together
+    at the mean of their frictions, by weight, and the least of these means is the load factor.
+    """
+    resistance, weight = np.multiply(friction, weights)[::-1], np.asarray(weights)[::-1]
+    return float((np.cumsum(resistance) / np.cumsum(weight)).min())

@@ -1,4 +1,4 @@
-"""Conic programs in 50-digit arithmetic: no scale of the data can hide behind rounding.
+"""Conic programs in 50- to 150-digit arithmetic: no scale of the data can hide behind rounding.
 
     max alpha   s.t.   B f + alpha live = - dead,   f in K
 
@@ -8,11 +8,11 @@ library, so that it shares neither a solver nor a floating-point format with the
 """
 
 from dataclasses import dataclass
-from decimal import Decimal, getcontext, localcontext
+from decimal import Decimal, DecimalException, getcontext, localcontext
 
 import numpy as np
 
-DIGITS = 50
+DIGITS = (50, 150)  # the second where the first are not enough: normal matrices square the spread of the data
 CLOSE = Decimal("1e-14")  # relative gap and residuals asked of a solution; doubles of the data have 16 digits
 SURE = Decimal("1e-18")  # residual of a certificate of infeasibility, its objective being one
 STEPS = 150
@@ -81,9 +81,9 @@ class Scaling:
 def cholesky(M):
     """Lower factor; a pivot lost to rounding becomes huge, so that its unknown is zero."""
     M, n = M.copy(), len(M)
-    least = max(M.diagonal()) * Decimal(10) ** (10 - DIGITS)
+    least = M.diagonal() * Decimal(10) ** (5 - getcontext().prec)
     for k in range(n):
-        pivot = M[k, k] if M[k, k] > least * least else Decimal("1e200")
+        pivot = M[k, k] if M[k, k] > least[k] else Decimal("1e200")
         M[k:, k] = M[k:, k] / pivot.sqrt()
         M[k, k] = pivot.sqrt()
         column = M[k + 1 :, k]
@@ -130,9 +130,17 @@ def maximise(groups, rows, dead, live):
         Number of rows.
     dead, live : object arrays (rows,)
     """
-    with localcontext() as context:
-        context.prec = DIGITS
-        return _Embedding(groups, rows, dead, live).run()
+    answer = Answer("undecided")
+    for digits in DIGITS:
+        with localcontext() as context:
+            context.prec = digits
+            try:
+                answer = _Embedding(groups, rows, dead, live).run()
+            except DecimalException:  # a cone left by rounding
+                continue
+        if answer.status != "undecided":
+            break
+    return answer
 
 
 class _Embedding:
@@ -186,17 +194,18 @@ class _Embedding:
     def judged(self, primal, dual, unit, gap, steps):
         """The answer, if the present point proves one."""
         work, size = self.b @ self.y, max(abs(self.y))
-        if work > 0 and self.kappa > self.tau:
+        if self.kappa > self.tau:
             if max(abs(dual).max(), abs(self.live @ self.y)) < SURE * work:
                 return Answer("infeasible", steps=steps)
-        if self.alpha > 0 and self.kappa > self.tau:
             if abs(primal + self.tau * self.b).max() < SURE * self.alpha:
                 return Answer("unbounded", steps=steps)
         if size == 0 or self.tau < SURE * self.kappa:
             return None
         alpha, upper = self.alpha / self.tau, -work / self.tau
         # what the residuals may be worth, and the gap between the two values, relative to the value
-        worth = (abs(primal) @ abs(self.y) + (abs(dual) * self.x).sum() + abs(unit * self.alpha)) / self.tau**2
+        worth = (
+            abs(primal) @ abs(self.y) + (abs(dual) * self.x).sum() + abs(unit * self.alpha)
+        ) / self.tau**2
         doubt = (abs(upper - alpha) + worth) / max(abs(alpha), Decimal("1e-12"))
         if doubt < CLOSE and abs(primal).max() / self.tau < CLOSE:
             return Answer("optimal", alpha, doubt, self.x / self.tau, self.y / self.tau, steps)
@@ -249,6 +258,3 @@ class _Embedding:
             if rate < 0:
                 step = min(step, -value / rate)
         return step
-
-
-getcontext().prec = max(getcontext().prec, DIGITS)  # Decimals made outside `maximise` keep the digits too

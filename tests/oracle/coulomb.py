@@ -1,84 +1,103 @@
 """Oracle: the associated load factor of PointContact models, from the equations in another form.
 
 Only blocks, interfaces and loads of a model are read. Unknowns are the forces at the corners of the contact
-polygons; equations are the equilibrium of each block in global axes, about its own centroid, measured in its own
-weight and size. Blocks that meet only through supports are solved by themselves, each group in its own scale.
+polygons; equations are the equilibrium of each block in global axes, about its own centroid, measured in its
+own weight and size. Blocks that meet only through supports are solved by themselves, each group in its own scale.
 """
 
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import Decimal, localcontext
 
 import numpy as np
-from cone_program import ONE, ZERO, exact, maximise
+from cone_program import DIGITS, ONE, ZERO, exact, maximise
 from scipy import sparse
+
+EDGE = Decimal("1e-12")  # a margin below it is that of rounding in the data
 
 
 @dataclass(frozen=True)
 class Truth:
-    """All load factors from `least` to `most` are admissible; none if `least` > `most`.
+    """What `lb.bounds` should say of a model.
 
-    `decided` is False where the oracle's own gap or residuals leave it open.
+    `verdict` is "number" (`load_factor`), "unlimited", "falls" or "undecided", where the oracle's own gap or
+    residuals leave it open or the dead loads are on the edge of falling. `interior`: whether some stress
+    state under the dead loads is strictly within every cone; None if unknown.
     """
 
-    decided: bool
-    least: float = np.nan
-    most: float = np.nan
-
-    @property
-    def verdict(self) -> str:
-        """What `lb.bounds` should say: "number", "unlimited", "falls" or "undecided"."""
-        if not self.decided:
-            return "undecided"
-        if not self.least <= 0.0 <= self.most:
-            return "falls"
-        return "unlimited" if self.most == np.inf else "number"
+    verdict: str
+    load_factor: float = np.nan
+    interior: bool | None = None
 
 
 def truth(model) -> Truth:
-    """Return the interval of admissible load factors of a model whose joints are all PointContact."""
-    least, most = -np.inf, np.inf
-    for group in groups_of(model):
-        for sign in (1, -1):
-            answer = solved(model, group, sign)
-            if answer.status == "undecided":
-                return Truth(False)
-            if answer.status == "infeasible":
-                return Truth(True, np.inf, -np.inf)
-            if answer.status == "optimal" and sign == 1:
-                most = min(most, float(answer.value))
-            elif answer.status == "optimal":
-                least = max(least, -float(answer.value))
-    return Truth(True, least, most)
+    """Return the truth of a model whose joints are all PointContact, from its two programs for each group."""
+    with localcontext() as context:
+        context.prec = DIGITS[-1]
+        groups = [Group(model, names) for names in groups_of(model)]
+        margins = [group.margin() for group in groups]
+        if any(margin is None for margin in margins):
+            return Truth("undecided")
+        margin = min(margins)
+        if margin < -EDGE:
+            return Truth("falls", interior=False)
+        if margin < EDGE:
+            return Truth("undecided", interior=False)
+        most = [group.largest() for group in groups if group.live.any()]
+    if any(value is None for value in most):
+        return Truth("undecided", interior=True)
+    most = float(min(most))
+    return Truth("unlimited" if most == np.inf else "number", most, True)
 
 
 def groups_of(model):
     """Names of free blocks that hang together without the supports."""
     names = [block.name for block in model.free_blocks]
     place = {name: k for k, name in enumerate(names)}
-    pairs = [(place[i.block_i], place[i.block_j]) for i in model.interfaces if {i.block_i, i.block_j} <= set(names)]
+    pairs = [
+        (place[i.block_i], place[i.block_j]) for i in model.interfaces if {i.block_i, i.block_j} <= set(names)
+    ]
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(names),) * 2)
     count, part = sparse.csgraph.connected_components(graph, directed=False)
     return [{names[k] for k in np.flatnonzero(part == c)} for c in range(count)]
 
 
-def solved(model, group, sign=1):
-    """Answer of the conic program of one group of blocks, the live load times `sign`."""
-    free = [block for block in model.free_blocks if block.name in group]
-    keep = [k for k, block in enumerate(model.free_blocks) if block.name in group]
-    dead, live = (exact(load.on(model.free_blocks)[keep]) for load in (model.dead, model.live))
-    units = np.array([row_units(block) for block in free], dtype=object)
-    if not live.any():
-        live = live + ZERO
-    columns, place = [], {block.name: k for k, block in enumerate(free)}
-    for interface in model.interfaces:
-        if {interface.block_i, interface.block_j} & group:
-            columns.append(wrenches(interface, free, place, units))
-    scale = abs(live / units).max() or ONE  # the live load brought to unit size
-    answer = maximise(columns, 6 * len(free), (dead / units).ravel(), (sign * live / units / scale).ravel())
-    if answer.status == "optimal":
-        object.__setattr__(answer, "value", answer.value / scale)
-    return answer
+class Group:
+    """The conic programs of one group of blocks."""
+
+    def __init__(self, model, names):
+        keep = [k for k, block in enumerate(model.free_blocks) if block.name in names]
+        free = [model.free_blocks[k] for k in keep]
+        units = np.array([row_units(block) for block in free], dtype=object)
+        self.dead, self.live = (
+            (exact(load.on(model.free_blocks)[keep]) / units).ravel() for load in (model.dead, model.live)
+        )
+        place = {block.name: k for k, block in enumerate(free)}
+        self.columns = [
+            wrenches(i, free, place, units) for i in model.interfaces if {i.block_i, i.block_j} & names
+        ]
+
+    def largest(self, sign=1):
+        """Largest load factor (of the live load times `sign`); inf, or None if undecided or there is none."""
+        scale = abs(self.live).max()  # the live load brought to unit size
+        return value_of(maximise(self.columns, len(self.live), self.dead, sign * self.live / scale), scale)
+
+    def margin(self):
+        """Largest m such that the dead loads stand with every force m within its cone (see `wrenches`)."""
+        along = np.full(len(self.dead), ZERO, dtype=object)
+        for rows, matrix in self.columns:
+            along[rows] += matrix[:, ::3].sum(axis=1)
+        scale = abs(along).max()
+        if scale < EDGE:  # these forces balance each other: self-stress within every cone
+            return Decimal("inf")
+        return value_of(maximise(self.columns, len(along), self.dead, along / scale), scale)
+
+
+def value_of(answer, scale):
+    """The optimum, its variable having been measured in 1/scale."""
+    if answer.status == "unbounded":
+        return Decimal("inf")
+    return answer.value / scale if answer.status == "optimal" else None
 
 
 def row_units(block):
@@ -91,7 +110,11 @@ def wrenches(interface, free, place, units):
     """Rows met, and the wrench on their blocks of each cone's three components."""
     s1, s2, n = exact(interface.axes)
     centroid = exact(interface.centroid)
-    ends = [(place[name], sign) for name, sign in ((interface.block_i, ONE), (interface.block_j, -ONE)) if name in place]
+    ends = [
+        (place[name], sign)
+        for name, sign in ((interface.block_i, ONE), (interface.block_j, -ONE))
+        if name in place
+    ]
     # forces are counted in the weight of the lighter block: the solver's start is then of a sensible size
     unit = min(units[k, 0] for k, _ in ends)
     rows = np.concatenate([6 * k + np.arange(6) for k, _ in ends])
@@ -103,7 +126,9 @@ def wrenches(interface, free, place, units):
             wrench = []
             for k, sign in ends:
                 arm = point - exact(free[k].centroid)
-                wrench += [sign * unit * f / u for f, u in zip([*force, *cross(arm, force)], units[k], strict=True)]
+                wrench += [
+                    sign * unit * f / u for f, u in zip([*force, *cross(arm, force)], units[k], strict=True)
+                ]
             columns.append(wrench)
     return rows, np.array(columns, dtype=object).T
 

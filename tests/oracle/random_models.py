@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapes
-from closed_forms import groove, standing
+from closed_forms import groove, known, standing
 from coulomb import Truth
 
 import limitblocks as lb
@@ -86,9 +86,14 @@ def assembled(draw, boxes, supports=()):
     supports = {**floor_under(boxes), **{name: boxes[name] for name in supports}}
     everything = {**supports, **{name: ends for name, ends in boxes.items() if name not in supports}}
     blocks = [
-        shapes.box(name, *ends, None if name in supports else draw.weight()) for name, ends in everything.items()
+        shapes.box(name, *ends, None if name in supports else draw.weight())
+        for name, ends in everything.items()
     ]
-    found = [one for one in shapes.touching(everything, draw.joint) if not {one.block_i, one.block_j} <= set(supports)]
+    found = [
+        one
+        for one in shapes.touching(everything, draw.joint)
+        if not {one.block_i, one.block_j} <= set(supports)
+    ]
     order = draw.rng.permutation(len(found))
     return Parts(blocks, list(supports), [found[k] for k in order])
 
@@ -97,7 +102,7 @@ def forest(draw):
     """Boxes on the floor or each on the top of one before it, two to a top at most, side by side."""
     boxes, below, places = {}, {}, []
     x = 0.0
-    for k in range(draw.count(2, 8)):
+    for k in range(draw.count(1, 8)):
         name, sides = f"b{k}", draw.sides()
         if places and draw.either(0.6):
             parent, low, high = places.pop(draw.count(0, len(places) - 1))
@@ -143,7 +148,7 @@ def slope(draw):
     """A forest, supports and all, turned about a level axis."""
     parts = forest(draw)
     axis = draw.uniform(0.0, 2 * np.pi)
-    return moved(parts, rotation((np.cos(axis), np.sin(axis), 0.0), draw.uniform(0.02, 0.5)))
+    return moved(parts, rotation((np.cos(axis), np.sin(axis), 0.0), draw.uniform(0.02, 0.3)))
 
 
 def moved(parts, turn, shift=(0.0, 0.0, 0.0)):
@@ -195,14 +200,17 @@ def row(draw):
         if draw.either(0.3):
             top = low + (0.2, 0.2, 0.0) * sides + (0.0, 0.0, sides[2])
             top[2] = high[2]
-            boxes[f"t{k}"] = (top, top + sides * draw.uniform(0.2, 0.6) * 10 ** -abs(draw.uniform(0, draw.size_spread)))
+            boxes[f"t{k}"] = (
+                top,
+                top + sides * draw.uniform(0.2, 0.6) * 10 ** -abs(draw.uniform(0, draw.size_spread)),
+            )
         x = high[0] + (draw.size() if draw.either(0.15) else 0.0)
     return assembled(draw, boxes)
 
 
 def jammed(draw):
     """A row against one wall, or between two, that do not move."""
-    boxes = {name: ends for name, ends in _row_boxes(draw).items()}
+    boxes = _row_boxes(draw)
     low, high = np.min([e[0] for e in boxes.values()], axis=0), np.max([e[1] for e in boxes.values()], axis=0)
     size = (high - low).max()
     walls = {"left": ((low[0] - size, low[1], 0.0), (low[0], high[1], high[2]))}
@@ -246,7 +254,10 @@ def wall(draw):
         left, right = (tops[0][0] + tops[0][1]) / 2, (tops[-1][0] + tops[-1][1]) / 2
         width = right - left if n == 3 else (tops[0][1] - tops[0][0]) / 3
         left = left if n == 3 else tops[0][0] + k * 1.5 * width
-        boxes[f"d{k}"] = (np.array([left, -depth / 3, high]), np.array([left + width, depth / 3, high + draw.size()]))
+        boxes[f"d{k}"] = (
+            np.array([left, -depth / 3, high]),
+            np.array([left + width, depth / 3, high + draw.size()]),
+        )
     return assembled(draw, boxes)
 
 
@@ -256,7 +267,9 @@ def arch(draw):
     model = structures.arch(joint, radius=1.0, thickness=thickness, voussoirs=draw.count(3, 7))
     spread = draw.weight_spread / 8.0  # more than a decade and no line of thrust fits
     blocks = [
-        block if block.name in model.supports else replace(block, unit_weight=10 ** draw.uniform(-spread, spread))
+        block
+        if block.name in model.supports
+        else replace(block, unit_weight=10 ** draw.uniform(-spread, spread))
         for block in model.blocks
     ]
     joints = [replace(one, joint=draw.joint() if draw.either(0.2) else joint) for one in model.interfaces]
@@ -280,12 +293,43 @@ def in_groove(draw):
     for name, sign in (("right", 1.0), ("left", -1.0)):
         out = np.array([sign * np.cos(w), 0.0, -np.sin(w)])  # out of the prism
         edge = np.array([sign * wide, 0.0, deep])
-        corners = np.array([(0, 0, 0), (0, along, 0), edge + (0, along, 0), edge])
-        corners = corners if np.cross(corners[1] - corners[0], corners[2] - corners[1]) @ out > 0 else corners[::-1]
+        corners = np.array([(0, 0, 0), (0, along, 0), edge + np.array([0, along, 0]), edge])
+        corners = (
+            corners if np.cross(corners[1] - corners[0], corners[2] - corners[1]) @ out > 0 else corners[::-1]
+        )
         found.append(shapes.interface("prism", name, corners, out, joint))
         at = np.array([sign * 2 * wide, along / 2, -deep])
         supports.append(lb.Block.box(name, (wide, along, deep), at))
     return Parts([*supports, prism], ["right", "left"], found, known=lambda: groove(mu, w))
+
+
+def beside(draw):
+    """Two structures on floors of their own, each with its own range of sizes and weights."""
+    first, second = (
+        [forest, row, wall, arch][draw.count(0, 3)](Draw(draw.rng.integers(2**32))) for _ in range(2)
+    )
+    reach = max(block.vertices[:, 0].max() for block in first.blocks)
+    reach -= min(block.vertices[:, 0].min() for block in second.blocks)
+    first, second = (
+        named("p ", first),
+        named("q ", moved(second, np.eye(3), np.array([1.1 * reach, 0.0, 0.0]))),
+    )
+    carried = first.carried + second.carried if first.carried and second.carried else None
+    return Parts(
+        first.blocks + second.blocks,
+        first.supports + second.supports,
+        first.interfaces + second.interfaces,
+        carried,
+    )
+
+
+def named(prefix, parts):
+    blocks = [replace(block, name=prefix + block.name) for block in parts.blocks]
+    interfaces = [
+        replace(one, block_i=prefix + one.block_i, block_j=prefix + one.block_j) for one in parts.interfaces
+    ]
+    carried = parts.carried and [{prefix + name for name in names} for names in parts.carried]
+    return Parts(blocks, [prefix + name for name in parts.supports], interfaces, carried)
 
 
 KINDS = {
@@ -297,8 +341,9 @@ KINDS = {
     "wall": wall,
     "arch": arch,
     "groove": in_groove,
+    "beside": beside,
 }
-SHARES = (0.2, 0.08, 0.1, 0.22, 0.1, 0.2, 0.06, 0.04)
+SHARES = (0.2, 0.07, 0.1, 0.18, 0.08, 0.18, 0.05, 0.04, 0.1)
 
 
 def mass_direction(draw):
@@ -329,11 +374,11 @@ def case(seed):
         at = block.centroid + draw.uniform(0.0, 0.9) * (corner - block.centroid)
         live = lb.force(block.name, np.multiply(block.weight, direction), at)
     model = lb.Model(parts.blocks, parts.supports, parts.interfaces, lb.self_weight(), live, f"{kind} {seed}")
-    known = None
+    truth = None
     if parts.carried is not None and not pushed:
         unit = np.asarray(direction) / np.linalg.norm(direction)
-        known = standing(model, parts.carried, unit)
+        truth = standing(model, parts.carried, unit)
     elif parts.known is not None:
         most = parts.known()
-        known = Truth(True, -most, most)
-    return Case(seed, kind + (" pushed" if pushed else ""), model, known)
+        truth = known(-most, most)
+    return Case(seed, kind + (" pushed" if pushed else ""), model, truth)

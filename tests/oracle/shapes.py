@@ -8,7 +8,7 @@ LEAST_SHARE = 0.02  # of the smaller side: no contact is a sliver
 
 
 def interface(i, j, corners, normal, joint):
-    """Interface of convex `corners` (n, 3), counter-clockwise about the unit `normal`, which points out of i."""
+    """Interface of convex `corners` (n, 3), counter-clockwise about the unit `normal` out of i."""
     corners, normal = np.asarray(corners, dtype=float), np.asarray(normal, dtype=float)
     sides = np.roll(corners, -1, axis=0) - corners
     first = int(np.linalg.norm(sides, axis=1).argmax())
@@ -37,7 +37,9 @@ def turned(one, joint):
 def frustum(name, below, above, z, unit_weight=None):
     """Block between two homothetic polygons (n, 2), counter-clockwise, at the heights z = (z0, z1)."""
     n = len(below)
-    rings = [np.column_stack([ring, np.full(n, height)]) for ring, height in zip((below, above), z, strict=True)]
+    rings = [
+        np.column_stack([ring, np.full(n, height)]) for ring, height in zip((below, above), z, strict=True)
+    ]
     sides = [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
     return lb.Block(
         name, np.concatenate(rings), (tuple(reversed(range(n))), tuple(range(n, 2 * n)), *sides), unit_weight
@@ -52,7 +54,7 @@ def box(name, low, high, weight=None):
 
 
 def touching(boxes, joint_of):
-    """Interfaces of boxes {name: (low, high)} whose faces lie in one plane, coordinates equal to the last digit.
+    """Interfaces of boxes {name: (low, high)} whose faces lie in one plane, equal to the last digit.
 
     `joint_of()` gives the joint of each.
     """
