@@ -13,7 +13,8 @@ def standing(model, carried, live):
 
     Dead and live load are proportional to the masses, so that all above an interface acts on it as one force
     R = alpha live - up (per weight) through the common centroid. It is carried if and only if it presses,
-    lies within the Coulomb cone and passes through the polygon: the corners then share it, each within its cone.
+    lies within the Coulomb cone and passes through the polygon: the corners then share it, each within its
+    cone.
 
     Parameters
     ----------
@@ -39,7 +40,7 @@ def known(least, most):
 
 
 def carrying(interface, upwards, above, live):
-    """Interval of load factors that one interface carries; `upwards`: its normal points to what it carries."""
+    """Interval of load factors that one interface carries; `upwards`: its normal points to its load."""
     s1, s2, n = interface.axes if upwards else interface.axes * np.array([[1.0], [-1.0], [-1.0]])
     polygon = interface.polygon if upwards else (interface.polygon * (1.0, -1.0))[::-1]
     # relative to the interface: differences of large coordinates are formed once
@@ -109,8 +110,8 @@ def groove(friction, half_angle):
 def pushing(friction, weights):
     """Low blocks in a row on a floor, smooth where they touch, pushed along the row; the last is in front.
 
-    Each can drive those before it but not pull those behind: the blocks from any one to the front slide together
-    at the mean of their frictions, by weight, and the least of these means is the load factor.
+    Each can drive those before it but not pull those behind: the blocks from any one to the front slide
+    together at the mean of their frictions, by weight; the least of these means is the load factor.
     """
     resistance, weight = np.multiply(friction, weights)[::-1], np.asarray(weights)[::-1]
     return float((np.cumsum(resistance) / np.cumsum(weight)).min())

@@ -2,7 +2,8 @@
 
 Only blocks, interfaces and loads of a model are read. Unknowns are the forces at the corners of the contact
 polygons; equations are the equilibrium of each block in global axes, about its own centroid, measured in its
-own weight and size. Blocks that meet only through supports are solved by themselves, each group in its own scale.
+own weight and size. Blocks that meet only through supports are solved by themselves, each group in its own
+scale.
 """
 
 from dataclasses import dataclass
@@ -13,6 +14,8 @@ from cone_program import DIGITS, ONE, ZERO, exact, maximise
 from scipy import sparse
 
 EDGE = Decimal("1e-12")  # a margin below it is that of rounding in the data
+ROUNDED = Decimal(2) ** -50  # relative error of the doubles that describe a model, a few roundings each
+POSED = Decimal("1e-8")  # relative change of a load factor by such errors beyond which no program can know it
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,19 @@ class Group:
     def largest(self, sign=1):
         """Largest load factor (of the live load times `sign`); inf, or None if undecided or there is none."""
         scale = abs(self.live).max()  # the live load brought to unit size
-        return value_of(maximise(self.columns, len(self.live), self.dead, sign * self.live / scale), scale)
+        answer = maximise(self.columns, len(self.live), self.dead, sign * self.live / scale)
+        if answer.status == "optimal" and self.sensitivity(answer) * ROUNDED > POSED * abs(answer.value):
+            return None
+        return value_of(answer, scale)
+
+    def sensitivity(self, answer):
+        """Change of the optimum for unit relative changes of every number of the program, at worst."""
+        rates, forces, at = abs(answer.rates), abs(answer.forces).ravel(), 0
+        found = rates @ abs(self.dead) + abs(answer.value)
+        for rows, matrix in self.columns:
+            found += rates[rows] @ abs(matrix) @ forces[at : at + matrix.shape[1]]
+            at += matrix.shape[1]
+        return found
 
     def margin(self):
         """Largest m such that the dead loads stand with every force m within its cone (see `wrenches`)."""

@@ -1,4 +1,4 @@
-"""Random models, and a few named ones, whose load factors are known exactly: weights far apart, tiny frictions."""
+"""Models whose load factors are known exactly: random ones, weights far apart, tiny and huge frictions."""
 
 import sys
 from pathlib import Path
