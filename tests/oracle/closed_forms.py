@@ -1,9 +1,11 @@
 """Load factors known by formula: blocks that each stand on one other, grooves, neighbours that push."""
 
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 from coulomb import Truth
+
+import limitblocks as lb
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -46,24 +48,51 @@ def carrying(interface, upwards, above, live):
     # relative to the interface: differences of large coordinates are formed once
     arms = np.array([block.centroid - interface.centroid for block in above])
     weights = np.array([block.weight for block in above])
-    x1, x2, height = np.array([s1, s2, n]) @ (weights @ arms / weights.sum())
+    at = np.array([s1, s2, n]) @ (weights @ arms / weights.sum())
     v, up = np.array([s1, s2, n]) @ live, np.array([s1, s2, n]) @ UP
-    # a linear function a + b alpha >= 0 for each side, inside being on its left, and one for pressure
-    linear = [(up[2], -v[2])]
+    # moments per weight of the constant and of the variable force, which are constant + alpha variable
+    moments = np.cross(at, -up), np.cross(at, v)
+    if isinstance(interface.joint, lb.OrdunaLourenco):
+        return within(paper_rows(polygon, interface.joint.friction, (-up, v), moments))
+    rows = [(-up[2], v[2])]  # it presses, and within each side of the polygon
     for q, r in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        inward = np.array([q[1] - r[1], r[0] - q[0]])
-        d = inward @ (np.array([x1, x2]) - q)
-        linear.append((d * up[2] - height * inward @ up[:2], -d * v[2] + height * inward @ v[:2]))
-    least, most = -np.inf, np.inf
-    for a, b in linear:
-        if b > 0.0:
-            least = max(least, -a / b)
-        elif b < 0.0:
-            most = min(most, -a / b)
-        elif a < 0.0:
-            return np.inf, -np.inf
+        along = r - q
+        # the moment about the side, which is -|N| times the distance inside it
+        about = q[0] * along[1] - q[1] * along[0]
+        rows.append([along @ m[:2] + about * f[2] for f, m in zip((-up, v), moments, strict=True)])
     low, high = within_cone(v, up, interface.joint.friction)
+    least, most = within(rows)
     return max(least, low), min(most, high)
+
+
+def within(rows):
+    """Interval of alpha with a + alpha b <= 0 for all rows (a, b)."""
+    least, most = -np.inf, np.inf
+    for a, b in rows:
+        if b < 0.0:
+            least = max(least, -a / b)
+        elif b > 0.0:
+            most = min(most, -a / b)
+        elif a > 0.0:
+            return np.inf, -np.inf
+    return least, most
+
+
+def paper_rows(polygon, friction, forces, moments):
+    """Eqs (23)-(30) and (36) on a rectangle, of the constant and the variable stress resultants."""
+    l1, l2 = np.abs(polygon).max(axis=0)
+    d = np.hypot(l1, l2)
+    # torsion per mu |N| of uniform pressure: the mean distance from the centre
+    c = d / 3 + l1**2 / (6 * l2) * np.log((l2 + d) / l1) + l2**2 / (6 * l1) * np.log((l1 + d) / l2)
+    Q = np.array([np.concatenate(pair) for pair in zip(forces, moments, strict=True)]).T
+    V, N, M1, M2, T = Q[:2], friction * Q[2], Q[3], Q[4], Q[5]
+    rows = [N + t * T / c for t in (1, -1)]
+    for angle in np.pi / 4 * np.arange(8):
+        shear = np.cos(angle) * V[0] + np.sin(angle) * V[1]
+        rows += [shear + N, *(shear + t * T / c + 1.3 * N for t in (1, -1))]
+    for a, b, t in product((1, -1), repeat=3):
+        rows.append(N / 2 + (friction / 2 * (a * M1 + b * M2) + t * T) / (l1 + l2))
+    return rows + [s * M1 + l2 * Q[2] for s in (1, -1)] + [s * M2 + l1 * Q[2] for s in (1, -1)]
 
 
 def within_cone(v, up, friction):

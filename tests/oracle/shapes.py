@@ -27,11 +27,11 @@ def centroid(polygon):
     return polygon[0] + area @ (a + b) / 3.0 / area.sum()
 
 
-def turned(one, joint):
+def turned(one):
     """The same interface with its blocks in the other order."""
     s1, s2, n = one.axes
     flipped = (one.polygon * (1.0, -1.0))[::-1]
-    return lb.Interface(one.block_j, one.block_i, one.centroid, np.array([s1, -s2, -n]), flipped, joint)
+    return lb.Interface(one.block_j, one.block_i, one.centroid, np.array([s1, -s2, -n]), flipped, one.joint)
 
 
 def frustum(name, below, above, z, unit_weight=None):

@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import closed_forms
+import draw
 import judge
+import kinds
 import numpy as np
 import pytest
 import random_models
@@ -25,7 +27,7 @@ def assert_load_factor(model, expected, rel=EXACT):
 def on_floor(boxes, joints, direction=(1, 0, 0)):
     """Model of boxes {name: (low, high, weight)} on a floor, joints {"i|j": joint}."""
     ends = {name: box[:2] for name, box in boxes.items()}
-    ends = {**random_models.floor_under(ends), **ends}
+    ends = {**draw.floor_under(ends), **ends}
     found = [replace(one, joint=joints[one.name]) for one in shapes.touching(ends, lambda: None)]
     blocks = [shapes.box(name, *box, boxes[name][2] if name in boxes else None) for name, box in ends.items()]
     return lb.Model(blocks, ["floor"], found, lb.self_weight(), lb.mass_proportional(direction))
@@ -81,7 +83,7 @@ def test_groove(half_angle, share):
     mu = share * np.tan(half_angle)
     if mu > 3.0:
         pytest.skip("it would rock first")
-    parts = random_models.in_groove(Fixed(half_angle, mu))
+    parts = kinds.in_groove(Fixed(half_angle, mu))
     model = lb.Model(
         parts.blocks, parts.supports, parts.interfaces, lb.self_weight(), lb.mass_proportional((0, 1, 0))
     )
@@ -140,7 +142,7 @@ def test_lifted_pressed_and_jammed():
 
 def test_a_load_on_one_of_two_blocks_leaves_the_other_to_stand_or_fall():
     joint = lb.PointContact(0.4)
-    parts = random_models.named("p ", parts_of(structures.block(joint, width=1.0, height=1.0)))
+    parts = draw.named("p ", parts_of(structures.block(joint, width=1.0, height=1.0)))
     for fraction, verdict in ((0.5, "number"), (1.1, "falls")):
         other = structures.overhang(joint, count=3, length=1.0, height=0.3, fraction=fraction)
         both = parts_of(other)
@@ -158,13 +160,13 @@ def test_a_load_on_one_of_two_blocks_leaves_the_other_to_stand_or_fall():
 
 
 def parts_of(model):
-    return random_models.Parts(list(model.blocks), list(model.supports), list(model.interfaces))
+    return draw.Parts(list(model.blocks), list(model.supports), list(model.interfaces))
 
 
 @pytest.mark.parametrize("start", range(0, 200, 50))
 def test_random_forests_spires_slopes_and_grooves(start):
     cases = [random_models.case(seed) for seed in range(start, start + 50)]
-    cases = [case for case in cases if case.known is not None]
+    cases = [case for case in cases if case.known is not None and case.kind != "paper"]
     assert len(cases) > 10
     for case in cases[:8]:
         found = truth(case.model)
@@ -204,13 +206,13 @@ def test_cases_depend_on_their_seed_alone():
 
 
 def test_every_kind_is_drawn_and_contacts_are_whole():
-    kinds = set()
+    drawn = set()
     for seed in range(80):
         case = random_models.case(seed)
-        kinds.add(case.kind.split()[0])
+        drawn.add(case.kind.split()[0])
         for one in case.model.interfaces:
             assert np.allclose(one.axes @ one.axes.T, np.eye(3), atol=1e-12)
             assert np.linalg.det(one.axes) == pytest.approx(1.0)
             x, y = one.polygon.T
             assert (x * np.roll(y, -1) - y * np.roll(x, -1)).sum() > 0.0
-    assert kinds == set(random_models.KINDS)
+    assert drawn == set(kinds.KINDS)

@@ -9,6 +9,7 @@ import limitblocks as lb
 from limitblocks import structures
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "oracle"))
+import draw
 import judge
 import random_models
 import shapes
@@ -33,7 +34,7 @@ def apart(*stones):
     for k, (side, _, _) in enumerate(stones):
         boxes[f"b{k}"] = ((x, 0.0, 0.0), (x + side, side, side))
         x += 3 * side
-    floor = random_models.floor_under(boxes)
+    floor = draw.floor_under(boxes)
     frictions = iter([friction for _, _, friction in stones])
     found = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
     blocks = [shapes.box("floor", *floor["floor"])]
