@@ -35,10 +35,13 @@ def standing(model, carried, live):
 
 
 def known(least, most):
-    """Truth where the load factors from `least` to `most`, and no others, are admissible."""
+    """Truth where the load factors from `least` to `most`, and no others, are admissible.
+
+    Each limit is that of one condition, so that between them all are met strictly.
+    """
     if not least <= 0.0 <= most:
         return Truth("falls", interior=False)
-    return Truth("unlimited" if most == np.inf else "number", float(most))
+    return Truth("unlimited" if most == np.inf else "number", float(most), least < 0.0 < most)
 
 
 def carrying(interface, upwards, above, live):

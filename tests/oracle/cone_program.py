@@ -122,13 +122,8 @@ def longest(x, d):
 def maximise(groups, rows, dead, live):
     """Solve the program of this module.
 
-    Parameters
-    ----------
-    groups : sequence of (row numbers, matrix (len(row numbers), 3 p))
-        Columns of B, three to a cone, in groups that meet the same few rows.
-    rows : int
-        Number of rows.
-    dead, live : object arrays (rows,)
+    `groups` are pairs (row numbers, matrix (len(row numbers), 3 p)): columns of B, three to a cone, that meet
+    the same few of the `rows`.
     """
     answer = Answer("undecided")
     for digits in DIGITS:
@@ -246,11 +241,9 @@ class _Embedding:
         step = self.step(found) * Decimal("0.99")
         steps = [step * part for part in found]
         self.x, self.s, self.y = self.x + steps[0], self.s + steps[1], self.y + steps[2]
-        self.alpha, self.tau, self.kappa = (
-            self.alpha + steps[3],
-            self.tau + steps[4],
-            self.kappa + steps[5],
-        )
+        self.alpha += steps[3]
+        self.tau += steps[4]
+        self.kappa += steps[5]
 
     def step(self, found):
         step = min(longest(self.x, found[0]), longest(self.s, found[1]))

@@ -76,13 +76,11 @@ def test_overhang_beyond_balance_falls():
     )
 
 
-@pytest.mark.parametrize("half_angle", [0.4, 0.8, 1.2, 1.5])
+@pytest.mark.parametrize("half_angle", [0.4, 0.8, 1.2])
 @pytest.mark.parametrize("share", [0.01, 0.5, 0.9, 1.1])
 def test_groove(half_angle, share):
     """A prism in a groove slides, or is wedged for good from mu = tan w on."""
     mu = share * np.tan(half_angle)
-    if mu > 3.0:
-        pytest.skip("it would rock first")
     parts = kinds.in_groove(Fixed(half_angle, mu))
     model = lb.Model(
         parts.blocks, parts.supports, parts.interfaces, lb.self_weight(), lb.mass_proportional((0, 1, 0))
