@@ -9,9 +9,11 @@ import numpy as np
 
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
+    ROUNDS,
     Solution,
     jamming_program,
     kinematic_program,
+    remeasured,
     solved,
     solvers,
     static_program,
@@ -21,18 +23,15 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (
-    TOLERANCE,
-    Measure,
     Residuals,
     bounds_residuals,
     relative_gap,
-    worth_of_violations,
 )
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
+TOLERANCE = 1e-6  # largest residual, gap and worth of a pair of bounds
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
-COARSER = 4.0  # times what acts on a block: a unit off by more is changed, and the programs solved again
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +81,7 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         lower=si.load_factor,
         upper=upper,
         gap=relative_gap(si.load_factor, upper),
-        worth=worth_of_violations(problem, pair.state) / (abs(pair.state.load_factor) or 1.0),
+        worth=pair.residuals["worth"],
         stress_resultants=resultants_of(problem, pair.state.x),
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
@@ -111,7 +110,7 @@ def in_model_order(model: Model, rates: Array) -> Array:
 def _solved(problem: LimitProblem, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
-    for pair in _pairs(problem, said):
+    for pair in _pairs(problem, tolerance, said):
         worst = pair.residuals.worst
         if worst.value <= tolerance:
             return pair
@@ -120,11 +119,15 @@ def _solved(problem: LimitProblem, tolerance: float) -> _Pair:
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
 
 
-def _pairs(problem: LimitProblem, said: list[str]) -> Iterator[_Pair]:
-    """Pairs of solutions, polished, by one solver after the other, each in units of what the last found."""
+def _pairs(problem: LimitProblem, tolerance: float, said: list[str]) -> Iterator[_Pair]:
+    """Pairs of solutions by one solver after the other, each as it is, polished, and in better units."""
     explained = False
     for solver in solvers(bool(problem.cones.second_order)):
-        for _ in range(2):
+        measured: LimitProblem | None = problem
+        for _ in range(ROUNDS):
+            if measured is None:
+                break
+            problem = measured
             static = solved(static_program(problem), solver)
             kinematic = solved(kinematic_program(problem), solver)
             state = _state(static, kinematic)
@@ -135,30 +138,15 @@ def _pairs(problem: LimitProblem, said: list[str]) -> Iterator[_Pair]:
                     explained = True
                 break
             pair = _Pair(problem, state, (static.solver, kinematic.solver))
-            best = _better(pair)
-            yield best
-            coarser = remeasured(problem, best.state)
-            if coarser is None:
-                break
-            problem = coarser
+            yield pair
+            polished = polish(Flow(problem, ASSOCIATED), state, until=tolerance / 10)
+            if polished is not state:
+                yield _Pair(problem, polished, pair.solvers)
+            measured = remeasured(problem, polished)
 
 
 def _state(static: Solution, kinematic: Solution) -> State:
     return State(float(static.values[0]), static.values[1], *kinematic.values)
-
-
-def _better(pair: _Pair) -> _Pair:
-    """The pair polished, where that lowers its worst residual."""
-    polished = _Pair(pair.problem, polish(Flow(pair.problem, ASSOCIATED), pair.state), pair.solvers)
-    return min(pair, polished, key=lambda one: one.residuals.worst.value)
-
-
-def remeasured(problem: LimitProblem, state: State) -> LimitProblem | None:
-    """The problem in units of what acts on its blocks in `state`; None where its units are so already."""
-    acting = np.maximum(Measure(problem, state).block, np.finfo(float).tiny)
-    if acting.max() <= COARSER * 4 and acting.min() >= 1 / COARSER:
-        return None
-    return problem.measured(acting * problem.units.block_force)
 
 
 def explain(problem: LimitProblem) -> None:

@@ -13,14 +13,15 @@ step is the least one: minimum norm, multipliers measured by their size, from th
     [ I   J^T ] [ p ]   [  0 ]
     [ J  -eps ] [ q ] = [ -r ]
 
-(Vanderbei 1995, Symmetric quasidefinite matrices, SIAM J. Optimization 5). The idea of a polish by active rows
-with regularisation and refinement is that of OSQP (Stellato et al. 2020, Math. Prog. Computation 12, Section 5.4).
+(Vanderbei 1995, Symmetric quasidefinite matrices, SIAM J. Optimization 5). A polish by active rows with
+regularisation and refinement is that of OSQP (Stellato et al. 2020, Math. Prog. Computation 12, Section 5.4).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -47,7 +48,7 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Active:
-    """What yields: the kind of each linear row and each cone, the yielding rows and those of boundary cones."""
+    """The kind of each linear row and each cone, the yielding rows and those of boundary cones."""
 
     kind: Indices
     rows: Indices
@@ -74,7 +75,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -83,16 +84,16 @@ def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
         Any flow rule; with associated flow the state is a pair of bounds.
     state : State
         A state near a solution, dimensionless.
-    rounds : int
-        How often the yielding rows may be read off again.
+    until : float
+        Residual that is small enough.
     """
     best, least = state, defect(flow, state)
     now = state
-    for _ in range(rounds):
-        if least < ROUNDING:
+    for _ in range(ROUNDS):
+        if least <= until:
             break
         active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
-        found = _newton(flow, now, active)
+        found = _newton(flow, now, active, until)
         if found is None:
             break
         worst = defect(flow, found)
@@ -105,7 +106,7 @@ def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
     return best
 
 
-def _newton(flow: Flow, state: State, active: Active) -> State | None:
+def _newton(flow: Flow, state: State, active: Active, until: float) -> State | None:
     """Newton's method on the equations of one set of yielding rows; the best state it meets."""
     y = np.zeros_like(state.y)
     y[active.rows] = state.y[active.rows]
@@ -123,7 +124,7 @@ def _newton(flow: Flow, state: State, active: Active) -> State | None:
                 found = inside
             break
         found, least = inside, worst
-        if least < ROUNDING:
+        if least <= until:
             break
     return found
 
@@ -174,7 +175,7 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
         ]
     )
     turn = None if flow.constant else -flow.derivative(now.x, now.y)
-    blocks = [
+    blocks: list[Any] = [
         [turn, p.C, None, sparse.csr_array(G[yields].T)],
         [sparse.csr_array(p.C.T), None, -live, None],
         [None, live.T, None, None],

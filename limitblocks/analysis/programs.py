@@ -10,7 +10,8 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.problem import Cones, LimitProblem
+from limitblocks.evidence.residuals import Measure
+from limitblocks.problem import Cones, LimitProblem, State
 
 log = logging.getLogger(__name__)
 
@@ -29,6 +30,9 @@ CLOSE = TIGHT | {"tol_gap_abs": 1e-12, "tol_gap_rel": 1e-12, "tol_feas": 1e-12, 
 PLAIN = TIGHT | {"equilibrate_enable": False}
 HIGHS = {"method": "highs", "primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
+ROUNDS = 4  # of changing the units; each finds some eight digits more of what is light
+COARSER = 4.0  # times what acts on a block: a unit off by more is changed, and the programs solved again
+
 
 @dataclass(frozen=True)
 class Solver:
@@ -40,8 +44,8 @@ class Solver:
 
 
 SOLVERS = (
-    Solver("CLARABEL", dict(TIGHT), conic=True),
     Solver("CLARABEL", dict(CLOSE), conic=True),
+    Solver("CLARABEL", dict(TIGHT), conic=True),
     Solver("CLARABEL", dict(PLAIN), conic=True),
     Solver("SCIPY", {"scipy_options": HIGHS}, conic=False),
 )
@@ -140,3 +144,11 @@ def solved(program: Program, solver: Solver) -> Solution:
 def _number(value: Array | None, shape: tuple[int, ...]) -> Array:
     """What a solver left, NaN where it left nothing."""
     return np.full(shape, np.nan) if value is None else np.asarray(value, dtype=float)
+
+
+def remeasured(problem: LimitProblem, state: State) -> LimitProblem | None:
+    """The problem in units of what acts on its blocks in `state`; None where its units are so already."""
+    acting = np.maximum(Measure(problem, state).block, np.finfo(float).tiny)
+    if acting.max() <= COARSER**2 and acting.min() >= 1 / COARSER:
+        return None
+    return problem.measured(acting * problem.units.block_force)

@@ -7,12 +7,20 @@ from collections.abc import Iterator
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.programs import Program, falling_program, in_cone, solved, solvers
+from limitblocks.analysis.programs import (
+    ROUNDS,
+    Program,
+    falling_program,
+    in_cone,
+    remeasured,
+    solved,
+    solvers,
+)
 from limitblocks.arrays import Array
 from limitblocks.errors import NoEquilibrium, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, static_residuals
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import LimitProblem, State
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
@@ -25,9 +33,9 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
 
     Over all stresses x in equilibrium with dead + load_factor live, the largest t such that each row of
     F x + g is at least t inside the cone K, t <= 1, every interface in its own unit of force. A state within
-    the yield surface exists, and the loads stand (static theorem), exactly where t >= 0; below, -t is how much
-    every yield function would have to be widened: what a root finder needs, and yes and no do not give. Joints
-    without friction carry no shear; where therefore no stresses at all balance the loads, the margin is -1.
+    the yield surface exists, and the loads stand (static theorem), exactly where t >= 0; below, -t is how
+    much every yield function would have to be widened: what a root finder needs, and yes and no do not give.
+    Joints without friction carry no shear; where no stresses at all balance the loads, the margin is -1.
 
     Parameters
     ----------
@@ -67,18 +75,28 @@ def dead_load_state(problem: LimitProblem) -> Array:
         if worst.value <= TOLERANCE:
             return x
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
-        fallen = falls(problem, problem.dead)
-        if fallen:
-            raise NoEquilibrium(fallen)
+    fallen = falls(problem, problem.dead)
+    if fallen:
+        raise NoEquilibrium(fallen)
     raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))
 
 
 def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[float, Array, Residual]]:
-    """Margins and states of one solver after the other, with the worst of their residuals."""
-    loads = problem.dead + load_factor * problem.live
+    """Margins and states of one solver after the other, with the worst of their residuals.
+
+    Each is found again in units of what acts on the blocks in the one before.
+    """
     for solver in solvers(bool(problem.cones.second_order)):
-        t, x = solved(_standing_program(problem, loads), solver).values
-        yield float(t), x, Residuals(static_residuals(problem, load_factor, x)).worst
+        measured: LimitProblem | None = problem
+        for _ in range(ROUNDS):
+            if measured is None:
+                break
+            factor = load_factor * measured.units.live / problem.units.live
+            t, x = solved(_standing_program(measured, measured.dead + factor * measured.live), solver).values
+            state = State(factor, x, np.zeros(measured.C.shape[1]), np.zeros(len(measured.g)))
+            worst = Residuals(static_residuals(measured, factor, x)).worst
+            yield float(t), x * measured.stress_units / problem.stress_units, worst
+            measured = remeasured(measured, state) if np.isfinite(x).all() else None
 
 
 def _standing_program(problem: LimitProblem, loads: Array) -> Program:
@@ -90,13 +108,25 @@ def _standing_program(problem: LimitProblem, loads: Array) -> Program:
 
 
 def falls(problem: LimitProblem, loads: Array) -> tuple[str, ...]:
-    """Return the blocks that move in a mechanism which proves that the loads fall; none where none does."""
-    for solver in solvers(bool(problem.cones.second_order)):
-        u, y = solved(falling_program(problem, loads), solver).values
-        flow = np.abs(problem.C @ u + problem.F.T @ y).max()
-        surplus = loads @ u - problem.g @ y
-        if flow < CERTIFIED and problem.cones.margin(y).min() > -CERTIFIED:
-            speed = np.abs(u).reshape(-1, 6).max(axis=1) / problem.units.block_force
-            moving = np.array(problem.blocks)[speed > MOVING * speed.max()]
-            return tuple(moving.tolist()) if surplus > FALLING else ()
+    """Return the blocks that move in a mechanism which proves that the loads fall; none where none does.
+
+    Sought in the problem's units, and with every block measured by its own load.
+    """
+    own = np.abs(loads).reshape(-1, 6).max(axis=1)
+    light = problem.measured(np.where(own > 0.0, own, own.max()) * problem.units.block_force)
+    share = light.units.loads / problem.units.loads
+    for measured, acting in ((problem, loads), (light, loads / share)):
+        for solver in solvers(bool(problem.cones.second_order)):
+            u, y = solved(falling_program(measured, acting), solver).values
+            flow = np.abs(measured.C @ u + measured.F.T @ y).max()
+            surplus = acting @ u - measured.g @ y
+            moving = _moving(measured, u)
+            if flow < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
+                return moving
     return ()
+
+
+def _moving(problem: LimitProblem, u: Array) -> tuple[str, ...]:
+    """Blocks whose power is more than MOVING of the largest."""
+    speed = np.abs(u).reshape(-1, 6).max(axis=1)
+    return tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist())

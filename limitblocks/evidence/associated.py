@@ -28,8 +28,8 @@ class Bounds:
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface at the lower bound, local axes, N and N m; N <= 0.
     generalised_stresses : Array, shape (s,)
-        What the joints' rows act on, N and N m: for OrdunaLourenco the stress resultants, for PointContact the
-        forces of the points, in the order of the limit problem.
+        What the joints' rows act on, N and N m: for OrdunaLourenco the stress resultants, for PointContact
+        the forces of the points, in the order of the limit problem.
     displacement_rates : Array, shape (n, 6)
         Mechanism of the upper bound: (du, dv, dw, dwX, dwY, dwZ) of each block of the model at its centroid,
         global axes, such that the live load does the work 1 N m, Eq. (55); zero for supports.

@@ -22,7 +22,7 @@ from limitblocks.evidence.residuals import (
 )
 from limitblocks.evidence.standing import standing_state
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem import Flow, LimitProblem, State, turning_of
 
 
 @dataclass(frozen=True)
@@ -65,11 +65,7 @@ class Check:
         """Raise CheckFailed, naming every residual above the tolerance, unless the check passed."""
         failed = self.residuals.above(self.tolerance)
         if failed:
-            said = ", ".join(
-                f"{entry.name} {entry.value:.1e}{f' at {entry.where}' if entry.where else ''} ({entry.meaning})"
-                for entry in failed
-            )
-            raise CheckFailed(f"above {self.tolerance:g}: {said}")
+            raise CheckFailed(f"above {self.tolerance:g}: {', '.join(map(str, failed))}")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the check as plain numbers and text."""
@@ -90,7 +86,7 @@ class Check:
         return f"check {word}: worst residual {self.worst.value:.1e} ({self.worst.name}{place}){source}{said}"
 
 
-def check_mcp(model: Model, result: Any, *, tolerance: float = TOLERANCE) -> Check:
+def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE) -> Check:
     """Check a claimed solution residual by residual, Eqs (54)-(59).
 
     Residuals are dimensionless: every block is measured by what acts on it, every interface by its own
@@ -119,7 +115,7 @@ def check_mcp(model: Model, result: Any, *, tolerance: float = TOLERANCE) -> Che
         )
     problem = model.problem
     claim = claim_of(model, result)
-    flow = Flow(problem, claim.dilatancy, claim.turning)
+    flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
     entries = (*mcp_residuals(flow, state).entries, _standing(problem, claim))
     return Check(Residuals(entries), float(tolerance), found, locked_shear(flow, state), model.digest)

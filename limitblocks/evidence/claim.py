@@ -1,4 +1,4 @@
-"""What is claimed of a model: a load factor with the state that is to prove it, from any source, in SI units."""
+"""What is claimed of a model: a load factor with the state that is to prove it, in SI units."""
 
 from __future__ import annotations
 

@@ -36,8 +36,8 @@ def locked_shear(flow: Flow, state: State) -> tuple[str, ...]:
     names = list(dict.fromkeys(p.interfaces[k] for k in p.stress_interface[a[locked]]))
     shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     return (
-        f"polyhedral friction locks a shear force across the slip at {shown} (up to {angle:.0f} degrees off): "
-        "without dilatancy the load factor is one of an interval; round friction has one (slip or cone 'exact')",
+        f"polyhedral friction locks a shear force across the slip at {shown}, up to {angle:.0f} degrees off: "
+        "without dilatancy the load factor is one of an interval; round friction ('exact') has one",
     )
 
 

@@ -76,12 +76,12 @@ def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
 def _columns(parts: list[tuple[Any, Array]], height: int) -> sparse.csr_array:
     """Sparse columns from rows' places (k, size) and stacks of generators (k, count, size)."""
     data, row, column, width = [], [], [], 0
-    for places, rays in parts:
-        k, count, _ = rays.shape
+    for places, generators in parts:
+        k, count, _ = generators.shape
         number = width + np.arange(k * count).reshape(k, count, 1)
-        data.append(rays.ravel())
-        row.append(np.broadcast_to(places[:, None], rays.shape).ravel())
-        column.append(np.broadcast_to(number, rays.shape).ravel())
+        data.append(generators.ravel())
+        row.append(np.broadcast_to(places[:, None], generators.shape).ravel())
+        column.append(np.broadcast_to(number, generators.shape).ravel())
         width += k * count
     triplets = (np.concatenate(data), (np.concatenate(row), np.concatenate(column)))
     return sparse.coo_array(triplets, shape=(height, width)).tocsr()

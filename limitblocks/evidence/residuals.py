@@ -1,8 +1,8 @@
 """Residuals of a claimed state, recomputed from the limit problem with numpy alone.
 
-Nothing is measured by a mean. What acts on a block is the sum of the sizes of its loads and of the forces of its
-interfaces; an interface is measured by what acts on the lesser of its blocks; a rate by the power that this
-force does at the largest speed of the mechanism, or by the power of the live load if that is less.
+Nothing is measured by a mean. What acts on a block is the sum of the sizes of its loads and of its
+interfaces' forces; an interface is measured by what acts on the lesser of its blocks; a rate by the power
+that this force does on it, over the power of the live load: by what it is worth in the load factor.
 """
 
 from __future__ import annotations
@@ -19,7 +19,10 @@ from limitblocks.problem import Flow, LimitProblem, State
 
 TOLERANCE = 1e-8  # largest residual of an answer
 # Of the power of all forces on the mechanism: smaller load factors are known to it times the tolerance.
-SMALL_POWER = 1e-4
+SMALL_POWER = 1e-7
+ROUNDING = 1e-9  # of that power over the tolerance: load factors smaller than rounding errors
+
+POWER = "the power of the interface's own force on it over that of the live load"
 
 
 @dataclass(frozen=True)
@@ -30,6 +33,10 @@ class Residual:
     value: float
     meaning: str
     where: str = ""
+
+    def __str__(self) -> str:
+        place = f" at {self.where}" if self.where else ""
+        return f"{self.name} {self.value:.1e}{place} ({self.meaning})"
 
 
 @dataclass(frozen=True)
@@ -93,22 +100,16 @@ class Measure:
         return np.asarray(least / p.units.interface_force)
 
     @cached_property
-    def speed(self) -> float:
-        """Largest speed of a block, rotations times its length, per unit power; newton to the -1."""
-        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
-        return float((rates / self.problem.units.block_force).max())
-
-    @cached_property
-    def work(self) -> float:
+    def power(self) -> float:
         """Power of the live load, or SMALL_POWER of that of all forces where it is less."""
         rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
         return max(abs(self.state.load_factor), SMALL_POWER * float(self.block @ rates))
 
-    @cached_property
-    def power(self) -> Array:
-        """Power by which the rates of each interface are measured, shape (m,)."""
-        own = self.interface * self.problem.units.interface_force * self.speed
-        return np.asarray(np.minimum(own, self.work))
+    @property
+    def load_factor(self) -> float:
+        """Size of the load factor, or rounding errors of the power of all forces where it is less."""
+        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
+        return max(abs(self.state.load_factor), ROUNDING * float(self.block @ rates))
 
 
 def largest_of(problem: LimitProblem, values: Array) -> Array:
@@ -154,7 +155,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
         residual(
             "flow",
             largest_of(p, strain_rates) * measure.interface,
-            "compatibility and flow rule, Eq. (54), over the power of the interface's own force",
+            f"compatibility and flow rule, Eq. (54), {POWER}",
             measure.power,
             p.interfaces,
         ),
@@ -162,8 +163,8 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
         residual(
             "multipliers",
             negative * measure.interface[k],
-            "negative flow multiplier, Eq. (58), over the power of the interface's own force",
-            measure.power[k],
+            f"negative flow multiplier, Eq. (58), {POWER}",
+            measure.power,
             [p.interfaces[i] for i in k],
         ),
     )
@@ -186,8 +187,8 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
             residual(
                 "complementarity",
                 product,
-                "yield function times multiplier, Eq. (59), over the power of the interface's own force",
-                measure.power[k],
+                f"yield function times multiplier, Eq. (59), {POWER}",
+                measure.power,
                 [p.interfaces[i] for i in k],
             ),
             residual(
@@ -213,9 +214,15 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
                 "power",
                 power - upper,
                 "dissipation less work of the dead loads against the upper bound",
-                measure.work,
+                measure.power,
             ),
-            residual("gap", upper - state.load_factor, "gap between the bounds", measure.work),
+            residual("gap", upper - state.load_factor, "gap between the bounds", measure.load_factor),
+            residual(
+                "worth",
+                worth_of_violations(p, state),
+                "what the violations of both states may be worth in the load factor, over it",
+                measure.load_factor,
+            ),
         )
     )
 

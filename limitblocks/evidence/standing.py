@@ -22,12 +22,13 @@ def standing_state(problem: LimitProblem) -> Array | None:
     the program has no solution; the residuals of the state say whether it stands.
     """
     p, planes = problem, _planes(problem.cones)
-    A = sparse.hstack([-(planes @ p.F), sparse.csr_array((planes @ p.cones.identity)[:, None])]).tocsr()
+    margin = sparse.csr_array((planes @ p.cones.identity)[:, None])
+    A = sparse.csr_array(sparse.hstack([-sparse.csr_array(planes @ p.F), margin]))
     found = linear_program(
         np.append(np.zeros(p.C.shape[0]), -1.0),
         A_ub=A,
         b_ub=planes @ p.g,
-        A_eq=sparse.hstack([p.C.T, sparse.csr_array((p.C.shape[1], 1))]).tocsr(),
+        A_eq=sparse.csr_array(sparse.hstack([p.C.T, sparse.csr_array((p.C.shape[1], 1))])),
         b_eq=p.dead,
         bounds=[(None, None)] * p.C.shape[0] + [(None, 1.0)],
         method="highs",

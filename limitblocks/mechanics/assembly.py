@@ -100,7 +100,7 @@ def limit_problem(
 
 
 def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, live: Array) -> Units:
-    """Every block measured by the loads that must go through it, every interface by its lighter block."""
+    """Every block measured by the loads that may go through it, every interface by its lesser block."""
     length = power_of_two(np.array([block.size for block in free]) / 2.0)
 
     def magnitude(load: Array) -> Array:
@@ -116,30 +116,26 @@ def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, 
         block_force=read_only(block),
         block_length=read_only(length),
         interface_force=read_only(np.where(ends >= 0, block[ends], np.inf).min(axis=1)),
-        interface_length=read_only(power_of_two([np.abs(i.polygon).max() for i in interfaces])),
+        interface_length=read_only(power_of_two(np.array([np.abs(i.polygon).max() for i in interfaces]))),
         live=float((push / block).sum()),
         row=np.ones(0),
     )
 
 
 def carried(own: Array, ends: Indices) -> Array:
-    """Forces (n,) that go through each block if every load takes its widest way to the supports.
+    """The most that may go through each block, shape (n,): the largest load of those it is tied to.
 
-    Width is the least load of a block on the way, so that a heavy block uses a light one only where it must.
+    Blocks are tied by chains of interfaces between free blocks. What does go through a block only an analysis
+    can tell; too large a unit of force loses digits that a second solution in its own units finds, too
+    small a one loses all.
     """
+    i, j = ends[(ends >= 0).all(axis=1)].T
     n = len(own)
-    floor = own[own > 0.0].min() * 1e-3  # weightless blocks, unless something goes through them
-    capacity = np.append(np.maximum(own, floor), np.inf)  # the supports are one node, the last
-    i, j = np.unique(np.sort(np.where(ends >= 0, ends, n), axis=1), axis=0).T
-    width = np.minimum(capacity[i], capacity[j])
-    rank = 1.0 + np.log(capacity[:n].max() / width)  # the widest ways make the tree of least rank
-    tree = sparse.csgraph.minimum_spanning_tree(
-        sparse.coo_array((rank, (i, j)), shape=(n + 1, n + 1)).tocsr()
-    )
-    order, towards = sparse.csgraph.breadth_first_order(tree, n, directed=False)
-    for k in order[:0:-1]:
-        capacity[towards[k]] = max(capacity[towards[k]], capacity[k])
-    return np.asarray(capacity[:n])
+    graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(n, n)).tocsr()
+    count, part = sparse.csgraph.connected_components(graph, directed=False)
+    largest = np.zeros(count)
+    np.maximum.at(largest, part, own)
+    return np.asarray(np.where(largest > 0.0, largest, largest.max())[part])
 
 
 def _modes(rows: YieldRows) -> list[Mode]:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from limitblocks.evidence.associated import Bounds
 from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model
 from limitblocks.plots.style import (

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from limitblocks.evidence.associated import Bounds
 from limitblocks.arrays import Array
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.evidence.associated import Bounds
 from limitblocks.arrays import Array
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import LoadPath, Nonassociated, PathStep
 from limitblocks.model import Model
@@ -99,7 +99,7 @@ class _Words:
     @classmethod
     def of(cls, states: Sequence[InterfaceStates], path: bool) -> _Words:
         named = dict.fromkeys(["stick", *sorted({word for one in states for word in one.state})])
-        known = sorted({mode for one in states for modes in one.active_modes for mode in modes})
+        known = sorted({str(mode) for one in states for modes in one.active_modes for mode in modes})
         return cls([*named, *([BEGINS, UNKNOWN] if path else [])], known)
 
 

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
-from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
-from limitblocks.evidence.residuals import Residuals
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model
 from limitblocks.report.curve import Curve, convergence_curve, path_curve

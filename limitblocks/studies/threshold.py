@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.analysis.stability import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
 from limitblocks.studies.results import in_columns, write_rows
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
+
 from limitblocks.problem import Cones
 
 CONES = Cones(2, ((2, 3), (1, 4)))

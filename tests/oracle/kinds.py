@@ -1,6 +1,7 @@
 """Kinds of random structures: each takes a `Draw` and returns `Parts`."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import shapes
@@ -224,7 +225,7 @@ def beside(draw):
 
 def paper(draw):
     """A forest, level or on a slope, with the joints of Orduña and Lourenço."""
-    draw.kind_of_joint = lb.OrdunaLourenco
+    draw.kind_of_joint = partial(lb.OrdunaLourenco, slip="paper")
     return slope(draw) if draw.either(0.2) else forest(draw)
 
 

@@ -39,7 +39,7 @@ def reached(
     loading: Loading, nearest: NearestStresses, result: StepResult, kind: str, failures: int
 ) -> Reach:
     """The state of a step; a jump, whose viscosity strays from yield, is brought back to it."""
-    problem, z = loading.problem, result.point
+    z = result.point
     state = State(z.load_factor, z.x, z.u, z.y)
     if kind == "jump":
         back = nearest.find(z.x, np.zeros_like(z.y))
@@ -67,7 +67,7 @@ def leap(start: Reach, tolerance: float, settings: Settings) -> Reach:
 def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
     """The solution that the fixed point finds near a state."""
     stage, z, loading = reach.stage, reach.point, reach.loading
-    start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
+    start = State(z.load_factor, z.x, z.u, z.y)
     for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
         state, rounds = fixed_point(reach.nearest, from_state, loading.flow, tolerance, settings.rounds)
         if state is not None:

@@ -68,8 +68,8 @@ def load_path(
         :func:`limitblocks.nonassociated`.
     stiffness : (float, float) or mapping from joints to (float, float), optional
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
-        only the displacements. Without it both are one mean unit of force of the interfaces over the cube of their mean length, and
-        displacements are relative.
+        only the displacements. Without it both are the mean unit of force of the interfaces over the cube
+        of their mean length, and displacements are relative.
 
     Raises
     ------

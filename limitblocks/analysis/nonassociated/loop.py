@@ -70,8 +70,8 @@ def nonassociated(
         Tangent of the dilatancy angle of sliding and twisting, 0 to the least friction coefficient, where
         the flow is associated.
     turning : {"centroid", "centre of pressure"}
-        What twisting under bending turns about: the centroid, which never does negative work, or the point where
-        the normal force acts, as in the paper's Table 5.
+        What twisting under bending turns about: the centroid, which never does negative work, or the point
+        where the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
