@@ -1,214 +1,259 @@
-"""A solution of Eqs (54)-(59) at the end of one path, followed through its folds by arclength."""
+"""The non-associated answer as the end of one path, followed through its folds by arclength.
+
+The central path of the non-associated problem folds: the barrier has to grow again before it can go on
+falling, so that steps which lower it fail. Arclength follows the curve instead (Allgower & Georg 1990,
+Numerical Continuation Methods, Chapters 2 and 6), by a predictor along the tangent and Newton's method in the
+plane normal to it. The way along the tangent comes from the sign of det J, which changes where theta turns
+back; the angle to the last tangent goes wrong at long steps. One factorisation serves corrector and tangent.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
-    Barrier, Equations, Linear, Path, Point, negative, residuals, theta_slope,
+    Barrier,
+    Path,
+    Point,
+    distance,
+    inner,
+    moved_on,
+    residuals,
+    room,
+    theta_slope,
 )
-from limitblocks.analysis.nonassociated.path_layout import Layout
-from limitblocks.analysis.nonassociated.path_metric import inner, spread, room
+from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.nonassociated.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
-SPREAD = 0.7
-WIDE = np.log(5.0)  # of the products about their targets
-FLOW = 0.05  # of theta: the flow residual of a point near the path
-BOUNDARY = 0.95
-FIRST = 0.3
-LEAST = 1e-8
-CUT = 0.35
-CORRECTORS = 5
-CLOSED = 1e-9
-TRIED = 1e-5  # theta from which on the end game is tried, at each decade
-LAST = 1e-11
+FIRST, LEAST, LONGEST = 0.3, 1e-8, 1e3  # lengths of predictors: mean relative change of s and y
+CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
+BOUNDARY = 0.95  # of the way to the boundary of the cone
+CORRECTORS, HALVINGS = 5, 6
+RETURNED = 1.2  # theta: the path went back beyond its start
+TRIED, DECADE, LAST = 1e-5, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
+CLOSED = 1e-9  # residual of a solution
+BUDGET = 600  # factorisations
 
 
-@dataclass
-class Info:
-    how: str = ""
-    factorisations: int = 0
-    folds: int = 0
-    steps: int = 0
-    failures: int = 0
-    theta: float = 1.0
-    residual: float = np.inf
-    message: str = ""
-    trace: list = None
+class Progress(NamedTuple):
+    """One point of a path: theta, dimensionless load factor, sign of det J, factorisations so far."""
+
+    theta: float
+    load_factor: float
+    sign: float
+    factorisations: int
 
 
-class Lost(Exception):
-    pass
+@dataclass(frozen=True, eq=False)
+class Tracked:
+    """How a path went.
+
+    `end` is "closed", or why it ended without a solution; `points` holds every accepted point; `residual` the
+    worst one of Eqs (54)-(59).
+    """
+
+    barrier: Barrier
+    seed: int
+    end: str
+    residual: float
+    factorisations: int
+    failures: int
+    points: tuple[Progress, ...]
+
+    @property
+    def folds(self) -> int:
+        """How often theta turned."""
+        signs = [point.sign for point in self.points]
+        return sum(a != b for a, b in pairwise(signs))
 
 
-def weights_of(flow: Flow, seed: int) -> Array:
-    cones = flow.problem.cones
-    w = np.exp(np.random.default_rng(seed).uniform(-SPREAD, SPREAD, cones.degree))
-    return w[cones.member] * cones.identity
+class _Lost(Exception):
+    """The path cannot be followed any further."""
 
 
-def begin(flow, x0, weights, barrier, seed, layout):
-    p = flow.problem
-    u = np.zeros(p.C.shape[1])
-    flexibility = np.zeros((layout.interfaces, layout.stresses.shape[1], layout.stresses.shape[1])) + layout.padding
-    k = np.arange(flexibility.shape[1])
-    flexibility[:, k, k] += layout.per_interface(1.0 / weights)
-    C = layout.compatibility
-    K = layout.condensed(np.swapaxes(C, 1, 2) @ flexibility @ C)
-    from scipy.sparse import linalg
-    w = linalg.splu(K).solve(np.append(np.zeros_like(u), 1.0))
-    # unit work of the unit load: -K u + a live = 0, live.u = 1 -> a = 1/(live K^-1 live)
-    rho0 = float(w[-1])
-    return Path(flow, layout, barrier, weights_of(flow, seed), rho0 * weights, x0, np.zeros_like(x0))
+class _Base(NamedTuple):
+    """Where predictors start: a point near the path, its last correction and its tangent."""
+
+    point: Point
+    correction: Point
+    tangent: Point
 
 
-def centred(path: Path, info) -> Point:
-    p = path.flow.problem
-    cones = p.cones
-    rows = p.F @ path.x0 + p.g
-    push = np.maximum(0.0, 0.1 - cones.margin(rows))
-    s = rows + push[cones.member] * cones.identity
-    y = path.barrier.size * inverse_of(cones, s)
-    y *= 1.0
-    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, y, 1.0)
-    for _ in range(60):
-        R = residuals(path, z)
-        size = max(np.abs(R.flow).max() / FLOW, np.abs(R.balance).max(), abs(R.work), np.abs(R.slack).max())
-        if size < 1e-9 and spread(cones, z.s, z.y, path.target(1.0)) < WIDE:
-            return z
-        info.factorisations += 1
-        d = Linear(path, z).solve(negative(R))
-        t = min(1.0, 0.9 * room(cones, z, d))
-        z = z.moved(t, d)
-    raise Lost("not centred")
+def track(
+    flow: Flow,
+    x0: Array,
+    weights: Array,
+    *,
+    barrier: Barrier | None = None,
+    seed: int = 0,
+    budget: int = BUDGET,
+    progress: Callable[[Progress], None] | None = None,
+) -> tuple[State, Tracked]:
+    """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
 
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule.
+    x0 : Array, shape (s,)
+        Stresses under the permanent loads, dimensionless.
+    weights : Array, shape (s,)
+        Compliance of the joints, which the path follows as long as the barrier is small.
+    barrier : Barrier, optional
+        How compliance and barrier fade; a small barrier by default.
+    seed : int
+        Of the weights of the products.
+    budget : int
+        Factorisations.
+    progress : callable, optional
+        Called with each accepted point.
 
-def inverse_of(cones, s):
-    found = 1.0 / np.where(s == 0, 1, s)
-    for index in cones.groups:
-        v = s[index].copy()
-        det = v[:, 0] ** 2 - (v[:, 1:] ** 2).sum(axis=1)
-        v[:, 1:] *= -1
-        found[index] = v / det[:, None]
-    return found
-
-
-def merit(path, z, R=None):
-    R = residuals(path, z) if R is None else R
-    return max(spread(path.flow.problem.cones, z.s, z.y, path.target(z.theta)) / WIDE, float(np.abs(R.flow).max()) / (FLOW * z.theta))
-
-
-def track(flow: Flow, x0: Array, weights: Array, *, barrier=Barrier(), seed=0, budget=800, progress=None, keep=None):
-    info = Info(trace=[])
-    layout = Layout(flow.problem)
-    cones = flow.problem.cones
-    best = None
-    try:
-        path = begin(flow, x0, weights, barrier, seed, layout)
-        z = centred(path, info)
-    except (Lost, RuntimeError, np.linalg.LinAlgError) as e:
-        info.message = f"start {e}"
-        return None, info
-    h, orientation, last_sign = FIRST, None, None
-    base = None  # last accepted point, its tangent and h
-    correctors = 0
-    tried = TRIED
-    state = None
-
-    def back():
-        nonlocal h, z, correctors
-        h *= CUT
-        info.failures += 1
-        if base is None or h < LEAST:
-            raise Lost("steps too short")
-        z0, c, T = base
-        z = predicted(cones, z0, c, T, h)
-        correctors = 0
-
-    try:
-        while True:
-            if info.factorisations >= budget:
-                raise Lost("budget")
-            R = residuals(path, z)
-            m = merit(path, z, R)
-            if not np.isfinite(m) or (m > 1.0 and correctors >= CORRECTORS):
-                back(); continue
-            try:
-                info.factorisations += 1
-                L = Linear(path, z)
-                v = L.solve(negative(R))
-                t = L.solve(negative(theta_slope(path, z)))
-            except (RuntimeError, np.linalg.LinAlgError, ValueError):
-                back(); continue
-            t = replace(t, theta=1.0)
-            norm = np.sqrt(inner(cones, z, t, t))
-            if not np.isfinite(norm) or norm == 0 or L.sign == 0:
-                back(); continue
-            if orientation is None:
-                orientation = -L.sign
-            T = scaled(t, orientation * L.sign / norm)
-            c = v.moved(-inner(cones, z, v, T), T)
-            if m > 1.0:  # correct
-                correctors += 1
-                ok = False
-                tt = min(1.0, BOUNDARY * room(cones, z, c))
-                for _ in range(6):
-                    zn = z.moved(tt, c)
-                    mn = merit(path, zn)
-                    if mn < (1 - 0.1 * tt) * m or mn <= 1.0:
-                        ok = True; break
-                    tt *= 0.5
-                if not ok:
-                    back(); continue
-                z = zn
-                continue
-            # accepted
-            info.steps += 1
-            if last_sign is not None and L.sign != last_sign:
-                info.folds += 1
-            last_sign = L.sign
-            if base is not None:
-                h = h * 2 if correctors <= 1 else h
-            info.theta = z.theta
-            info.trace.append((z.theta, z.load_factor, L.sign, correctors, h))
-            if progress: progress(info, z)
-            if z.theta > 1.2:
-                raise Lost("returned")
-            if z.theta < tried:
-                tried = z.theta / 10
-                state = State(z.load_factor, z.x, z.u, z.y)
-                state = polish(flow, state)
-                info.residual = defect(flow, state)
-                if best is None or info.residual < defect(flow, best): best = state
-                if info.residual < CLOSED:
-                    info.message = "closed"
-                    return state, info
-                if z.theta < LAST:
-                    raise Lost("end")
-            if z.theta ** barrier.power <= barrier.floor:
-                move = path.rho(z.theta) * path.elastic * (z.x - path.x0) / z.theta
-                path = replace(path, x0=z.x, carried=path.carried - move)
-            base = (z, c, T)
-            z = predicted(cones, z, c, T, h)
-            correctors = 0
-    except Lost as e:
-        info.message = str(e)
+    Returns
+    -------
+    State, Tracked
+        The solution, or the best state met, and how the path went.
+    """
+    with np.errstate(all="ignore"):  # a point that ran away is not accepted
+        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed), budget, progress)
+        end = walk.go()
+        best = walk.best
         if best is None:
-            best = polish(flow, State(z.load_factor, z.x, z.u, z.y))
-        info.residual = defect(flow, best)
-        return best, info
+            best = polish(flow, walk.state) if walk.points else walk.state
+    found = Tracked(
+        walk.path.barrier,
+        seed,
+        end,
+        defect(flow, best),
+        walk.factorisations,
+        walk.failures,
+        tuple(walk.points),
+    )
+    return best, found
 
 
-def scaled(d: Point, k: float) -> Point:
-    return Point(k * d.x, k * d.u, k * d.load_factor, k * d.s, k * d.y, k * d.theta)
+class _Walk:
+    """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
+    def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
+        self.path, self.budget, self.progress = path, budget, progress
+        self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
+        self.base: _Base | None = None
+        self.length, self.correctors, self.tried = FIRST, 0, TRIED
+        self.factorisations = self.failures = 0
+        self.points: list[Progress] = []
+        self.best: State | None = None
 
-def predicted(cones, z, c, T, h):
-    t = min(1.0, 0.5 * room(cones, z, c))
-    z = z.moved(t, c)
-    return z.moved(min(h, BOUNDARY * room(cones, z, T)), T)
+    @property
+    def state(self) -> State:
+        """The point as a state."""
+        return State(self.z.load_factor, self.z.x, self.z.u, self.z.y)
+
+    def go(self) -> str:
+        """Follow the path to its end, and say what it was."""
+        try:
+            first, self.factorisations = centred(self.path)
+            if first is None:
+                return "not centred"
+            self.z = first
+            while not self._closed():
+                if self.factorisations >= self.budget:
+                    return "budget"
+                self._advance()
+        except _Lost as lost:
+            return str(lost)
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+            return "singular start"
+        return "closed"
+
+    def _advance(self) -> None:
+        """Correct the point, or accept it and predict the next one."""
+        left = residuals(self.path, self.z)
+        off = distance(self.path, self.z, left)
+        if not np.isfinite(off) or (off > 1.0 and self.correctors >= CORRECTORS):
+            self._retreat()
+            return
+        self.factorisations += 1
+        try:
+            newton = Newton(self.path, self.z)
+            step = newton.solve(left.negative())
+            turn = replace(newton.solve(theta_slope(self.path, self.z).negative()), theta=1.0)
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+            self._retreat()
+            return
+        length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
+        if not (np.isfinite(length) and length > 0.0 and newton.sign):
+            self._retreat()
+            return
+        tangent = turn.scaled(self._heading(newton.sign, turn) / length)
+        correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
+        if off > 1.0:
+            self._correct(correction, off)
+        else:
+            self._accept(newton.sign, correction, tangent)
+
+    def _heading(self, sign: float, turn: Point) -> float:
+        """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
+        return -sign * (self.points[0].sign if self.points else sign)
+
+    def _correct(self, d: Point, off: float) -> None:
+        """Move along a correction as far as it brings the point nearer to the path."""
+        self.correctors += 1
+        t = min(1.0, BOUNDARY * room(self.path.cones, self.z, d))
+        for _ in range(HALVINGS):
+            z = self.z.moved(t, d)
+            nearer = distance(self.path, z, residuals(self.path, z))
+            if nearer <= max(1.0, (1.0 - 0.1 * t) * off):
+                self.z = z
+                return
+            t *= 0.5
+        self._retreat()
+
+    def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+        """Go on from a point near the path."""
+        self.points.append(Progress(self.z.theta, self.z.load_factor, sign, self.factorisations))
+        if self.progress is not None:
+            self.progress(self.points[-1])
+        if self.z.theta > RETURNED:
+            raise _Lost("returned")
+        if self.base is not None and self.correctors <= 1:
+            self.length = min(GROWTH * self.length, LONGEST)
+        self.path = moved_on(self.path, self.z)
+        self.base = _Base(self.z, correction, tangent)
+        self._predict()
+
+    def _retreat(self) -> None:
+        """Predict again from the last base, not as far."""
+        self.failures += 1
+        self.length *= CUT
+        if self.base is None or self.length < LEAST:
+            raise _Lost("no step succeeds")
+        self._predict()
+
+    def _predict(self) -> None:
+        assert self.base is not None
+        z, correction, tangent = self.base
+        z = z.moved(min(1.0, 0.5 * room(self.path.cones, z, correction)), correction)
+        self.z = z.moved(min(self.length, BOUNDARY * room(self.path.cones, z, tangent)), tangent)
+        self.correctors = 0
+
+    def _closed(self) -> bool:
+        """Whether the polish of a base far down the path is a solution; tried once a decade of theta."""
+        if self.base is None or self.base.point.theta >= self.tried:
+            return False
+        z = self.base.point
+        if z.theta < LAST:
+            raise _Lost("no solution at the end")
+        self.tried = DECADE * z.theta
+        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y))
+        residual = defect(self.path.flow, state)
+        if self.best is None or residual < defect(self.path.flow, self.best):
+            self.best = state
+        return residual < CLOSED

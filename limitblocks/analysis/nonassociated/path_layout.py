@@ -1,7 +1,7 @@
 """Where the numbers of a path go: dense blocks of interfaces and the fixed pattern of the matrix left over.
 
-The stresses and rows of an interface couple with those of no other one; eliminated by interfaces, what is left
-couples the rates of neighbouring blocks and the load factor. All index maps are made once a problem.
+The stresses and rows of an interface couple with those of no other one; eliminated by interfaces, what is
+left couples the rates of neighbouring blocks and the load factor. All index maps are made once a problem.
 """
 
 from __future__ import annotations
@@ -45,15 +45,16 @@ class Layout:
     @cached_property
     def stresses(self) -> Indices:
         """Stresses of each interface, shape (m, k); s where there is none."""
-        table = np.full((self.interfaces, int(self.stress_place.max()) + 1), len(self.stress_place))
-        table[self.problem.stress_interface, self.stress_place] = np.arange(len(self.stress_place))
+        n = len(self.stress_place)
+        table = np.full((self.interfaces, int(self.stress_place.max()) + 1), n)
+        table[self.problem.stress_interface, self.stress_place] = np.arange(n)
         return table
 
     @cached_property
     def padding(self) -> Array:
         """Ones on the diagonals of places without a stress, shape (m, k, k)."""
         empty = self.stresses == len(self.stress_place)
-        return np.eye(empty.shape[1]) * empty[:, :, None]
+        return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
 
     @cached_property
     def row_place(self) -> Indices:
@@ -93,7 +94,7 @@ class Layout:
     @cached_property
     def compatibility(self) -> Array:
         """C of each interface, shape (m, k, d)."""
-        m, s, n = self.interfaces, *self.problem.C.shape
+        m, n = self.interfaces, self.problem.C.shape[1]
         lookup = np.full((m, n + 1), -1)
         lookup[np.arange(m)[:, None], self.rates] = np.arange(self.rates.shape[1])
         found = np.zeros((m, self.stresses.shape[1], self.rates.shape[1]))

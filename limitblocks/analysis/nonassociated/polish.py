@@ -10,8 +10,8 @@ system in (x, u, load factor a, y of what yields):
 solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique: J is
 singular. With the first equations negated it is skew for associated flow, so that J + delta I is regular and
 refinement on J is the proximal point method (Rockafellar 1976, SIAM J. Control 14); the polish of OSQP does
-the same (Stellato et al. 2020, Math. Prog. Computation 12, Section 4.4). Where it does not converge, the step of
-least norm comes from the quasidefinite system (Vanderbei 1995, SIAM J. Optimization 5)
+the same (Stellato et al. 2020, Math. Prog. Computation 12). Where it does not converge, the step of least
+norm comes from the quasidefinite system (Vanderbei 1995, SIAM J. Optimization 5)
 
     [ I   J^T ] [ p ]   [  0 ]
     [ J  -eps ] [ q ] = [ -r ]
