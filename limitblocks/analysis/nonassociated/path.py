@@ -10,8 +10,7 @@ back; the angle to the last tangent goes wrong at long steps. One factorisation 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -28,51 +27,20 @@ from limitblocks.analysis.nonassociated.path_equations import (
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.nonassociated.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
-FIRST, LEAST, LONGEST = 0.3, 1e-8, 1e3  # lengths of predictors: mean relative change of s and y
+FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
 CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
 BOUNDARY = 0.95  # of the way to the boundary of the cone
 CORRECTORS, HALVINGS = 5, 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, DECADE, LAST = 1e-5, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
+TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
 CLOSED = 1e-9  # residual of a solution
 BUDGET = 600  # factorisations
-
-
-class Progress(NamedTuple):
-    """One point of a path: theta, dimensionless load factor, sign of det J, factorisations so far."""
-
-    theta: float
-    load_factor: float
-    sign: float
-    factorisations: int
-
-
-@dataclass(frozen=True, eq=False)
-class Tracked:
-    """How a path went.
-
-    `end` is "closed", or why it ended without a solution; `points` holds every accepted point; `residual` the
-    worst one of Eqs (54)-(59).
-    """
-
-    barrier: Barrier
-    seed: int
-    end: str
-    residual: float
-    factorisations: int
-    failures: int
-    points: tuple[Progress, ...]
-
-    @property
-    def folds(self) -> int:
-        """How often theta turned."""
-        signs = [point.sign for point in self.points]
-        return sum(a != b for a, b in pairwise(signs))
 
 
 class _Lost(Exception):
@@ -245,13 +213,16 @@ class _Walk:
         self.correctors = 0
 
     def _closed(self) -> bool:
-        """Whether the polish of a base far down the path is a solution; tried once a decade of theta."""
-        if self.base is None or self.base.point.theta >= self.tried:
+        """Whether the polish of a base far down the path is a solution; tried once a decade of mu."""
+        if self.base is None:
             return False
         z = self.base.point
-        if z.theta < LAST:
+        mu = self.path.barrier.size * z.theta
+        if mu >= self.tried:
+            return False
+        if mu < LAST:
             raise _Lost("no solution at the end")
-        self.tried = DECADE * z.theta
+        self.tried = DECADE * mu
         state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y))
         residual = defect(self.path.flow, state)
         if self.best is None or residual < defect(self.path.flow, self.best):
