@@ -2,9 +2,10 @@
 
 The planes of Eqs (23)-(30) are quick, but neither safe nor unsafe: the octagon of Eqs (24)-(26) is drawn
 around Coulomb's circle, up to 1/cos(22.5 deg) - 1 = 8.2 % too strong; Eqs (27)-(29) neglect the shape of
-the joint; Eq. (30) overestimates torsion under bending except at a hinge. `ExactTorsion` draws the limit
-surface of uniform pressure (Goyal, Ruina & Papadopoulos 1991) from within and from without, with the error
-as a number; two analyses then bracket the load factor.
+the joint; Eq. (30) overestimates torsion under bending except at a hinge. `OrdunaLourenco` therefore has
+the circle itself unless asked for `slip="paper"`; what else the octagon does is lesson 18. `ExactTorsion`
+draws the limit surface of uniform pressure (Goyal, Ruina & Papadopoulos 1991) from within and from without,
+with the error as a number; two analyses then bracket the load factor.
 
 Here a stone on a joint of 0.3 m x 0.2 m is pushed sideways in the plane of the joint, `lever` off its
 middle, so that T = lever V. Its load factor is known: the twisting centre is where Eqs (11)-(15) give that
@@ -28,8 +29,8 @@ C_T = float(rectangle_torsion_constant(L1, L2))
 JOINTS = {
     "uniform pressure, inner": lb.ExactTorsion(FRICTION, fineness=4, side="inner"),
     "uniform pressure, outer": lb.ExactTorsion(FRICTION, fineness=4, side="outer"),
-    "planes of the paper": lb.OrdunaLourenco(FRICTION),
-    "planes of the paper, circle": lb.OrdunaLourenco(FRICTION, slip="exact"),
+    "planes of the paper": lb.OrdunaLourenco(FRICTION, slip="paper"),
+    "the same, round friction": lb.OrdunaLourenco(FRICTION),
 }
 
 

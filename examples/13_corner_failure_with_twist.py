@@ -7,8 +7,8 @@ strength:
     T0 = c_T mu |N|    under uniform pressure, Eqs (16)-(17);    T0 = mu |N| d/2    with points at its corners
 
 d is the diagonal of the bed. On a square the points are 1.85 times as strong, and a corner of point
-contacts seems stronger than it is. `ExactTorsion` brackets the strength under uniform pressure; the planes
-of the paper lie a little above. All of these have the same friction coefficient and the same geometry.
+contacts seems stronger than it is. `ExactTorsion` brackets the strength under uniform pressure; the surface
+of the paper lies a little above. All of these have the same friction coefficient and the same geometry.
 
 A single quoin twisted by itself shows the ratio alone: a cube on its bed under its weight and a couple.
 

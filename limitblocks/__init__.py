@@ -4,7 +4,7 @@ from importlib import import_module
 from typing import Any
 
 from limitblocks import structures, studies, units
-from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.nonassociated.load_path import load_path
 from limitblocks.analysis.nonassociated.loop import nonassociated
@@ -21,7 +21,9 @@ from limitblocks.errors import (
     SolverFailure,
     UnlimitedLoad,
 )
-from limitblocks.evidence.check import Check, Claim, check_mcp
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.check import Check, check_mcp
+from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces

@@ -2,108 +2,56 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import partial
-from itertools import product
-from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     Solution,
-    attempts,
-    falling_program,
     jamming_program,
     kinematic_program,
+    solved,
+    solvers,
     static_program,
 )
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NoEquilibrium, SolverFailure, UnlimitedLoad
+from limitblocks.errors import SolverFailure, UnlimitedLoad
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (
+    TOLERANCE,
+    Measure,
     Residuals,
-    kinematic_residuals,
+    bounds_residuals,
     relative_gap,
-    residual,
-    static_residuals,
     worth_of_violations,
 )
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-TOLERANCE = 1e-6
-MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
-FALLING = 1e-6  # block weights times block lengths: surplus work below it counts as balance
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
+COARSER = 4.0  # times what acts on a block: a unit off by more is changed, and the programs solved again
 
 
 @dataclass(frozen=True, eq=False)
-class Bounds:
-    """Bounds on the load factor of the associated flow, with the states that prove them.
+class _Pair:
+    """A static and a kinematic solution as one state, its problem and its evidence."""
 
-    For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
-    in equilibrium within the yield surface) and `upper` (a mechanism). Each comes from its own program.
-
-    Attributes
-    ----------
-    lower, upper : float
-        Static and kinematic load factor; equal up to `gap`.
-    gap : float
-        Difference relative to the larger of the two.
-    stress_resultants : Array, shape (m, 6)
-        (V1, V2, N, M1, M2, T) of each interface at the lower bound, local axes, N and N m; N <= 0.
-    generalised_stresses : Array, shape (s,)
-        What the joints' rows act on: for OrdunaLourenco the stress resultants, for PointContact the forces of
-        the points, in the order of the limit problem, dimensionless.
-    displacement_rates : Array, shape (n, 6)
-        Mechanism of the upper bound: (du, dv, dw, dwX, dwY, dwZ) of each block of the model at its centroid,
-        global axes, such that the live load does the work 1 N m, Eq. (55); zero for supports.
-    flow_multipliers : Array, shape (R,)
-        Flow multiplier of each row of the limit problem, m, in the scale of the mechanism.
-    residuals : Residuals
-        Recomputed from the limit problem without the solver; all at most `tolerance`.
-    solvers : tuple of str
-        Solver of the static and of the kinematic program.
-    tolerance : float
-        Largest residual and gap accepted.
-    digest : str
-        SHA-256 of the model.
-    """
-
-    lower: float
-    upper: float
-    gap: float
-    stress_resultants: Array
-    generalised_stresses: Array
-    displacement_rates: Array
-    flow_multipliers: Array
-    residuals: Residuals
+    problem: LimitProblem
+    state: State
     solvers: tuple[str, str]
-    tolerance: float
-    digest: str
 
-    def __str__(self) -> str:
-        worst = self.residuals.worst
-        return (
-            f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
-            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name})"
-        )
+    @property
+    def upper(self) -> float:
+        """Dissipation less work of the dead loads: the kinematic load factor."""
+        return float(self.problem.g @ self.state.y - self.problem.dead @ self.state.u)
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain numbers, lists and text."""
-        return {
-            "analysis": "bounds",
-            "lower": self.lower,
-            "upper": self.upper,
-            "gap": self.gap,
-            "residuals": self.residuals.to_dict(),
-            "tolerance": self.tolerance,
-            "solvers": list(self.solvers),
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "model_digest": self.digest,
-        }
+    @property
+    def residuals(self) -> Residuals:
+        """Of both theorems, and the gap."""
+        return bounds_residuals(Flow(self.problem, ASSOCIATED), self.state, self.upper)
 
 
 def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
@@ -114,7 +62,8 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     model : Model
         The structure.
     tolerance : float
-        Largest gap and residual accepted: dimensionless, in mean block weights and lengths.
+        Largest gap and residual accepted: every block measured by what acts on it, see
+        :mod:`limitblocks.evidence.residuals`.
 
     Raises
     ------
@@ -125,122 +74,100 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     SolverFailure
         If no solver gives a pair of bounds within the tolerance.
     """
-    problem = model.problem
-    static, kinematic = _solved(problem, tolerance)
-    load_factor, x = float(static.values[0]), static.values[1]
-    refuse_falling(problem)  # a live load that holds up what would fall gives a load factor too
-    u, y = kinematic.values
-    upper = float(problem.g @ y - problem.dead @ u)
-    scales = problem.scales
+    dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
+    pair = _solved(model.problem, tolerance)
+    problem, si = pair.problem, pair.problem.in_si(pair.state)
+    upper = pair.upper / problem.units.live
     return Bounds(
-        lower=load_factor * scales.load_factor,
-        upper=upper * scales.load_factor,
-        gap=relative_gap(load_factor, upper),
-        stress_resultants=read_only((problem.resultants @ x).reshape(-1, 6) * scales.resultants),
-        generalised_stresses=read_only(x * problem.stress_units),
-        displacement_rates=in_model_order(model, u),
-        flow_multipliers=read_only(y * scales.work),
-        residuals=bounds_residuals(problem, load_factor, x, upper, u, y),
-        solvers=(static.solver, kinematic.solver),
+        lower=si.load_factor,
+        upper=upper,
+        gap=relative_gap(si.load_factor, upper),
+        worth=worth_of_violations(problem, pair.state) / (abs(pair.state.load_factor) or 1.0),
+        stress_resultants=resultants_of(problem, pair.state.x),
+        generalised_stresses=read_only(si.x),
+        displacement_rates=in_model_order(model, si.u),
+        flow_multipliers=read_only(si.y),
+        dead_load_stresses=read_only(dead * model.problem.stress_units),
+        residuals=pair.residuals,
+        solvers=pair.solvers,
         tolerance=tolerance,
         digest=model.digest,
     )
 
 
-def bounds_residuals(
-    problem: LimitProblem, lower: float, stresses: Array, upper: float, rates: Array, multipliers: Array
-) -> Residuals:
-    """Recompute every residual of a pair of bounds; all arguments dimensionless, see LimitProblem."""
-    gap = residual("gap", relative_gap(lower, upper), "relative gap between the bounds")
-    static = static_residuals(problem, lower, stresses)
-    return Residuals((*static, *kinematic_residuals(problem, upper, rates, multipliers), gap))
+def resultants_of(problem: LimitProblem, x: Array) -> Array:
+    """Stress resultants (m, 6), N and N m, of dimensionless stresses."""
+    return read_only((problem.resultants @ x * problem.units.resultants).reshape(-1, 6))
 
 
 def in_model_order(model: Model, rates: Array) -> Array:
-    """Displacement rates (n, 6) of all blocks, supports as zero, in m and rad; `rates` dimensionless."""
+    """Displacement rates (n, 6) of all blocks, supports as zero; `rates` of the free ones, m and rad."""
     place = {block.name: k for k, block in enumerate(model.blocks)}
     found = np.zeros((len(place), 6))
-    found[[place[name] for name in model.problem.blocks]] = (rates * model.problem.rate_units).reshape(-1, 6)
+    found[[place[name] for name in model.problem.blocks]] = rates.reshape(-1, 6)
     return read_only(found)
 
 
-def _solved(problem: LimitProblem, tolerance: float) -> tuple[Solution, Solution]:
-    """A static and a kinematic solution that together pass the tolerance, or the error that explains."""
-    conic = bool(problem.cones.second_order)
-    programs = static_program(problem), kinematic_program(problem)
-    statics: list[Solution] = []
-    kinematics: list[Solution] = []
+def _solved(problem: LimitProblem, tolerance: float) -> _Pair:
+    """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
-    for static, kinematic in zip(*(attempts(program, conic) for program in programs), strict=True):
-        for found, kept, evidence in (
-            (static, statics, static_residuals(problem, float(static.values[0]), static.values[1])),
-            (
-                kinematic,
-                kinematics,
-                kinematic_residuals(problem, _power(problem, kinematic), *kinematic.values),
-            ),
-        ):
-            worst = Residuals(evidence).worst
-            said.append(f"{found.solver} {found.status}, {worst.name} residual {worst.value:.1e}")
-            if worst.value <= tolerance:
-                kept.append(found)
-        if statics and kinematics:
-            pair = min(product(statics, kinematics), key=partial(_doubt, problem))
-            gap = relative_gap(float(pair[0].values[0]), _power(problem, pair[1]))
-            if gap <= tolerance:
-                return pair
-            said.append(f"gap {gap:.1e}")
-        else:
-            explain(problem)
+    for pair in _pairs(problem, said):
+        worst = pair.residuals.worst
+        if worst.value <= tolerance:
+            return pair
+        place = f" at {worst.where}" if worst.where else ""
+        said.append(f"{' and '.join(pair.solvers)}, {worst.name} residual {worst.value:.1e}{place}")
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
 
 
-def _doubt(problem: LimitProblem, pair: tuple[Solution, Solution]) -> float:
-    """Gap between two solutions with what their violations may be worth: two that err alike agree too."""
-    (load_factor, x), (u, y) = pair[0].values, pair[1].values
-    gap = abs(_power(problem, pair[1]) - float(load_factor))
-    return gap + worth_of_violations(problem, float(load_factor), x, u, y)
+def _pairs(problem: LimitProblem, said: list[str]) -> Iterator[_Pair]:
+    """Pairs of solutions, polished, by one solver after the other, each in units of what the last found."""
+    explained = False
+    for solver in solvers(bool(problem.cones.second_order)):
+        for _ in range(2):
+            static = solved(static_program(problem), solver)
+            kinematic = solved(kinematic_program(problem), solver)
+            state = _state(static, kinematic)
+            if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
+                said.append(f"{solver.name} {static.status} and {kinematic.status}")
+                if not explained:
+                    explain(problem)
+                    explained = True
+                break
+            pair = _Pair(problem, state, (static.solver, kinematic.solver))
+            best = _better(pair)
+            yield best
+            coarser = remeasured(problem, best.state)
+            if coarser is None:
+                break
+            problem = coarser
 
 
-def _power(problem: LimitProblem, kinematic: Solution) -> float:
-    """Dissipation less work of the dead loads: the kinematic load factor."""
-    u, y = kinematic.values
-    return float(problem.g @ y - problem.dead @ u)
+def _state(static: Solution, kinematic: Solution) -> State:
+    return State(float(static.values[0]), static.values[1], *kinematic.values)
+
+
+def _better(pair: _Pair) -> _Pair:
+    """The pair polished, where that lowers its worst residual."""
+    polished = _Pair(pair.problem, polish(Flow(pair.problem, ASSOCIATED), pair.state), pair.solvers)
+    return min(pair, polished, key=lambda one: one.residuals.worst.value)
+
+
+def remeasured(problem: LimitProblem, state: State) -> LimitProblem | None:
+    """The problem in units of what acts on its blocks in `state`; None where its units are so already."""
+    acting = np.maximum(Measure(problem, state).block, np.finfo(float).tiny)
+    if acting.max() <= COARSER * 4 and acting.min() >= 1 / COARSER:
+        return None
+    return problem.measured(acting * problem.units.block_force)
 
 
 def explain(problem: LimitProblem) -> None:
-    """Raise NoEquilibrium or UnlimitedLoad where a recomputed certificate proves it; else return."""
-    refuse_falling(problem)
-    for found in attempts(jamming_program(problem), bool(problem.cones.second_order)):
-        (x,) = found.values
+    """Raise UnlimitedLoad where a recomputed certificate proves it; else return."""
+    for solver in solvers(bool(problem.cones.second_order)):
+        (x,) = solved(jamming_program(problem), solver).values
         unbalanced = np.abs(problem.C.T @ x - problem.live).max()
         if unbalanced < CERTIFIED and problem.cones.margin(problem.F @ x).min() > -CERTIFIED:
             raise UnlimitedLoad(
                 "the live load can grow without limit: a stress state within the yield surface balances it "
                 "alone; check its direction, or use the non-associated analysis"
             )
-
-
-def refuse_falling(problem: LimitProblem) -> None:
-    """Raise NoEquilibrium unless a stress state, recomputed, proves that the dead loads alone stand.
-
-    Raises
-    ------
-    NoEquilibrium
-        If a mechanism proves that they fall.
-    SolverFailure
-        If neither is proven.
-    """
-    said = []
-    for found in attempts(falling_program(problem), bool(problem.cones.second_order)):
-        standing = Residuals(static_residuals(problem, 0.0, found.dual)).worst
-        if standing.value <= TOLERANCE:
-            return
-        u, y = found.values
-        flow = np.abs(problem.C @ u + problem.F.T @ y).max()
-        surplus = problem.dead @ u - problem.g @ y
-        if flow < CERTIFIED and problem.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
-            speed = np.abs(u).reshape(-1, 6).max(axis=1)
-            raise NoEquilibrium(tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist()))
-        said.append(f"{found.solver} {found.status}, {standing.name} residual {standing.value:.1e}")
-    raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))

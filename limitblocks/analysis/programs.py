@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import logging
 import warnings
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import cvxpy as cp
@@ -86,15 +85,14 @@ def kinematic_program(problem: LimitProblem) -> Program:
     return Program(cp.Problem(cp.Minimize(power), constraints), (u, y))
 
 
-def falling_program(problem: LimitProblem) -> Program:
-    """Mechanism of unit size on which the dead loads do most work beyond the dissipation. Variables: u, y.
+def falling_program(problem: LimitProblem, loads: Array) -> Program:
+    """Mechanism of unit size on which the loads do most work beyond the dissipation. Variables: u, y.
 
-    Its value is zero exactly where the dead loads stand, and then the dual of the first constraint is a
-    stress state that carries them; otherwise the blocks that move in it fall.
+    Its value is zero exactly where the loads stand; otherwise the blocks that move in it fall.
     """
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
     flow = problem.C @ u + problem.F.T @ y == 0
-    surplus = problem.dead @ u - problem.g @ y
+    surplus = loads @ u - problem.g @ y
     constraints = [flow, u <= 1, u >= -1, *in_cone(y, problem.cones)]
     return Program(cp.Problem(cp.Maximize(surplus), constraints), (u, y))
 
@@ -111,20 +109,20 @@ def in_cone(rows: cp.Expression, cones: Cones) -> list[cp.Constraint]:
     constraints: list[cp.Constraint] = []
     if cones.linear:
         constraints.append(rows[: cones.linear] >= 0)
-    for first, count, size in cones.blocks:
-        stack = cp.reshape(rows[first : first + count * size], (size, count), order="F")
+    for places in cones.groups:
+        count, size = places.shape
+        stack = cp.reshape(rows[places[0, 0] : places[-1, -1] + 1], (size, count), order="F")
         constraints.append(cp.SOC(stack[0], stack[1:], axis=0))
     return constraints
 
 
-def attempts(program: Program, conic: bool) -> Iterator[Solution]:
-    """Solve with one solver after the other, yielding what each claims, until the caller is content."""
-    for solver in SOLVERS:
-        if solver.conic or not conic:
-            yield _solve(program, solver)
+def solvers(conic: bool) -> tuple[Solver, ...]:
+    """Solvers to try in turn; those of linear programs only where there are no cones."""
+    return tuple(solver for solver in SOLVERS if solver.conic or not conic)
 
 
-def _solve(program: Program, solver: Solver) -> Solution:
+def solved(program: Program, solver: Solver) -> Solution:
+    """Return what `solver` says of the program; NaN where it says nothing."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # accuracy is judged by recomputed residuals, not by a warning
         try:

@@ -33,7 +33,7 @@ from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged, UnlimitedLoad
 
 if TYPE_CHECKING:
-    from limitblocks.analysis.bounds import Bounds
+    from limitblocks.evidence.associated import Bounds
     from limitblocks.evidence.results import LoadPath, Nonassociated
     from limitblocks.model import Model
 

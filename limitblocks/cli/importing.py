@@ -21,6 +21,13 @@ Output = Annotated[
 ]
 Friction = Annotated[float, typer.Option(help="Coefficient of friction of every interface.")]
 JointName = Annotated[str, typer.Option("--joint", metavar="NAME", help="What an interface can carry.")]
+Slip = Annotated[
+    str | None,
+    typer.Option(
+        help="Friction of OrdunaLourenco: exact (Coulomb's circle), paper (octagon), inner or outer "
+        "[default: exact]."
+    ),
+]
 Supports = Annotated[
     list[str],
     typer.Option(
@@ -55,6 +62,7 @@ def import_blocks(
     unit_weight: UnitWeights,
     supports: Supports = [],  # noqa: B006 # typer wants a list, and nothing changes it
     joint: JointName = "OrdunaLourenco",
+    slip: Slip = None,
     units: Units = None,
     thickness: Thickness = None,
     up: Up = None,
@@ -72,7 +80,7 @@ def import_blocks(
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
-        law, load = _joint(joint, friction), mass_proportional(_vector(live))
+        law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
         weight = _unit_weight(unit_weight)
         if thickness is None:
             found = read_blocks(file, units=units, unit_weight=weight, up=up)
@@ -87,12 +95,14 @@ def import_blocks(
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 
 
-def _joint(name: str, friction: float) -> Joint:
+def _joint(name: str, friction: float, slip: str | None) -> Joint:
     from limitblocks.io.registry import JOINTS
 
     if name not in JOINTS:
         raise ModelError(f"--joint {name!r} is unknown; expected one of {', '.join(JOINTS)}")
-    joint: Joint = JOINTS[name](friction=friction)
+    if slip is not None and name != "OrdunaLourenco":
+        raise ModelError(f"--slip is {slip!r}, but only OrdunaLourenco has a choice; leave it out")
+    joint: Joint = JOINTS[name](friction=friction, **({} if slip is None else {"slip": slip}))
     return joint
 
 

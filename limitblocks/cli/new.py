@@ -34,31 +34,43 @@ Strength = Annotated[
     float | None,
     typer.Option(help="Effective compressive strength, Pa [default: infinite].", show_default=False),
 ]
+Slip = Annotated[
+    Literal["exact", "paper", "inner", "outer"] | None,
+    typer.Option(
+        help="Friction of orduna-lourenco: exact (Coulomb's circle), the paper's octagon, or an octagon "
+        "within the circle or around it [default: exact].",
+        show_default=False,
+    ),
+]
 NewFile = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="MODEL", help="Model file (JSON) [default: STRUCTURE.json]."),
 ]
 COMMON = {"joint": (JointName, "orduna-lourenco"), "friction": (Friction, ...)}
-COMMON |= {"compressive_strength": (Strength, None), "output": (NewFile, None), "force": (Force, False)}
+COMMON |= {
+    "slip": (Slip, None),
+    "compressive_strength": (Strength, None),
+    "output": (NewFile, None),
+    "force": (Force, False),
+}
 
 
-def make_joint(name: str, friction: float, compressive_strength: float | None) -> joints.Joint:
-    """Return the joint of that name.
+def make_joint(name: str, friction: float, **options: Any) -> joints.Joint:
+    """Return the joint of that name; options that are None are left out.
 
     Raises
     ------
     LimitBlocksError
-        If it has no compressive strength but one is given.
+        If an option is given that the joint does not have.
     """
     kind: Any = JOINTS[name]
-    if compressive_strength is None:
-        return kind(friction)  # type: ignore[no-any-return]
-    if "compressive_strength" not in inspect.signature(kind).parameters:
+    given = {option: value for option, value in options.items() if value is not None}
+    for option in given.keys() - inspect.signature(kind).parameters:
         raise LimitBlocksError(
-            f"joint {name} has no compressive strength; leave --compressive-strength out "
+            f"joint {name} has no {option.replace('_', ' ')}; leave --{option.replace('_', '-')} out "
             "or choose --joint orduna-lourenco"
         )
-    return kind(friction, compressive_strength=compressive_strength)  # type: ignore[no-any-return]
+    return kind(friction, **given)  # type: ignore[no-any-return]
 
 
 def generators() -> dict[str, Callable[..., Any]]:
@@ -84,7 +96,8 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
     def run(**values: Any) -> None:
         given = {name: values[name] for name in own if values[name] is not None and values[name] != []}
         with clean_errors():
-            joint = make_joint(values["joint"], values["friction"], values["compressive_strength"])
+            options = {option: values[option] for option in ("slip", "compressive_strength")}
+            joint = make_joint(values["joint"], values["friction"], **options)
             file = values["output"] or Path(f"{make.__name__}.json")
             if file.exists() and not values["force"]:
                 raise LimitBlocksError(

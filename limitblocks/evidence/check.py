@@ -3,72 +3,52 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
+from limitblocks.evidence.claim import Claim, claim_of
+from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
-from limitblocks.evidence.residuals import Residual, Residuals, residual, static_residuals
+from limitblocks.evidence.residuals import (
+    TOLERANCE,
+    Residual,
+    Residuals,
+    mcp_residuals,
+    residual,
+    static_residuals,
+)
+from limitblocks.evidence.standing import standing_state
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import plastic_potential
-
-TOLERANCE = 1e-6
-
-
-class Claimed(Protocol):
-    """What a claimed solution has at least; see :class:`Claim` for the rest."""
-
-    @property
-    def load_factor(self) -> float:
-        """Load factor."""
-
-    @property
-    def stress_resultants(self) -> Array:
-        """Stress resultants, shape (m, 6), N and N m."""
-
-
-@dataclass(frozen=True, eq=False)
-class Claim:
-    """A claimed solution, from any source, in SI units.
-
-    Attributes
-    ----------
-    load_factor : float
-        Load factor.
-    stress_resultants : Array, shape (m, 6)
-        (V1, V2, N, M1, M2, T) of the model's interfaces, local axes, N and N m; N <= 0 in compression.
-    displacement_rates : Array, shape (n, 6), optional
-        Of all blocks of the model at their centroids, global axes, m and rad, in the scale in which the live
-        load does the work 1 N m, Eq. (55); searched for if missing.
-    flow_multipliers : Array, shape (R,), optional
-        Of the rows of the limit problem, m, in the same scale; searched for if missing.
-    generalised_stresses : Array, shape (s,), optional
-        Stresses that the rows act on, N and N m; needed where a joint has inner forces (PointContact).
-    dilatancy : float
-        Tangent of the dilatancy angle of the flow.
-    digest : str
-        SHA-256 of the model it belongs to; empty if unknown.
-    """
-
-    load_factor: float
-    stress_resultants: Array
-    displacement_rates: Array | None = None
-    flow_multipliers: Array | None = None
-    generalised_stresses: Array | None = None
-    dilatancy: float = 0.0
-    digest: str = ""
+from limitblocks.problem import Flow, LimitProblem, State
 
 
 @dataclass(frozen=True)
 class Check:
-    """Residuals of Eqs (54)-(59) for a claimed solution."""
+    """Residuals of Eqs (54)-(59) for a claimed solution.
+
+    Attributes
+    ----------
+    residuals : Residuals
+        See :func:`limitblocks.evidence.residuals.mcp_residuals`; and "standing": how far the dead loads alone
+        are from standing. Without that, a solution is no collapse: a structure that falls already has trivial
+        ones.
+    tolerance : float
+        Largest residual of a solution.
+    mechanism_found : bool
+        Whether the checker had to search for the mechanism or the multipliers.
+    remarks : tuple of str
+        What a reader of the load factor should know, such as a shear that polyhedral friction locks.
+    digest : str
+        SHA-256 of the model.
+    """
 
     residuals: Residuals
     tolerance: float
     mechanism_found: bool
+    remarks: tuple[str, ...]
     digest: str
 
     @property
@@ -85,7 +65,10 @@ class Check:
         """Raise CheckFailed, naming every residual above the tolerance, unless the check passed."""
         failed = self.residuals.above(self.tolerance)
         if failed:
-            said = ", ".join(f"{entry.name} {entry.value:.1e} ({entry.meaning})" for entry in failed)
+            said = ", ".join(
+                f"{entry.name} {entry.value:.1e}{f' at {entry.where}' if entry.where else ''} ({entry.meaning})"
+                for entry in failed
+            )
             raise CheckFailed(f"above {self.tolerance:g}: {said}")
 
     def to_dict(self) -> dict[str, Any]:
@@ -96,127 +79,114 @@ class Check:
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "mechanism_found": self.mechanism_found,
+            "remarks": list(self.remarks),
         }
 
     def __str__(self) -> str:
         word = "passed" if self.passed else "FAILED"
         source = ", mechanism found by the checker" if self.mechanism_found else ""
-        return f"check {word}: worst residual {self.worst.value:.1e} ({self.worst.name}){source}"
+        place = f" at {self.worst.where}" if self.worst.where else ""
+        said = "".join(f"; {remark}" for remark in self.remarks)
+        return f"check {word}: worst residual {self.worst.value:.1e} ({self.worst.name}{place}){source}{said}"
 
 
-def check_mcp(model: Model, result: Claimed, *, tolerance: float = TOLERANCE) -> Check:
-    """Check a claimed non-associated solution residual by residual, Eqs (54)-(59).
+def check_mcp(model: Model, result: Any, *, tolerance: float = TOLERANCE) -> Check:
+    """Check a claimed solution residual by residual, Eqs (54)-(59).
 
-    Residuals are dimensionless: forces over the mean block weight, displacement rates in the scale in
-    which the live load of unit resultant does unit work. Undefined is infinite. A missing mechanism or
-    missing multipliers are searched for, so that a load factor with its stress resultants is enough.
+    Residuals are dimensionless: every block is measured by what acts on it, every interface by its own
+    force, see :mod:`limitblocks.evidence.residuals`. Undefined is infinite. A missing mechanism, missing
+    multipliers and a missing state of the dead loads alone are searched for, so that a load factor with its
+    stress resultants is enough.
 
     Parameters
     ----------
     model : Model
         The structure.
     result : Claim, or any result of limitblocks
-        What is claimed.
+        What is claimed, with the flow rule that it names; bounds are judged by the associated flow.
     tolerance : float
-        Largest residual of a solution.
+        Largest residual of a solution, positive and finite.
 
     Raises
     ------
     ModelError
-        If the claim belongs to another model, or an array has the wrong shape.
+        If the claim belongs to another model, an array has the wrong shape or is not real and finite, or the
+        tolerance is out of range.
     """
-    problem = model.problem
-    claim = _claim(model, result)
-    load_factor = claim.load_factor / problem.scales.load_factor
-    x = _stresses(problem, claim)
-    u = _rates(model, claim)
-    y = None if claim.flow_multipliers is None else claim.flow_multipliers / problem.scales.work
-    found = u is None or y is None
-    if found:
-        u, y = find_mechanism(problem, x, claim.dilatancy, rates=u)
-    assert u is not None
-    assert y is not None
-    residuals = mcp_residuals(problem, load_factor, x, u, y, claim.dilatancy)
-    return Check(residuals, tolerance, found, model.digest)
-
-
-def mcp_residuals(
-    problem: LimitProblem,
-    load_factor: float,
-    stresses: Array,
-    rates: Array,
-    multipliers: Array,
-    dilatancy: float,
-) -> Residuals:
-    """Recompute the residuals of Eqs (54)-(59); all arguments dimensionless, see LimitProblem."""
-    G = plastic_potential(problem, stresses, dilatancy)
-    margin = problem.cones.margin(multipliers)
-    work = (problem.F @ stresses + problem.g) @ multipliers
-    flow = problem.C @ rates + G.T @ multipliers
-    return Residuals(
-        (
-            *static_residuals(problem, load_factor, stresses),
-            residual("flow", flow, "compatibility and flow rule, Eq. (54)"),
-            residual("normalisation", problem.live @ rates - 1.0, "work of the live load less one, Eq. (55)"),
-            residual("multipliers", np.minimum(margin, 0.0), "most negative flow multiplier, Eq. (58)"),
-            residual("complementarity", work, "yield functions times multipliers, Eq. (59)"),
-        )
-    )
-
-
-def _claim(model: Model, result: Claimed) -> Claim:
-    names = ("displacement_rates", "flow_multipliers", "generalised_stresses")
-    optional = {name: getattr(result, name, None) for name in names}
-    claim = Claim(
-        load_factor=float(result.load_factor),
-        stress_resultants=np.asarray(result.stress_resultants, dtype=float),
-        dilatancy=float(getattr(result, "dilatancy", 0.0)),
-        digest=str(getattr(result, "digest", "")),
-        **{name: None if value is None else np.asarray(value, float) for name, value in optional.items()},
-    )
-    if claim.digest and claim.digest != model.digest:
+    if not (isinstance(tolerance, int | float | np.number) and 0.0 < tolerance < np.inf):
         raise ModelError(
-            f"the result belongs to model {claim.digest[:12]}, not to this model {model.digest[:12]}"
+            f"tolerance is {tolerance!r}, expected a finite number above 0, such as {TOLERANCE:g}"
         )
     problem = model.problem
-    expected = {
-        "stress_resultants": (len(model.interfaces), 6),
-        "displacement_rates": (len(model.blocks), 6),
-        "flow_multipliers": (problem.F.shape[0],),
-        "generalised_stresses": (problem.C.shape[0],),
-    }
-    for name, shape in expected.items():
-        value = getattr(claim, name)
-        if value is not None and value.shape != shape:
-            raise ModelError(f"{name} has shape {value.shape}, expected {shape} for this model")
-    return claim
+    claim = claim_of(model, result)
+    flow = Flow(problem, claim.dilatancy, claim.turning)
+    state, found = _state(model, flow, claim)
+    entries = (*mcp_residuals(flow, state).entries, _standing(problem, claim))
+    return Check(Residuals(entries), float(tolerance), found, locked_shear(flow, state), model.digest)
+
+
+def _state(model: Model, flow: Flow, claim: Claim) -> tuple[State, bool]:
+    """The claim as a dimensionless state, and whether its mechanism had to be searched for."""
+    problem = model.problem
+    u = _rates(model, claim)
+    y = claim.flow_multipliers
+    known = State(
+        claim.load_factor,
+        _stresses(problem, claim),
+        np.zeros(problem.C.shape[1]) if u is None else u,
+        np.zeros(len(problem.g)) if y is None else y,
+    )
+    state = problem.dimensionless(known)
+    if u is not None and y is not None:
+        return state, False
+    rates, multipliers = find_mechanism(flow, state.x, None if u is None else state.u)
+    return State(state.load_factor, state.x, rates, multipliers), True
+
+
+def _standing(problem: LimitProblem, claim: Claim) -> Residual:
+    """How far the dead loads alone are from standing."""
+    given = claim.dead_load_stresses
+    x = standing_state(problem) if given is None else given / problem.stress_units
+    meaning = "the dead loads alone: a state in equilibrium within yield"
+    if x is None:
+        return Residual("standing", np.inf, meaning + " was not found")
+    worst = Residuals(static_residuals(problem, 0.0, x)).worst
+    return Residual("standing", worst.value, f"{meaning}; {worst.meaning}", worst.where)
 
 
 def _stresses(problem: LimitProblem, claim: Claim) -> Array:
-    """Generalised stresses of the claim, dimensionless."""
-    B = problem.resultants
-    resultants = (claim.stress_resultants / problem.scales.resultants).ravel()
+    """Generalised stresses of the claim, N and N m."""
+    B, units = problem.resultants, problem.units.resultants
+    resultants = claim.stress_resultants.ravel() / units
     if claim.generalised_stresses is None:
         if B.nnz > B.shape[1]:
             raise ModelError(
                 "this model has joints with inner forces (point contacts), which the stress resultants do "
                 "not determine: give generalised_stresses too"
             )
-        return np.asarray(B.T @ resultants)
-    stresses = claim.generalised_stresses / problem.stress_units
-    off = float(np.abs(B @ stresses - resultants).max(initial=0.0))
-    if not off <= TOLERANCE * max(1.0, float(np.abs(resultants).max(initial=0.0))):
-        raise ModelError(f"generalised stresses and stress resultants differ by {off:.1e} block weights")
-    return np.asarray(stresses)
+        return np.asarray((B.T @ resultants) * problem.stress_units)
+    x = claim.generalised_stresses / problem.stress_units
+    off = residual(
+        "resultants", np.abs(B @ x - resultants).reshape(-1, 6).max(axis=1), "", _sizes(B, x, resultants)
+    )
+    if not off.value <= TOLERANCE:
+        raise ModelError(
+            f"generalised stresses and stress resultants differ by {off.value:.1e} of their size"
+        )
+    return np.asarray(claim.generalised_stresses)
+
+
+def _sizes(B: Any, x: Array, resultants: Array) -> Array:
+    """Size of the terms that make up the resultants of each interface, shape (m,)."""
+    return np.asarray((abs(B) @ np.abs(x) + np.abs(resultants)).reshape(-1, 6).max(axis=1))
 
 
 def _rates(model: Model, claim: Claim) -> Array | None:
-    """Dimensionless rates of the free blocks in the scale live . u = 1, if the claim has rates."""
+    """Rates of the free blocks in SI units, if the claim has rates."""
     if claim.displacement_rates is None:
         return None
     moving = dict(zip((block.name for block in model.blocks), claim.displacement_rates, strict=True))
     for name in model.supports:
         if np.any(moving[name] != 0.0):
             raise ModelError(f"displacement rates move the support {name!r}, expected zero")
-    problem = model.problem
-    return np.concatenate([moving[name] for name in problem.blocks]) / problem.rate_units
+    return np.concatenate([moving[name] for name in model.problem.blocks])

@@ -15,11 +15,10 @@ from limitblocks.evidence.results import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import LimitProblem, Mode
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
-LOADED = 1e-6  # of the mean block weight: a contact force below it counts as none
-HINGING = {"hinge", "crush", "open"}  # modes whose rows open one side of an interface
+LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
 
 
 class Collapse(Protocol):
@@ -58,7 +57,7 @@ class InterfaceStates:
         "stick", "open" (moves apart all over, without a force), or what it does, joined by "-" in this
         order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
         pressed together), "slide", "twist". A twist about the centre of pressure does not slide.
-    active_modes : tuple of tuple of str
+    active_modes : tuple of tuple of Mode
         Failure modes, in the joint's words, whose flow multipliers are not zero.
     centroid : Array, shape (m, 3)
         Global axes, m.
@@ -79,7 +78,7 @@ class InterfaceStates:
 
     names: tuple[str, ...]
     state: tuple[str, ...]
-    active_modes: tuple[tuple[str, ...], ...]
+    active_modes: tuple[tuple[Mode, ...], ...]
     centroid: Array
     strain_rates: Array
     stress_resultants: Array
@@ -111,8 +110,9 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     axes = np.stack([interface.axes for interface in model.interfaces])
     centroid = np.stack([interface.centroid for interface in model.interfaces])
     Q = found.stress_resultants
-    loaded = np.linalg.norm(Q[:, :3], axis=1) > LOADED * problem.scales.force
-    N = np.where(-Q[:, 2] > LOADED * problem.scales.force, Q[:, 2], np.nan)
+    least_force = LOADED * problem.units.interface_force
+    loaded = np.linalg.norm(Q[:, :3], axis=1) > least_force
+    N = np.where(-Q[:, 2] > least_force, Q[:, 2], np.nan)
     e = np.stack([-Q[:, 4], Q[:, 3]], axis=1) / N[:, None]
     dq = _strain_rates(model, found.displacement_rates, axes, centroid)
     least = MOVING * _largest(model, found.displacement_rates)
@@ -163,8 +163,8 @@ def _largest(model: Model, rates: Array) -> float:
     return float(speed.max())
 
 
-def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[str, ...], ...]:
-    found: list[dict[str, None]] = [{} for _ in problem.interfaces]
+def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[Mode, ...], ...]:
+    found: list[dict[Mode, None]] = [{} for _ in problem.interfaces]
     for row in np.flatnonzero(np.abs(multipliers) > least).tolist():
         found[problem.row_interface[row]][problem.row_mode[row]] = None
     return tuple(tuple(modes) for modes in found)
@@ -174,7 +174,7 @@ def _states(
     interfaces: Sequence[Interface],
     dq: Array,
     e: Array,
-    modes: tuple[tuple[str, ...], ...],
+    modes: tuple[tuple[Mode, ...], ...],
     loaded: npt.NDArray[np.bool_],
     least: float,
 ) -> tuple[str, ...]:
@@ -184,7 +184,7 @@ def _states(
     reach = np.array([np.linalg.norm(i.polygon, axis=1).max() for i in interfaces])
     about = np.nan_to_num(e)
     sliding = dq[:, :2] + dq[:, 5:] * np.stack([-about[:, 1], about[:, 0]], axis=1)
-    hinging = np.array([bool(HINGING.intersection(names)) for names in modes])
+    hinging = np.array([any(mode.opens for mode in own) for own in modes])
     motions = {
         "hinge": hinging & (highest - lowest > least) & (lowest >= -least),
         "crush": lowest < -least,

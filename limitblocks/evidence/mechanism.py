@@ -8,35 +8,34 @@ import numpy as np
 from scipy import optimize, sparse
 
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import plastic_potential
+from limitblocks.problem import Flow, LimitProblem
+from limitblocks.problem.cones import rays
 
-ACTIVE = 1e-3  # block weights: rows closer than this to yield may flow
+ACTIVE = 1e-3  # of the force of an interface: rows closer than this to yield may flow
 APEX_DIRECTIONS = 32
 linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
 PRECISE: Any = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
-def find_mechanism(
-    problem: LimitProblem, stresses: Array, dilatancy: float = 0.0, rates: Array | None = None
-) -> tuple[Array, Array]:
+def find_mechanism(flow: Flow, stresses: Array, rates: Array | None = None) -> tuple[Array, Array]:
     """Return displacement rates u and multipliers y of least residual for a stress state.
 
     A linear program over the rows at or near yield minimises max |C u + G^T y| + y . (F x + g) under
     live . u = 1, y in K*. With `rates` given only the multipliers are sought. Where none exists the result
     is NaN, which every residual counts as infinite.
     """
+    problem = flow.problem
     n, R = problem.C.shape[1], problem.F.shape[0]
     rows = problem.F @ stresses + problem.g
     if not np.isfinite(rows).all() or (rates is not None and not np.isfinite(rates).all()):
         return np.full(n, np.nan) if rates is None else rates, np.full(R, np.nan)
     columns = _flow_columns(problem, rows)
-    flow = (plastic_potential(problem, stresses, dilatancy).T @ columns).tocsr()
+    strains = (flow.matrix(stresses).T @ columns).tocsr()
     worst = sparse.csr_array(np.ones((problem.C.shape[0], 1)))
     free = problem.C if rates is None else sparse.csr_array((problem.C.shape[0], 0))
     known = np.zeros(problem.C.shape[0]) if rates is None else problem.C @ rates
-    above = sparse.hstack([free, flow, -worst])
-    below = sparse.hstack([-free, -flow, -worst])
+    above = sparse.hstack([free, strains, -worst])
+    below = sparse.hstack([-free, -strains, -worst])
     k = free.shape[1]
     work = [sparse.csr_array(problem.live[None, :k]), sparse.csr_array((1, columns.shape[1] + 1))]
     found = linear_program(
@@ -61,17 +60,16 @@ def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
     On a cone's boundary the ray orthogonal to the state, (1, -z/||z||); at its apex rays all around.
     """
     linear = np.flatnonzero(rows[: problem.cones.linear] < ACTIVE)
-    parts = [(linear[:, None], np.ones((len(linear), 1, 1)))]
-    for first, count, size in problem.cones.blocks:
-        cone = rows[first : first + count * size].reshape(count, size)
-        places = first + np.arange(count * size).reshape(count, size)
+    parts: list[tuple[Any, Array]] = [(linear[:, None], np.ones((len(linear), 1, 1)))]
+    for places in problem.cones.groups:
+        cone = rows[places]
         z = np.linalg.norm(cone[:, 1:], axis=1)
         near, apex = cone[:, 0] - z < ACTIVE, z < ACTIVE
         edge = near & ~apex
         ray = np.concatenate([np.ones((edge.sum(), 1)), -cone[edge, 1:] / z[edge, None]], axis=1)
         parts.append((places[edge], ray[:, None]))
-        at_apex = places[near & apex]
-        parts.append((at_apex, np.broadcast_to(_rays(size), (len(at_apex), APEX_DIRECTIONS, size))))
+        at_apex, around = places[near & apex], rays(cone.shape[1], APEX_DIRECTIONS)
+        parts.append((at_apex, np.broadcast_to(around, (len(at_apex), *around.shape))))
     return _columns(parts, len(rows))
 
 
@@ -87,11 +85,3 @@ def _columns(parts: list[tuple[Any, Array]], height: int) -> sparse.csr_array:
         width += k * count
     triplets = (np.concatenate(data), (np.concatenate(row), np.concatenate(column)))
     return sparse.coo_array(triplets, shape=(height, width)).tocsr()
-
-
-def _rays(size: int) -> Array:
-    """Unit rays (1, d) around a second-order cone of size 3."""
-    angles = 2 * np.pi * np.arange(APEX_DIRECTIONS) / APEX_DIRECTIONS
-    rays = np.ones((APEX_DIRECTIONS, size))
-    rays[:, 1], rays[:, 2] = np.cos(angles), np.sin(angles)
-    return rays

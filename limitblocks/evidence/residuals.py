@@ -1,24 +1,35 @@
-"""Residuals of a claimed solution, recomputed from the limit problem with numpy alone."""
+"""Residuals of a claimed state, recomputed from the limit problem with numpy alone.
+
+Nothing is measured by a mean. What acts on a block is the sum of the sizes of its loads and of the forces of its
+interfaces; an interface is measured by what acts on the lesser of its blocks; a rate by the power that this
+force does at the largest speed of the mechanism, or by the power of the live load if that is less.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import Flow, LimitProblem, State
 
-SMALL_LOAD = 0.1  # block weights; a live load below it is compared in these units
+TOLERANCE = 1e-8  # largest residual of an answer
+# Of the power of all forces on the mechanism: smaller load factors are known to it times the tolerance.
+SMALL_POWER = 1e-4
 
 
 @dataclass(frozen=True)
 class Residual:
-    """One recomputed condition: its name, its value (dimensionless, >= 0) and what it measures."""
+    """One recomputed condition: its name, its value (dimensionless, >= 0), what it measures, and where."""
 
     name: str
     value: float
     meaning: str
+    where: str = ""
 
 
 @dataclass(frozen=True)
@@ -44,69 +55,193 @@ class Residuals:
         return {entry.name: entry.value for entry in self.entries}
 
 
-def residual(name: str, values: Array | float, meaning: str) -> Residual:
-    """Largest absolute value as a residual; NaN becomes infinite, nothing becomes zero."""
-    largest = float(np.max(np.abs(values), initial=0.0))
-    return Residual(name, largest if np.isfinite(largest) else np.inf, meaning)
+def residual(
+    name: str, values: Array | float, meaning: str, scale: Array | float = 1.0, where: Sequence[str] = ()
+) -> Residual:
+    """Largest size of `values` over `scale` as a residual, and the place in `where` of it.
+
+    Nothing over nothing is zero; something over nothing, and NaN, is infinite.
+    """
+    size, scale = np.abs(np.atleast_1d(values)), np.broadcast_to(scale, np.shape(np.atleast_1d(values)))
+    shares = np.where(size == 0.0, 0.0, np.inf)
+    np.divide(size, scale, out=shares, where=(scale > 0.0) & np.isfinite(scale) & np.isfinite(size))
+    if not len(shares):
+        return Residual(name, 0.0, meaning)
+    k = int(shares.argmax())
+    return Residual(name, float(shares[k]), meaning, where[k] if len(where) else "")
 
 
-def static_residuals(problem: LimitProblem, load_factor: float, stresses: Array) -> tuple[Residual, ...]:
-    """Residuals of the static theorem, Eqs (56) and (57), in mean block weights."""
-    unbalanced = problem.dead + load_factor * problem.live - problem.C.T @ stresses
-    margin = problem.cones.margin(problem.F @ stresses + problem.g)
+@dataclass(frozen=True, eq=False)
+class Measure:
+    """What a state is measured by; see the module."""
+
+    problem: LimitProblem
+    state: State
+
+    @cached_property
+    def block(self) -> Array:
+        """What acts on each block, in its unit of force, shape (n,)."""
+        p, z = self.problem, self.state
+        acting = abs(p.C).T @ np.abs(z.x) + np.abs(p.dead) + np.abs(z.load_factor * p.live)
+        return np.asarray(acting.reshape(-1, 6).max(axis=1))
+
+    @cached_property
+    def interface(self) -> Array:
+        """What acts on the lesser of the free blocks of each interface, in its unit of force, (m,)."""
+        p, force = self.problem, self.block * self.problem.units.block_force
+        least = np.where(p.ends >= 0, force[p.ends], np.inf).min(axis=1)
+        return np.asarray(least / p.units.interface_force)
+
+    @cached_property
+    def speed(self) -> float:
+        """Largest speed of a block, rotations times its length, per unit power; newton to the -1."""
+        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
+        return float((rates / self.problem.units.block_force).max())
+
+    @cached_property
+    def work(self) -> float:
+        """Power of the live load, or SMALL_POWER of that of all forces where it is less."""
+        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
+        return max(abs(self.state.load_factor), SMALL_POWER * float(self.block @ rates))
+
+    @cached_property
+    def power(self) -> Array:
+        """Power by which the rates of each interface are measured, shape (m,)."""
+        own = self.interface * self.problem.units.interface_force * self.speed
+        return np.asarray(np.minimum(own, self.work))
+
+
+def largest_of(problem: LimitProblem, values: Array) -> Array:
+    """Largest size of values of generalised stresses (s,) at each interface, shape (m,)."""
+    found = np.zeros(len(problem.interfaces))
+    np.maximum.at(found, problem.stress_interface, np.abs(values))
+    return found
+
+
+def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tuple[Residual, ...]:
+    """Residuals of the static theorem, Eqs (56) and (57)."""
+    none = np.zeros(0)
+    measure = Measure(problem, State(load_factor, x, none, none))
+    unbalanced = problem.dead + load_factor * problem.live - problem.C.T @ x
+    margin = problem.cones.margin(problem.F @ x + problem.g)
+    k = problem.member_interface
+    rows = problem.units.row[problem.cones.heads]
     return (
-        residual("equilibrium", unbalanced, "largest unbalanced force or moment, Eq. (56)"),
-        residual("yield", np.minimum(margin, 0.0), "largest violation of a yield function, Eq. (57)"),
+        residual(
+            "equilibrium",
+            np.abs(unbalanced).reshape(-1, 6).max(axis=1),
+            "unbalanced force or moment over what acts on the block, Eq. (56)",
+            measure.block,
+            problem.blocks,
+        ),
+        residual(
+            "yield",
+            np.minimum(margin, 0.0) * rows,
+            "violation of a yield function over what acts on the block, Eq. (57)",
+            measure.interface[k],
+            [problem.interfaces[i] for i in k],
+        ),
     )
 
 
-def kinematic_residuals(
-    problem: LimitProblem, load_factor: float, displacement_rates: Array, multipliers: Array
-) -> tuple[Residual, ...]:
-    """Residuals of the kinematic theorem for the associated flow, Eqs (54), (55) and (58).
-
-    The displacement rates are measured so that the live load, of unit resultant, does unit work.
-    """
-    strain_rates = problem.C @ displacement_rates
-    work = problem.live @ displacement_rates
-    power = problem.g @ multipliers - problem.dead @ displacement_rates
-    excess = (power - load_factor) / max(abs(load_factor), SMALL_LOAD)
+def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
+    """Residuals of the mechanism, Eqs (54), (55) and (58), measured by the power of the state's forces."""
+    p, measure = flow.problem, Measure(flow.problem, state)
+    strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
+    k = p.member_interface
+    negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads]
     return (
-        residual("flow", strain_rates + problem.F.T @ multipliers, "compatibility and flow rule, Eq. (54)"),
-        residual("normalisation", work - 1.0, "work of the live load less one, Eq. (55)"),
+        residual(
+            "flow",
+            largest_of(p, strain_rates) * measure.interface,
+            "compatibility and flow rule, Eq. (54), over the power of the interface's own force",
+            measure.power,
+            p.interfaces,
+        ),
+        residual("normalisation", p.live @ state.u - 1.0, "work of the live load less one, Eq. (55)"),
         residual(
             "multipliers",
-            np.minimum(problem.cones.margin(multipliers), 0.0),
-            "most negative flow multiplier, Eq. (58)",
+            negative * measure.interface[k],
+            "negative flow multiplier, Eq. (58), over the power of the interface's own force",
+            measure.power[k],
+            [p.interfaces[i] for i in k],
         ),
-        residual("power", excess, "dissipation less work of the dead loads against the load factor"),
+    )
+
+
+def mcp_residuals(flow: Flow, state: State) -> Residuals:
+    """Recompute the residuals of Eqs (54)-(59) of a dimensionless state.
+
+    Complementarity is judged row by row and cone by cone, as the size of the Jordan product (F x + g) o y: on
+    a cone it is in proportion to the angle between the slip and the shear force. Without dissipation at every
+    interface the theorems that enclose the load factor do not hold.
+    """
+    p, measure = flow.problem, Measure(flow.problem, state)
+    product = p.cones.norm(p.cones.product(p.F @ state.x + p.g, state.y))
+    k = p.member_interface
+    return Residuals(
+        (
+            *static_residuals(p, state.load_factor, state.x),
+            *kinematic_residuals(flow, state),
+            residual(
+                "complementarity",
+                product,
+                "yield function times multiplier, Eq. (59), over the power of the interface's own force",
+                measure.power[k],
+                [p.interfaces[i] for i in k],
+            ),
+            residual(
+                "dissipation",
+                np.minimum(flow.dissipation(state.x, state.y), 0.0),
+                "power that an interface gives instead of taking it up, over that of its own force",
+                measure.power,
+                p.interfaces,
+            ),
+        )
+    )
+
+
+def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
+    """Recompute every residual of a pair of bounds; the state's load factor is the lower one."""
+    p, measure = flow.problem, Measure(flow.problem, state)
+    power = p.g @ state.y - p.dead @ state.u
+    return Residuals(
+        (
+            *static_residuals(p, state.load_factor, state.x),
+            *kinematic_residuals(flow, state),
+            residual(
+                "power",
+                power - upper,
+                "dissipation less work of the dead loads against the upper bound",
+                measure.work,
+            ),
+            residual("gap", upper - state.load_factor, "gap between the bounds", measure.work),
+        )
     )
 
 
 def relative_gap(lower: float, upper: float) -> float:
-    """Return |upper - lower| over the larger bound, or over a tenth of a block weight if both are less."""
-    return abs(upper - lower) / max(abs(lower), abs(upper), SMALL_LOAD)
+    """Return |upper - lower| over the larger bound; 0 where both are zero."""
+    largest = max(abs(lower), abs(upper))
+    return abs(upper - lower) / largest if largest > 0.0 else 0.0
 
 
-def worth_of_violations(
-    problem: LimitProblem, lower: float, stresses: Array, rates: Array, multipliers: Array
-) -> float:
+def worth_of_violations(problem: LimitProblem, state: State) -> float:
     """Return what the violations of a pair of bounds may be worth in the load factor, dimensionless.
 
     With r the unbalanced loads, f = C u + F^T y and s = F x + g, identically
     upper - lower = s.y - x.f - r.u + lower (live.u - 1), and s.y >= 0 for s and y in K. All other terms, and
     those that put s and y into K, are added up in size: violations of 1e-10 may hide a gap of 1e-6.
     """
-    s = problem.F @ stresses + problem.g
-    unbalanced = problem.dead + lower * problem.live - problem.C.T @ stresses
-    flow = problem.C @ rates + problem.F.T @ multipliers
-    groups = [first + size * np.arange(count) for first, count, size in problem.cones.blocks]
-    heads = np.concatenate([np.arange(problem.cones.linear), *groups])
-    outside = [np.maximum(-problem.cones.margin(rows), 0.0) for rows in (s, multipliers)]
+    x, u, y, cones = state.x, state.u, state.y, problem.cones
+    s = problem.F @ x + problem.g
+    unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ x
+    flow = problem.C @ u + sparse.csr_array(problem.F.T) @ y
+    outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(
-        np.abs(stresses) @ np.abs(flow)
-        + np.abs(unbalanced) @ np.abs(rates)
-        + abs(lower * (problem.live @ rates - 1.0))
-        + outside[0] @ np.abs(multipliers[heads])
-        + outside[1] @ np.abs(s[heads])
+        np.abs(x) @ np.abs(flow)
+        + np.abs(unbalanced) @ np.abs(u)
+        + abs(state.load_factor * (problem.live @ u - 1.0))
+        + outside[0] @ np.abs(y[cones.heads])
+        + outside[1] @ np.abs(s[cones.heads])
     )

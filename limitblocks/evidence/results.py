@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals
+from limitblocks.problem import Turning
 
 
 class Status(Enum):
@@ -74,8 +75,14 @@ class Nonassociated:
         Whether it converged.
     history : tuple of Iteration
         The outer loop.
+    dead_load_stresses : Array, shape (s,)
+        Generalised stresses, N and N m, that carry the dead loads alone.
     dilatancy : float
         Tangent of the dilatancy angle.
+    turning : Turning
+        What twisting under bending turns about.
+    remarks : tuple of str
+        What a reader of the load factor should know, such as a shear that polyhedral friction locks.
     tolerance : float
         Largest residual of a converged solution.
     digest : str
@@ -89,10 +96,13 @@ class Nonassociated:
     generalised_stresses: Array
     displacement_rates: Array
     flow_multipliers: Array
+    dead_load_stresses: Array
     residuals: Residuals
     status: Status
     history: tuple[Iteration, ...] = field(repr=False)
     dilatancy: float
+    turning: Turning
+    remarks: tuple[str, ...]
     tolerance: float
     digest: str
 
@@ -107,7 +117,7 @@ class Nonassociated:
         return (
             f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} "
             f"(frictionless) and {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}){word}"
+            f"worst residual {worst.value:.1e} ({worst.name}){word}{''.join(f'; {r}' for r in self.remarks)}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -119,6 +129,8 @@ class Nonassociated:
             "associated": self.associated,
             "status": self.status.value,
             "dilatancy": self.dilatancy,
+            "turning": self.turning.value,
+            "remarks": list(self.remarks),
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "history": [asdict(iteration) for iteration in self.history],
@@ -126,6 +138,7 @@ class Nonassociated:
             "generalised_stresses": self.generalised_stresses.tolist(),
             "displacement_rates": self.displacement_rates.tolist(),
             "flow_multipliers": self.flow_multipliers.tolist(),
+            "dead_load_stresses": self.dead_load_stresses.tolist(),
             "model_digest": self.digest,
         }
 

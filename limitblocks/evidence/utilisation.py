@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array
 from limitblocks.joints.rows import hinge_gradients
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
+from limitblocks.problem.cones import ratio
 
-NOISE = 1e-9  # of the mean block weight: a strength below it counts as none
+NOISE = 1e-9  # of the unit of force of an interface: a strength below it counts as none
 
 
 def utilisation(model: Model, stresses: Array) -> Array:
@@ -34,42 +32,17 @@ def utilisation(model: Model, stresses: Array) -> Array:
     V1, V2, N = (problem.resultants[k::6].tocsr() for k in range(3))
     normal = np.zeros(len(x))
     normal[N.indices] = 1.0
-    share = _shares(problem, problem.F @ (x * normal) + problem.g, problem.F @ (x * (1.0 - normal)))
+    held, rest = problem.F @ (x * normal) + problem.g, problem.F @ (x * (1.0 - normal))
     used = np.zeros(len(problem.interfaces))
-    np.maximum.at(used, _first_rows(problem), share)
+    np.maximum.at(used, problem.member_interface, problem.cones.share(held, rest, NOISE))
     points = np.flatnonzero(np.diff(N.indptr) > 1)  # rows that act on the forces of points
     if len(points):
         sizes = np.hypot(x[V1.indices], x[V2.indices])
         owner = np.repeat(np.arange(len(used)), np.diff(V1.indptr))
         friction = np.bincount(owner, weights=sizes, minlength=len(used))[points]
-        used[points] = _ratio(friction, problem.friction[points] * -(N @ x)[points])
+        used[points] = ratio(friction, problem.friction[points] * -(N @ x)[points], NOISE)
         Q = (problem.resultants @ x).reshape(-1, 6)
         for k in points.tolist():
-            h = hinge_gradients(model.interfaces[k].polygon[None] / problem.scales.length)[0]
-            used[k] = max(used[k], float(_ratio((h[:, 3:] @ Q[k, 3:]).max(), -Q[k, 2])))
+            h = hinge_gradients(model.interfaces[k].polygon[None] / problem.units.interface_length[k])[0]
+            used[k] = max(used[k], float(ratio((h[:, 3:] @ Q[k, 3:]).max(), -Q[k, 2], NOISE)))
     return used
-
-
-def _first_rows(problem: LimitProblem) -> Indices:
-    """Interface of each linear row and of each cone."""
-    cones = [first + size * np.arange(count) for first, count, size in problem.cones.blocks]
-    return np.asarray(problem.row_interface[np.concatenate([np.arange(problem.cones.linear), *cones])])
-
-
-def _shares(problem: LimitProblem, held: Array, rest: Array) -> Array:
-    """Least s >= 0 of each linear row and each cone for which s held + rest is in it: 1 at yield."""
-    n = problem.cones.linear
-    parts = [_ratio(-rest[:n], held[:n])]
-    for first, count, size in problem.cones.blocks:
-        a, b = (v[first : first + count * size].reshape(count, size) for v in (held, rest))
-        signs = np.r_[1.0, -np.ones(size - 1)]
-        aa, ab, bb = (a * a) @ signs, (a * b) @ signs, (b * b) @ signs
-        parts.append(_ratio(np.sqrt(np.maximum(ab**2 - aa * bb, 0.0)) - ab, aa))
-    return np.concatenate(parts)
-
-
-def _ratio(used: Any, available: Any) -> Array:
-    """Quotient in 0 to 1; where nothing is available it is 1 if anything is used."""
-    safe = np.where(available > NOISE, available, 1.0)
-    share = np.where(available > NOISE, np.clip(used / safe, 0.0, 1.0), used > NOISE)
-    return np.asarray(share, dtype=float)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.evidence.check import Claim
+from limitblocks.evidence.claim import Claim
 from limitblocks.io import faults, strict_json
 from limitblocks.model import Model
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -32,7 +33,7 @@ class YieldRows:
         Constant terms: cohesion and strength; zero for a dry joint of infinite strength.
     pivot : Array, shape (m, r)
         Normal rotation rate per unit multiplier that a row turns about (e1, e2); zero for other rows.
-    reach : Array, shape (m, 2)
+    half_sides : Array, shape (m, 2)
         Largest |e1|, |e2| for the pivot: the half sides of a rectangle.
     resultants : Array, shape (m, 6, s)
         Q = resultants x.
@@ -40,8 +41,8 @@ class YieldRows:
         Number of rows in the nonnegative orthant.
     cones : tuple of int
         Sizes of the second-order cones that follow; they add up to r - linear.
-    modes : tuple of str
-        Failure mode of each row, in the paper's words.
+    modes : tuple of Mode or str
+        Failure mode of each row, in the paper's words; see :class:`limitblocks.problem.Mode`.
     friction : float
         Friction coefficient: the dilatancy (tangent of its angle) at which the flow becomes associated.
     """
@@ -50,11 +51,11 @@ class YieldRows:
     g: Array
     G: Array
     pivot: Array
-    reach: Array
+    half_sides: Array
     resultants: Array
     linear: int
     cones: tuple[int, ...]
-    modes: tuple[str, ...]
+    modes: Sequence[str]
     friction: float
 
 

@@ -1,4 +1,4 @@
-"""The paper's yield surface (Orduña & Lourenço 2005, Part I, Section 4) and its safe and unsafe relatives."""
+"""The yield surface of Orduña & Lourenço (2005, Part I, Section 4), with round or polygonal friction."""
 
 from __future__ import annotations
 
@@ -33,12 +33,16 @@ SLIP_FORCE = 1.3  # of V0: where the planes (27)-(29) meet the axis T = 0
 class OrdunaLourenco(Queries):
     """Yield surface of Orduña & Lourenço (2005): Eqs (23)-(30) and (36) or (39) on a convex polygon.
 
-    Planes for twist (2), slip (8), shear with torsion (16), bending with torsion (8) and hinging (one
-    a side): 38 on a quadrilateral. An engineering approximation:
+    Planes for twist (2), bending with torsion (8) and hinging (one a side), and cones for slip (1) and shear
+    with torsion (2): Coulomb's circle, where the paper puts an octagon. An engineering approximation:
 
-    - the slip octagon, Eqs (24)-(26), is drawn around the Coulomb circle: it overestimates the shear
-      strength by up to 1/cos(22.5 deg) - 1 = 8.2 % between its eight contact directions; `slip` offers
-      safe polygons and the circle itself;
+    - the circle is exact for shear, with any flow. The paper's octagon, Eqs (24)-(26), is drawn around it:
+      slip "paper", 38 planes on a quadrilateral, with associated flow up to 1/cos(22.5 deg) - 1 = 8.2 %
+      too strong between its eight contact directions;
+    - without dilatancy no polygon, inner ones included, is on a safe side: as a joint slides along the
+      contact direction of a side, its shear force may be anywhere on that side, up to mu |N| tan(pi/sides)
+      across the slip. The answer is then an interval of load factors: a wedge pushed along a groove of half
+      angle w needs mu / sin w, and the octagon allows less and more;
     - Eqs (27)-(29) neglect the aspect ratio of the interface: against uniform pressure on a rectangle they
       overestimate torsion near pure shear (by 0.3 T0 at V0) and may underestimate it in between, by up to
       0.18 T0;
@@ -59,12 +63,14 @@ class OrdunaLourenco(Queries):
     compressive_strength : float, optional
         Effective strength fcef, Pa (Eqs 41-42: :func:`~limitblocks.joints.interaction.effective_strength`);
         infinite unless given.
-    slip : {"paper", "inner", "outer", "exact"}
-        The Coulomb circle of Eqs (24)-(29) as the paper's octagon, a polygon within or around it, or itself
-        (second-order cones). In Eqs (27)-(29) the shear force is measured by the same polygon or circle.
+    slip : {"exact", "paper", "inner", "outer"}
+        The Coulomb circle of Eqs (24)-(29) itself (second-order cones), as the paper's octagon, or as a
+        polygon within it or around it. In Eqs (27)-(29) the shear force is measured by the same circle or
+        polygon. With associated flow "inner" is safe for shear, "outer" and "paper" are unsafe; without
+        dilatancy only "exact" has one answer. Polygons keep `bounds` a linear program, and are slower.
     sides : int
-        Sides of the inner or outer polygon, at least 3; too weak by up to 1 - cos(pi/sides), or too strong
-        by up to 1/cos(pi/sides) - 1.
+        Sides of the inner or outer polygon, at least 3; with associated flow too weak by up to
+        1 - cos(pi/sides), or too strong by up to 1/cos(pi/sides) - 1.
     cohesion, tensile_strength : float
         Pa; mu |N| becomes mu |N| + A cohesion in Eqs (23)-(30), and N becomes N - A tensile_strength in
         hinging. With friction, tension is limited to A cohesion / mu, too.
@@ -77,7 +83,7 @@ class OrdunaLourenco(Queries):
 
     friction: float
     compressive_strength: float | None = None
-    slip: Literal["paper", "inner", "outer", "exact"] = "paper"
+    slip: Literal["exact", "paper", "inner", "outer"] = "exact"
     sides: int = 8
     cohesion: float = 0.0
     tensile_strength: float = 0.0
@@ -86,11 +92,12 @@ class OrdunaLourenco(Queries):
         checked_friction(self.friction)
         if self.compressive_strength is not None:
             checked_stress("compressive strength", self.compressive_strength, positive=True)
-        checked_choice("slip", self.slip, ("paper", "inner", "outer", "exact"))
+        checked_choice("slip", self.slip, ("exact", "paper", "inner", "outer"))
         checked_count("sides", self.sides, 3)
-        if self.slip == "paper" and self.sides != 8:
+        if self.slip in ("exact", "paper") and self.sides != 8:
+            shape = "a circle" if self.slip == "exact" else "an octagon"
             raise ModelError(
-                f"sides is {self.sides}, but slip='paper' is an octagon; choose slip='inner' or 'outer'"
+                f"sides is {self.sides}, but slip={self.slip!r} is {shape}; choose slip='inner' or 'outer'"
             )
         checked_stress("cohesion", self.cohesion)
         checked_stress("tensile strength", self.tensile_strength)

@@ -15,6 +15,7 @@ from limitblocks.joints.cutting_planes import farthest
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.question import OUTSIDE, Question
 from limitblocks.joints.rows import shear_directions
+from limitblocks.problem import Mode, Turning
 
 
 @dataclass(frozen=True, repr=False)
@@ -37,7 +38,8 @@ class PointContact(Queries):
     points : int
         Points on each side, its first corner included; 1 is the corners alone.
     cone : {"exact", "inner", "outer"}
-        The Coulomb circle of each point itself, or a polygon within it (safe) or around it (unsafe).
+        The Coulomb circle of each point itself, or a polygon within it or around it: safe or unsafe with
+        associated flow. Without dilatancy polygons give an interval of load factors, on neither side.
     sides : int
         Sides of the inner or outer polygon, at least 3: too weak by up to 1 - cos(pi/sides), or too strong
         by up to 1/cos(pi/sides) - 1.
@@ -82,15 +84,21 @@ class PointContact(Queries):
             g=np.zeros((m, len(rows))),
             G=np.broadcast_to(flow, (m, *flow.shape)),
             pivot=np.zeros((m, len(rows))),
-            reach=np.abs(polygons).max(axis=1),
+            half_sides=np.abs(polygons).max(axis=1),
             resultants=resultants,
             linear=n if conic else n + sliding,
             cones=(3,) * (sliding // 3) if conic else (),
-            modes=("open",) * n + ("slip",) * sliding,
+            modes=(Mode.OPEN,) * n + (Mode.SLIP,) * sliding,
             friction=self.friction,
         )
 
-    def flow_directions(self, interface: Interface, Q: Any, dilatancy: float = 0.0) -> Array:
+    def flow_directions(
+        self,
+        interface: Interface,
+        Q: Any,
+        dilatancy: float = 0.0,
+        turning: Turning | str = Turning.CENTROID,
+    ) -> Array:
         """Raise ModelError: rows flow at a point, and only rigid motions of all points are strain rates."""
         raise ModelError(
             "PointContact has no flow directions in stress resultants; its rows act on the forces of points"
@@ -110,10 +118,10 @@ class PointContact(Queries):
         held = Q * [0, 0, 1, 0, 0, 0] / question.unit
         d = Q / question.unit - held
         if held[2] > OUTSIDE or not d.any():
-            return ("open",) if held[2] > OUTSIDE else ()
+            return (Mode.OPEN,) if held[2] > OUTSIDE else ()
         t, work = farthest(question.rows, held, d)
         if held[2] >= -OUTSIDE:
-            return () if t > 1.0 else ("open",)
+            return () if t > 1.0 else (Mode.OPEN,)
         if t > 1.0 + tolerance:
             return ()
         moving = work > tolerance * work.max(initial=0.0)

@@ -18,8 +18,7 @@ from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import YieldRows
 from limitblocks.joints.question import OUTSIDE, Question
 from limitblocks.joints.torsion import as_region
-
-SMALL_FORCE = 1e-9  # of the size of a stress state: the epsilon of Table 5
+from limitblocks.problem import Flow, Turning, checked_dilatancy, turning_of
 
 
 def interface(polygon: Any, joint: object) -> Interface:
@@ -125,7 +124,13 @@ class Queries:
         question = self._question(interface, Q)
         return self._active(question, Q, tolerance)
 
-    def flow_directions(self, interface: Interface, Q: Any, dilatancy: float = 0.0) -> Array:
+    def flow_directions(
+        self,
+        interface: Interface,
+        Q: Any,
+        dilatancy: float = 0.0,
+        turning: Turning | str = Turning.CENTROID,
+    ) -> Array:
         """Return the flow directions of all yield functions at Q, Tables 3, 5 and 6.
 
         Parameters
@@ -137,36 +142,29 @@ class Queries:
         dilatancy : float
             Tangent of the dilatancy angle, 0 to friction: zero is the paper's flow, friction the associated
             one, linear in between. Hinging is associated always.
+        turning : {"centroid", "centre of pressure"}
+            What twisting under bending turns about; the second is the paper's Table 5, with e1 = -M2 / N and
+            e2 = M1 / N.
 
         Returns
         -------
         Array, shape (k, 6)
             (ds1, ds2, dn, dth1, dth2, dthn) per unit multiplier, m/N and 1/(N m) apart; one row for each
-            plane and then one for each cone, as in `yield_rows`. In Table 5, e1 = -M2 N / (N^2 + eps^2) and
-            e2 = M1 N / (N^2 + eps^2), eps 1e-9 of the forces, are kept within the half sides.
+            plane and then one for each cone, as in `yield_rows`.
 
         Raises
         ------
         ModelError
-            If the dilatancy is out of range.
+            If the dilatancy is out of range or the turning unknown.
         """
         Q = _six(Q, "Q")
         length = float(np.sqrt(areas(interface.polygon)))
         question = self._question(interface, Q if Q.any() else np.array([0, 0, -1.0, 0, 0, 0]))
-        rows = question.rows
-        if not 0.0 <= dilatancy <= rows.friction:
-            raise ModelError(
-                f"dilatancy is {dilatancy!r}, expected 0 to the friction coefficient {rows.friction:g}"
-            )
-        F, G = rows.F[0] @ rows.resultants[0].T, rows.G[0] @ rows.resultants[0].T
-        _, _, N, M1, M2, _ = Q / question.unit
-        e = np.array([-M2, M1]) * N / (N**2 + SMALL_FORCE**2)
-        e1, e2 = np.clip(e, -rows.reach[0], rows.reach[0])
-        G = G - np.outer(rows.pivot[0], [e2, -e1, 0, 0, 0, 0])
-        if dilatancy > 0.0:
-            G = G + dilatancy / rows.friction * (F - G)
-        flow = question.flow(G, question.stresses(Q)) / np.repeat([1.0, length], 3)
-        return np.asarray(flow + 0.0)  # -0.0 becomes 0.0
+        problem = question.problem
+        flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
+        x = question.stresses(Q)
+        found = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)
+        return np.asarray(found / np.repeat([1.0, length], 3) + 0.0)  # -0.0 becomes 0.0
 
     def _question(self, interface: Interface, Q: Array) -> Question:
         """Rows of the interface in units of the root of its area and of the size of the stresses Q."""
@@ -183,7 +181,7 @@ class Queries:
             return np.nan
         if np.isnan(dx).any():
             return 0.0  # a stress that the interface has no component for
-        return np.nan if question.margins(x).min() < -OUTSIDE else question.reach(x, dx)
+        return np.nan if question.margins(x).min() < -OUTSIDE else question.longest(x, dx)
 
     def _active(self, question: Question, Q: Array, tolerance: float) -> tuple[str, ...]:
         margins = question.margins(question.stresses(Q))

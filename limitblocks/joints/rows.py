@@ -13,6 +13,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import YieldRows
+from limitblocks.problem import Mode
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,7 +24,7 @@ class Rows:
     second-order cones of that size, one after the other.
     """
 
-    mode: str
+    mode: Mode
     F: Array
     G: Array
     g: Array
@@ -40,7 +41,7 @@ def frictional(mode: str, F: Array, g: Array, size: int = 0) -> Rows:
     G = F.copy()
     G[..., 2:5] = 0.0
     bent = F[..., 3:5].any(axis=-1)
-    return Rows(mode, F, G, np.broadcast_to(g, F.shape[:2]), np.where(bent, -F[..., 5], 0.0), size)
+    return Rows(Mode(mode), F, G, np.broadcast_to(g, F.shape[:2]), np.where(bent, -F[..., 5], 0.0), size)
 
 
 def hinging(
@@ -64,13 +65,13 @@ def hinging(
     area = areas(polygons)[:, None] / stress_unit
     pull = np.broadcast_to(tensile_strength * area, (m, n))
     if compressive_strength is None:
-        return Rows("hinge", -h, -h, pull, np.zeros((m, n)))
+        return Rows(Mode.HINGE, -h, -h, pull, np.zeros((m, n)))
     root = 2.0 / np.sqrt((compressive_strength + tensile_strength) * area)
     across = np.zeros_like(h)
     across[..., 2] = root
     F = np.stack([-h, h, across], axis=2).reshape(m, 3 * n, 6)
     g = np.stack([1.0 + pull, 1.0 - pull, -root * pull], axis=2).reshape(m, 3 * n)
-    return Rows("crush", F, F, g, np.zeros((m, 3 * n)), size=3)
+    return Rows(Mode.CRUSH, F, F, g, np.zeros((m, 3 * n)), size=3)
 
 
 def hinge_gradients(polygons: Array) -> Array:
@@ -97,11 +98,11 @@ def shear_directions(slip: str, sides: int) -> Array:
     return d
 
 
-def stacked(groups: Sequence[Rows], reach: Array, friction: float, shear: bool = True) -> YieldRows:
+def stacked(groups: Sequence[Rows], half_sides: Array, friction: float, shear: bool = True) -> YieldRows:
     """Put groups of rows together, linear ones first; without `shear` the stresses are N, M1, M2 only."""
     groups = sorted(groups, key=lambda group: group.size > 0)
     stresses = slice(None) if shear else slice(2, 5)
-    m = len(reach)
+    m = len(half_sides)
 
     def joined(name: str) -> Array:
         return np.concatenate([getattr(group, name) for group in groups], axis=1)
@@ -112,7 +113,7 @@ def stacked(groups: Sequence[Rows], reach: Array, friction: float, shear: bool =
         g=joined("g"),
         G=joined("G")[:, :, stresses],
         pivot=joined("pivot"),
-        reach=reach,
+        half_sides=half_sides,
         resultants=np.broadcast_to(np.eye(6), (m, 6, 6))[:, :, stresses],
         linear=sum(count for count, group in zip(counts, groups, strict=True) if group.size == 0),
         cones=tuple(

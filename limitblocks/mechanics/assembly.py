@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import sparse
@@ -15,7 +15,7 @@ from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
-from limitblocks.problem import Cones, LimitProblem, Scales
+from limitblocks.problem import Cones, LimitProblem, Mode, Units, power_of_two
 
 
 @dataclass(frozen=True)
@@ -50,81 +50,138 @@ def limit_problem(
     ModelError
         If the live load is zero, or neither load has a force to scale with.
     """
-    scales = _scales(free, dead, live)
-    groups, cones = _grouped(interfaces, scales)
+    units = _units(free, interfaces, dead, live)
+    groups, cones = _grouped(interfaces, units)
     n_stresses = sum(group.column_index.size for group in groups)
     resultants = _blocks(
         [(g.rows.resultants, 6 * g.interfaces[:, None] + np.arange(6), g.column_index) for g in groups],
         (6 * len(interfaces), n_stresses),
     )
-    n_rows = sum(group.row_index.size for group in groups)
 
     def per_row(name: str) -> sparse.csr_array:
         parts = [(getattr(g.rows, name), g.row_index, g.column_index) for g in groups]
-        return _blocks(parts, (n_rows, n_stresses))
+        return _blocks(parts, (cones.height, n_stresses))
 
-    g, pivot = np.zeros(n_rows), np.zeros(n_rows)
-    row_interface = np.zeros(n_rows, dtype=np.int64)
-    row_mode = np.empty(n_rows, dtype=object)
-    reach, friction = np.zeros((len(interfaces), 2)), np.zeros(len(interfaces))
+    g, pivot = np.zeros(cones.height), np.zeros(cones.height)
+    row_interface = np.zeros(cones.height, dtype=np.int64)
+    row_mode = np.empty(cones.height, dtype=object)
+    half_sides, friction = np.zeros((len(interfaces), 2)), np.zeros(len(interfaces))
     for group in groups:
         g[group.row_index], pivot[group.row_index] = group.rows.g, group.rows.pivot
         row_interface[group.row_index] = group.interfaces[:, None]
-        row_mode[group.row_index] = np.array(group.rows.modes, dtype=object)
-        reach[group.interfaces], friction[group.interfaces] = group.rows.reach, group.rows.friction
+        row_mode[group.row_index] = np.array(_modes(group.rows), dtype=object)
+        half_sides[group.interfaces] = group.rows.half_sides
+        friction[group.interfaces] = group.rows.friction
     row_interface.flags.writeable = False
-    unit = scales.resultants
+    F = per_row("F")
+    units = replace(units, row=_row_units(F, cones))
+    rows = sparse.diags_array(1.0 / units.row)
+    ends = _ends(free, interfaces)
     return LimitProblem(
-        C=(resultants.T @ _compatibility(free, interfaces, scales)).tocsr(),
-        dead=read_only((dead / unit).ravel()),
-        live=read_only((live / (unit * scales.live)).ravel()),
-        F=per_row("F"),
-        g=read_only(g),
-        G=per_row("G"),
+        C=(resultants.T @ _compatibility(free, interfaces, ends, units)).tocsr(),
+        dead=read_only(dead.ravel() / units.loads),
+        live=read_only(live.ravel() / (units.loads * units.live)),
+        F=sparse.csr_array(rows @ F),
+        g=read_only(g / units.row),
+        G=sparse.csr_array(rows @ per_row("G")),
         cones=cones,
-        pivot=read_only(pivot),
-        reach=read_only(reach),
+        pivot=read_only(pivot / units.row),
+        half_sides=read_only(half_sides),
         resultants=resultants,
-        compliance=read_only(_compliance(resultants, interfaces, scales)),
+        compliance=read_only(_compliance(resultants, interfaces, units)),
+        ends=ends,
         row_interface=row_interface,
         row_mode=tuple(row_mode),
         friction=read_only(friction),
-        scales=scales,
+        units=units,
         blocks=tuple(block.name for block in free),
         interfaces=tuple(interface.name for interface in interfaces),
     )
 
 
-def _scales(free: Sequence[Block], dead: Array, live: Array) -> Scales:
-    """Mean block weight and length, and the live load's resultant, sum of |f| + |m| / length, over it."""
-    length = float(np.mean([np.cbrt(block.volume) for block in free]))
+def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, live: Array) -> Units:
+    """Every block measured by the loads that must go through it, every interface by its lighter block."""
+    length = power_of_two(np.array([block.size for block in free]) / 2.0)
 
-    def magnitude(load: Array) -> float:
-        return float(
-            (np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length).sum()
-        )
+    def magnitude(load: Array) -> Array:
+        return np.asarray(np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length)
 
-    if magnitude(live) == 0.0:
+    if not magnitude(live).any():
         raise ModelError("the live load is zero on every free block, expected a force or moment to multiply")
-    force = (magnitude(dead) or magnitude(live)) / len(free)
-    return Scales(force=force, length=length, live=magnitude(live) / force)
+    own, push = magnitude(dead), magnitude(live)
+    own = np.where(own > 0.0, own, push * (own.sum() / push.sum() or 1.0))
+    ends = _ends(free, interfaces)
+    block = power_of_two(carried(own, ends))
+    return Units(
+        block_force=read_only(block),
+        block_length=read_only(length),
+        interface_force=read_only(np.where(ends >= 0, block[ends], np.inf).min(axis=1)),
+        interface_length=read_only(power_of_two([np.abs(i.polygon).max() for i in interfaces])),
+        live=float((push / block).sum()),
+        row=np.ones(0),
+    )
 
 
-def _grouped(interfaces: Sequence[Interface], scales: Scales) -> tuple[list[_Group], Cones]:
+def carried(own: Array, ends: Indices) -> Array:
+    """Forces (n,) that go through each block if every load takes its widest way to the supports.
+
+    Width is the least load of a block on the way, so that a heavy block uses a light one only where it must.
+    """
+    n = len(own)
+    floor = own[own > 0.0].min() * 1e-3  # weightless blocks, unless something goes through them
+    capacity = np.append(np.maximum(own, floor), np.inf)  # the supports are one node, the last
+    i, j = np.unique(np.sort(np.where(ends >= 0, ends, n), axis=1), axis=0).T
+    width = np.minimum(capacity[i], capacity[j])
+    rank = 1.0 + np.log(capacity[:n].max() / width)  # the widest ways make the tree of least rank
+    tree = sparse.csgraph.minimum_spanning_tree(
+        sparse.coo_array((rank, (i, j)), shape=(n + 1, n + 1)).tocsr()
+    )
+    order, towards = sparse.csgraph.breadth_first_order(tree, n, directed=False)
+    for k in order[:0:-1]:
+        capacity[towards[k]] = max(capacity[towards[k]], capacity[k])
+    return np.asarray(capacity[:n])
+
+
+def _modes(rows: YieldRows) -> list[Mode]:
+    try:
+        return [Mode(mode) for mode in rows.modes]
+    except ValueError as error:
+        words = ", ".join(repr(mode.value) for mode in Mode)
+        raise ModelError(f"a joint's failure mode: {error}; expected one of {words}") from None
+
+
+def _ends(free: Sequence[Block], interfaces: Sequence[Interface]) -> Indices:
+    """Places (m, 2) of blocks i and j among the free ones; -1 for a support."""
+    place = {block.name: k for k, block in enumerate(free)}
+    pairs = [(place.get(i.block_i, -1), place.get(i.block_j, -1)) for i in interfaces]
+    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+
+def _row_units(F: sparse.csr_array, cones: Cones) -> Array:
+    """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
+    largest = np.zeros(cones.degree)
+    np.maximum.at(largest, cones.member, abs(F).max(axis=1).toarray().ravel())
+    return read_only(power_of_two(np.where(largest > 0.0, largest, 1.0))[cones.member])
+
+
+def _grouped(interfaces: Sequence[Interface], units: Units) -> tuple[list[_Group], Cones]:
     """Ask each joint for its rows, and order all rows: linear ones first, then cones by size."""
     members = defaultdict(list)
     for k, interface in enumerate(interfaces):
-        members[joint_of(interface), len(interface.polygon)].append(k)
-    stress_unit = scales.force / scales.length**2
+        scale = float(units.interface_force[k]), float(units.interface_length[k])
+        members[joint_of(interface), len(interface.polygon), *scale].append(k)
     asked = []
-    for (joint, _), places in members.items():
-        polygons = np.stack([interfaces[k].polygon for k in places]) / scales.length
-        asked.append((np.array(places), joint.yield_rows(polygons, stress_unit)))
+    for (joint, _, force, length), places in members.items():
+        polygons = np.stack([interfaces[k].polygon for k in places]) / length
+        asked.append((np.array(places), joint.yield_rows(polygons, force / length**2)))
     linear = sum(rows.linear * len(found) for found, rows in asked)
     sizes = sorted({size for _, rows in asked for size in rows.cones})
     counts = {size: sum(rows.cones.count(size) * len(found) for found, rows in asked) for size in sizes}
     cones = Cones(linear, tuple((counts[size], size) for size in sizes))
-    next_row = {0: 0} | {size: first for first, _, size in cones.blocks}
+    firsts = {
+        size: int(index[0, 0]) for (_, size), index in zip(cones.second_order, cones.groups, strict=True)
+    }
+    next_row = {0: 0} | firsts
     groups, next_column = [], 0
     for found, rows in asked:
         m, stresses = len(found), rows.resultants.shape[2]
@@ -156,25 +213,29 @@ def _blocks(parts: list[tuple[Array, Indices, Indices]], shape: tuple[int, int])
 
 
 def _compatibility(
-    free: Sequence[Block], interfaces: Sequence[Interface], scales: Scales
+    free: Sequence[Block], interfaces: Sequence[Interface], ends: Indices, units: Units
 ) -> sparse.csr_array:
-    """Compatibility matrix of the paper, rows in stress resultants, lengths over the block length."""
-    place = {block.name: k for k, block in enumerate(free)}
-    block_i = np.array([place.get(interface.block_i, -1) for interface in interfaces])
-    block_j = np.array([place.get(interface.block_j, -1) for interface in interfaces])
+    """Compatibility matrix of the paper, rows in stress resultants, in the units of both."""
     at = np.stack([interface.centroid for interface in interfaces])
     centroids = np.stack([block.centroid for block in free])
     axes = np.stack([interface.axes for interface in interfaces])
-    at_i, at_j = (at - centroids[block_i]) / scales.length, (at - centroids[block_j]) / scales.length
-    return compatibility_matrix(axes, at_i, at_j, block_i, block_j, len(free))
+    block_i, block_j = ends.T
+    C = compatibility_matrix(
+        axes, at - centroids[block_i], at - centroids[block_j], block_i, block_j, len(free)
+    )
+    return sparse.csr_array(sparse.diags_array(units.resultants) @ C @ sparse.diags_array(1.0 / units.loads))
 
 
-def _compliance(resultants: sparse.csr_array, interfaces: Sequence[Interface], scales: Scales) -> Array:
-    """Strain per generalised stress at unit stiffness per area; forces of n points share the area."""
+def _compliance(resultants: sparse.csr_array, interfaces: Sequence[Interface], units: Units) -> Array:
+    """Strain per generalised stress at one stiffness per area; forces of n points share the area.
+
+    In the mean force and length of the interfaces, so that it is near one.
+    """
     inertia = np.ones((len(interfaces), 6))
+    length, force = units.interface_length, units.interface_force
     for n in {len(interface.polygon) for interface in interfaces}:
         these = [k for k, interface in enumerate(interfaces) if len(interface.polygon) == n]
-        polygons = np.stack([interfaces[k].polygon for k in these]) / scales.length
+        polygons = np.stack([interfaces[k].polygon for k in these]) / length[these, None, None]
         second = second_moments(polygons)
         inertia[these, :3] = areas(polygons)[:, None]
         inertia[these, 3:] = np.stack([second[:, 1], second[:, 0], second[:, 0] + second[:, 1]], axis=1)
@@ -182,4 +243,8 @@ def _compliance(resultants: sparse.csr_array, interfaces: Sequence[Interface], s
     share = squares.sum(axis=1) / inertia.ravel()
     is_force = np.tile([True, True, True, False, False, False], len(interfaces))
     forces, moments = squares.T @ (share * is_force), squares.T @ (share * ~is_force)
-    return np.asarray(np.where(forces > 0.0, forces, moments))
+    places = resultants.tocoo()
+    own = np.zeros(resultants.shape[1], dtype=int)
+    own[places.col] = places.row // 6
+    unit = force / length / (np.mean(force) / np.mean(length))
+    return np.asarray(np.where(forces > 0.0, forces, moments) * unit[own] ** 2)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from limitblocks.analysis.bounds import Bounds
+from limitblocks.evidence.associated import Bounds
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.model import Model

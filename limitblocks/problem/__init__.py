@@ -1,5 +1,20 @@
 """The dimensionless limit problem and its flow rule: numbers only, below joints and models."""
 
-from limitblocks.problem.limit_problem import Cones, LimitProblem, Scales
+from limitblocks.problem.cones import Cones
+from limitblocks.problem.flow import ASSOCIATED, Flow, Turning, checked_dilatancy, turning_of
+from limitblocks.problem.limit_problem import LimitProblem, State, Units, power_of_two
+from limitblocks.problem.modes import Mode
 
-__all__ = ["Cones", "LimitProblem", "Scales"]
+__all__ = [
+    "ASSOCIATED",
+    "Cones",
+    "Flow",
+    "LimitProblem",
+    "Mode",
+    "State",
+    "Turning",
+    "Units",
+    "checked_dilatancy",
+    "power_of_two",
+    "turning_of",
+]

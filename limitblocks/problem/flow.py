@@ -1,100 +1,152 @@
-"""Flow rule of a limit problem: the plastic potential at a stress state, Tables 3, 5 and 6."""
+"""THE flow rule: the plastic potential of a limit problem at a stress state, Tables 3, 5 and 6."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from enum import Enum
+from functools import cached_property
+
 import numpy as np
+import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.problem.limit_problem import LimitProblem
 
-SMALL_NORMAL_FORCE = 1e-3  # block weights; the epsilon of Table 5
 FARTHEST = 1.5  # of the half sides: states within the yield set stay below 1, iterates may stray
+ASSOCIATED = np.inf  # a dilatancy: at least the friction of every interface
 
 
-def dilatancy_share(problem: LimitProblem, dilatancy: float) -> Array:
-    """Return dilatancy over friction for each row, shape (R,): 0 zero dilatancy, 1 associated.
+class Turning(Enum):
+    """What an interface twists about when bending limits its torsion, Eq. (30).
 
-    Raises
-    ------
-    ModelError
-        If the dilatancy is negative or above the least friction coefficient.
+    The gradient of Eq. (30) at fixed N, M1, M2 is a twist about the centroid: it never does negative work.
+    The paper's Table 5 turns about the point where N acts, (e1, e2) = (-M2/N, M1/N), and can.
     """
+
+    CENTROID = "centroid"
+    PRESSURE = "centre of pressure"
+
+
+def turning_of(word: Turning | str) -> Turning:
+    """Return the turning that `word` names, or raise ModelError."""
+    try:
+        return Turning(word)
+    except ValueError:
+        choices = " or ".join(repr(turning.value) for turning in Turning)
+        raise ModelError(f"turning is {word!r}, expected {choices}") from None
+
+
+def checked_dilatancy(problem: LimitProblem, dilatancy: float) -> float:
+    """Return `dilatancy` if it is 0 to the least friction coefficient, else raise ModelError."""
     least = float(problem.friction.min())
     if not 0.0 <= dilatancy <= least:
         raise ModelError(
             f"dilatancy is {dilatancy!r}, expected 0 to the least friction coefficient, {least:g}"
         )
-    share = dilatancy / np.where(problem.friction > 0.0, problem.friction, 1.0)
-    return np.asarray(share[problem.row_interface])
+    return float(dilatancy)
 
 
-def plastic_potential(problem: LimitProblem, stresses: Array, dilatancy: float = 0.0) -> sparse.csr_array:
-    """Return G at a stress state, shape (R, s): the flow is C u = -G^T y, y in K*.
-
-    Twisting rows turn about (e1, e2) = (-M2/N, M1/N), Table 5. Where N is near 0 the quotient is noise, and
-    M N / (N^2 + eps^2) replaces M / N.
+@dataclass(frozen=True, eq=False)
+class Flow:
+    """The flow rule C u = -G(x)^T y, y in K*, of a limit problem.
 
     Parameters
     ----------
     problem : LimitProblem
         The structure.
-    stresses : Array, shape (s,)
-        Generalised stresses; they place the centre of the twisting rows.
     dilatancy : float
-        Tangent of the dilatancy angle of sliding and twisting, from 0 (Tables 3 and 5) to the friction
-        coefficient (G = F, associated); in between the two flows are mixed in proportion.
-
-    Raises
-    ------
-    ModelError
-        If the dilatancy is negative or above the least friction coefficient.
+        Tangent of the dilatancy angle of sliding and twisting: 0 (Tables 3 and 5), or up to the friction
+        coefficient of an interface, from where its flow is associated (G = F). In between the two are
+        mixed in proportion.
+    turning : Turning
+        What twisting under bending turns about.
+    softening : float
+        The epsilon of Table 5, M / (N - epsilon), over the force of the interface: the quotient is noise
+        where N is near zero.
     """
-    zero = sparse.csr_array(problem.G + _pivoted(problem, stresses))
-    if dilatancy == 0.0:
-        return zero
-    share = sparse.diags_array(dilatancy_share(problem, dilatancy))
-    return sparse.csr_array(zero + share @ (problem.F - zero))
 
+    problem: LimitProblem
+    dilatancy: float = 0.0
+    turning: Turning = Turning.CENTROID
+    softening: float = 1e-12
 
-def turning(
-    problem: LimitProblem, stresses: Array, multipliers: Array, dilatancy: float = 0.0
-) -> sparse.csr_array:
-    """Return the derivative of -G(x)^T y with respect to x at fixed y, shape (s, s)."""
-    m, B = len(problem.interfaces), problem.resultants
-    if not problem.pivot.any():
-        return sparse.csr_array((B.shape[1], B.shape[1]))
-    turn = problem.pivot * multipliers * (1.0 - dilatancy_share(problem, dilatancy))
-    spin = np.bincount(problem.row_interface, weights=turn, minlength=m)
-    N, M1, M2, quotient = _fading(problem, stresses)
-    slope = 1.0 / (N**2 + SMALL_NORMAL_FORCE**2) - 2.0 * quotient**2
-    within = np.abs(quotient[:, None] * np.stack([M1, M2], axis=1)) < FARTHEST * problem.reach[:, ::-1]
-    spin1, spin2 = (spin[:, None] * within).T
-    entries = np.concatenate([spin1 * quotient, spin1 * M1 * slope, spin2 * quotient, spin2 * M2 * slope])
-    V1, V2, n, m1, m2, _ = np.arange(6 * m).reshape(m, 6).T
-    places = np.concatenate([V1, V1, V2, V2]), np.concatenate([m1, n, m2, n])
-    derivative = sparse.coo_array((entries, places), shape=(6 * m, 6 * m)).tocsr()
-    return sparse.csr_array(B.T @ derivative @ B)
+    @cached_property
+    def share(self) -> Array:
+        """Dilatancy over friction, at most 1, shape (m,): 0 zero dilatancy, 1 associated."""
+        friction = self.problem.friction
+        share = np.minimum(self.dilatancy, friction) / np.where(friction > 0.0, friction, 1.0)
+        return np.asarray(np.where(friction > 0.0, share, 1.0))
 
+    @property
+    def associated(self) -> bool:
+        """Whether the flow of every row is its gradient."""
+        return bool((self.share == 1.0).all())
 
-def _fading(problem: LimitProblem, stresses: Array) -> tuple[Array, Array, Array, Array]:
-    """N, M1, M2 of each interface, and N / (N^2 + eps^2), which fades out where 1 / N explodes."""
-    Q = (problem.resultants @ stresses).reshape(-1, 6)
-    N = Q[:, 2]
-    return N, Q[:, 3], Q[:, 4], N / (N**2 + SMALL_NORMAL_FORCE**2)
+    @cached_property
+    def pivot(self) -> Array:
+        """Normal rotation rate per unit multiplier that a row turns about (e1, e2), shape (R,)."""
+        if self.turning is Turning.CENTROID:
+            return np.zeros(len(self.problem.pivot))
+        return np.asarray(self.problem.pivot * (1.0 - self.share[self.problem.row_interface]))
 
+    @cached_property
+    def constant(self) -> bool:
+        """Whether G is the same at every state."""
+        return not self.pivot.any()
 
-def _pivoted(problem: LimitProblem, stresses: Array) -> sparse.csr_array:
-    """Tangential terms of the rows that turn about (e1, e2): ds = dthn (e2, -e1), Table 5."""
-    rows = np.flatnonzero(problem.pivot)
-    k = problem.row_interface[rows]
-    turn = problem.pivot[rows]
-    _, M1, M2, quotient = _fading(problem, stresses)
-    e = np.stack([-M2 * quotient, M1 * quotient], axis=1)
-    e1, e2 = np.clip(e, -FARTHEST * problem.reach, FARTHEST * problem.reach)[k].T
-    entries = np.concatenate([-turn * e2, turn * e1])
-    places = np.concatenate([rows, rows]), np.concatenate([6 * k, 6 * k + 1])
-    shape = (len(problem.pivot), problem.resultants.shape[0])
-    tangential = sparse.coo_array((entries, places), shape=shape).tocsr()
-    return sparse.csr_array(tangential @ problem.resultants)
+    @cached_property
+    def _centroid(self) -> sparse.csr_array:
+        """G of a twist about the centroid."""
+        p = self.problem
+        if not self.share.any():
+            return p.G
+        share = sparse.diags_array(self.share[p.row_interface])
+        return sparse.csr_array(p.G + share @ (p.F - p.G))
+
+    def matrix(self, x: Array) -> sparse.csr_array:
+        """Return G at the stresses x, shape (R, s)."""
+        if self.constant:
+            return self._centroid
+        p = self.problem
+        rows = np.flatnonzero(self.pivot)
+        k, turn = p.row_interface[rows], self.pivot[rows]
+        _, M1, M2, N = self._held(x)
+        reach = FARTHEST * p.half_sides
+        e1, e2 = np.clip(np.stack([-M2 / N, M1 / N], axis=1), -reach, reach)[k].T
+        entries = np.concatenate([-turn * e2, turn * e1])  # ds = dthn (e2, -e1), Table 5
+        places = np.concatenate([rows, rows]), np.concatenate([6 * k, 6 * k + 1])
+        shape = (len(p.pivot), p.resultants.shape[0])
+        tangential = sparse.coo_array((entries, places), shape=shape).tocsr()
+        return sparse.csr_array(self._centroid + tangential @ p.resultants)
+
+    def derivative(self, x: Array, y: Array) -> sparse.csr_array:
+        """Return the derivative of -G(x)^T y with respect to x at fixed y, shape (s, s)."""
+        p = self.problem
+        m, B = len(p.interfaces), p.resultants
+        if self.constant:
+            return sparse.csr_array((B.shape[1], B.shape[1]))
+        spin = np.bincount(p.row_interface, weights=self.pivot * y, minlength=m)
+        pressed, M1, M2, N = self._held(x)
+        within = np.abs(np.stack([M2, M1], axis=1) / N[:, None]) < FARTHEST * p.half_sides
+        spin2, spin1 = (spin[:, None] * within).T  # e1 holds M2, and moves V2
+        slope1, slope2 = -spin1 * M1 * pressed / N**2, -spin2 * M2 * pressed / N**2
+        entries = np.concatenate([spin1 / N, slope1, spin2 / N, slope2])
+        V1, V2, n, m1, m2, _ = np.arange(6 * m).reshape(m, 6).T
+        places = np.concatenate([V1, V1, V2, V2]), np.concatenate([m1, n, m2, n])
+        derivative = sparse.coo_array((entries, places), shape=(6 * m, 6 * m)).tocsr()
+        return sparse.csr_array(B.T @ derivative @ B)
+
+    def _held(self, x: Array) -> tuple[npt.NDArray[np.bool_], Array, Array, Array]:
+        """Whether N < 0, M1, M2, and N - epsilon < 0 of each interface."""
+        Q = (self.problem.resultants @ x).reshape(-1, 6)
+        pressed = Q[:, 2] < 0.0
+        return pressed, Q[:, 3], Q[:, 4], np.minimum(Q[:, 2], 0.0) - self.softening
+
+    def dissipation(self, x: Array, y: Array) -> Array:
+        """Return the power -x . G(x)^T y that each interface takes up, shape (m,); negative: it gives."""
+        power = -x * (self.matrix(x).T @ y)
+        found = np.zeros(len(self.problem.ends))
+        np.add.at(found, self.problem.stress_interface, power)
+        return found

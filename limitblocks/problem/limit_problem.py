@@ -2,77 +2,64 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.problem.cones import Cones
+from limitblocks.problem.modes import Mode
 
 
-@dataclass(frozen=True)
-class Scales:
-    """Units of the dimensionless numbers.
+@dataclass(frozen=True, eq=False)
+class Units:
+    """Units of the dimensionless numbers: each block and each interface has its own, powers of two.
 
-    `force` is the mean block weight (N), `length` the block length (m), `live` the resultant of the live
-    load in mean block weights, at load factor one.
+    `block_force` (n,) and `block_length` (n,) measure what acts on a block, `interface_force` (m,) and
+    `interface_length` (m,) what an interface carries, N and m. `live` is the sum of the live loads over their
+    blocks' forces at load factor one. `row` (R,) multiplies a row's unit of force.
     """
 
-    force: float
-    length: float
+    block_force: Array
+    block_length: Array
+    interface_force: Array
+    interface_length: Array
     live: float
+    row: Array
 
-    @property
+    @cached_property
+    def loads(self) -> Array:
+        """Units of forces and moments on the blocks, N and N m, shape (6 n,)."""
+        return _six(self.block_force, self.block_length)
+
+    @cached_property
     def resultants(self) -> Array:
-        """Units of (V1, V2, N, M1, M2, T), and of a load (f, m): N and N m; shape (6,)."""
-        return self.force * np.array([1.0, 1.0, 1.0, self.length, self.length, self.length])
-
-    @property
-    def load_factor(self) -> float:
-        """Load factors of the model per dimensionless load factor."""
-        return 1.0 / self.live
-
-    @property
-    def work(self) -> float:
-        """Unit of a displacement rate (m): the live load then does the work 1 N m, Eq. (55)."""
-        return 1.0 / (self.force * self.live)
+        """Units of the stress resultants (V1, V2, N, M1, M2, T), N and N m, shape (6 m,)."""
+        return _six(self.interface_force, self.interface_length)
 
 
-@dataclass(frozen=True)
-class Cones:
-    """The cone K: `linear` rows of the nonnegative orthant, then (count, size) second-order cones."""
+def _six(force: Array, length: Array) -> Array:
+    return np.repeat(force, 6) * np.stack([np.ones_like(length)] * 3 + [length] * 3, axis=1).ravel()
 
-    linear: int
-    second_order: tuple[tuple[int, int], ...] = ()
 
-    @property
-    def degree(self) -> int:
-        """Number of linear rows and cones."""
-        return self.linear + sum(count for count, _ in self.second_order)
+def power_of_two(values: Array) -> Array:
+    """Return the nearest powers of two: units that change no digit of a number."""
+    return np.asarray(np.exp2(np.round(np.log2(values))))
 
-    @property
-    def identity(self) -> Array:
-        """The centre of the cone: 1 for linear rows, (1, 0, ...) for second-order cones."""
-        parts = [np.ones(self.linear)]
-        parts += [np.tile(np.eye(1, size)[0], count) for count, size in self.second_order]
-        return np.concatenate(parts)
 
-    @property
-    def blocks(self) -> tuple[tuple[int, int, int], ...]:
-        """(first row, count, size) of each group of second-order cones."""
-        first, found = self.linear, []
-        for count, size in self.second_order:
-            found.append((first, count, size))
-            first += count * size
-        return tuple(found)
+@dataclass(frozen=True, eq=False)
+class State:
+    """Load factor, generalised stresses x (s,), displacement rates u (6 n,) and multipliers y (R,).
 
-    def margin(self, rows: Array) -> Array:
-        """Return how far each linear row and each cone is inside K: s, or t - ||z||; negative outside."""
-        parts = [rows[: self.linear]]
-        for first, count, size in self.blocks:
-            cone = rows[first : first + count * size].reshape(count, size)
-            parts.append(cone[:, 0] - np.linalg.norm(cone[:, 1:], axis=1))
-        return np.concatenate(parts)
+    Dimensionless, or in SI units where :meth:`LimitProblem.in_si` made it.
+    """
+
+    load_factor: float
+    x: Array
+    u: Array
+    y: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +68,8 @@ class LimitProblem:
 
     With x the generalised stresses (s numbers), u the displacement rates and y the flow multipliers
     (R numbers): equilibrium ``dead + load_factor live = C^T x``, yield ``F x + g in K``, flow
-    ``C u = -G(x)^T y, y in K*``, normalisation ``live . u = 1``; Eqs (54)-(59). The associated flow has
-    G = F. The live load has unit resultant.
+    ``C u = -G(x)^T y, y in K*``, normalisation ``live . u = 1``; Eqs (54)-(59). G is
+    :class:`~limitblocks.problem.flow.Flow`'s; the associated flow has G = F.
 
     Attributes
     ----------
@@ -91,25 +78,27 @@ class LimitProblem:
     dead, live : Array, shape (6 n,)
         Forces and moments at the centroids of the free blocks.
     F, G : csr_array, shape (R, s)
-        Yield rows, and plastic potential for zero dilatancy without its pivot terms.
+        Yield rows, and plastic potential for zero dilatancy that twists about the centroid.
     g : Array, shape (R,)
         Constant terms of the yield rows.
     cones : Cones
         The cone K; it is self-dual, K* = K.
-    pivot, reach : Array, shapes (R,) and (m, 2)
-        Rows that turn about (e1, e2), Table 5, and the half sides that limit |e1|, |e2|.
+    pivot, half_sides : Array, shapes (R,) and (m, 2)
+        Rows that Table 5 turns about (e1, e2), and the half sides that limit |e1|, |e2|.
     resultants : csr_array, shape (6 m, s)
         Stress resultants Q = resultants x.
     compliance : Array, shape (s,)
         Strain per generalised stress of joints of unit stiffness: 1/area for forces, 1/second moment of
         area for moments; the metric in which stresses are compared.
+    ends : Indices, shape (m, 2)
+        Free blocks i and j of each interface, -1 for a support.
     row_interface : Indices, shape (R,)
         Interface of each row.
-    row_mode : tuple of str
+    row_mode : tuple of Mode
         Failure mode of each row.
     friction : Array, shape (m,)
         Friction coefficient of each interface.
-    scales : Scales
+    units : Units
         Units of the numbers.
     blocks, interfaces : tuple of str
         Names of the free blocks and of the interfaces, for messages.
@@ -123,24 +112,96 @@ class LimitProblem:
     G: sparse.csr_array
     cones: Cones
     pivot: Array
-    reach: Array
+    half_sides: Array
     resultants: sparse.csr_array
     compliance: Array
+    ends: Indices
     row_interface: Indices
-    row_mode: tuple[str, ...]
+    row_mode: tuple[Mode, ...]
     friction: Array
-    scales: Scales
+    units: Units
     blocks: tuple[str, ...]
     interfaces: tuple[str, ...]
 
-    @property
+    @cached_property
+    def stress_interface(self) -> Indices:
+        """Interface of each generalised stress, shape (s,)."""
+        found = self.resultants.tocoo()
+        interface = np.zeros(found.shape[1], dtype=np.int64)
+        interface[found.col] = found.row // 6
+        return interface
+
+    @cached_property
+    def member_interface(self) -> Indices:
+        """Interface of each linear row and each cone, shape (degree,)."""
+        return np.asarray(self.row_interface[self.cones.heads])
+
+    @cached_property
     def stress_units(self) -> Array:
         """Units of the generalised stresses, N or N m, shape (s,)."""
-        is_force = abs(self.resultants).T @ np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces)) > 0
-        return self.scales.force * np.where(is_force, 1.0, self.scales.length)
+        forces = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces))
+        is_force, k = abs(self.resultants).T @ forces > 0, self.stress_interface
+        return np.asarray(
+            self.units.interface_force[k] * np.where(is_force, 1.0, self.units.interface_length[k])
+        )
 
-    @property
+    @cached_property
     def rate_units(self) -> Array:
-        """Units of the displacement rates (m, rad): the live load does the work 1 N m; shape (6 n,)."""
-        unit = self.scales.work * np.repeat([1.0, 1.0 / self.scales.length], 3)
-        return np.tile(unit, len(self.blocks))
+        """Units of the displacement rates (m, rad): the live load does the work 1 N m, Eq. (55); (6 n,)."""
+        return 1.0 / (self.units.live * self.units.loads)
+
+    @cached_property
+    def multiplier_units(self) -> Array:
+        """Units of the flow multipliers, m, shape (R,)."""
+        force = self.units.interface_force[self.row_interface] * self.units.row
+        return np.asarray(1.0 / (self.units.live * force))
+
+    def in_si(self, state: State) -> State:
+        """Return the state in SI units; the live load of the model does the work 1 N m on its rates."""
+        return State(
+            state.load_factor / self.units.live,
+            state.x * self.stress_units,
+            state.u * self.rate_units,
+            state.y * self.multiplier_units,
+        )
+
+    def dimensionless(self, state: State) -> State:
+        """Return a state given in SI units as numbers of this problem; the inverse of `in_si`."""
+        return State(
+            state.load_factor * self.units.live,
+            state.x / self.stress_units,
+            state.u / self.rate_units,
+            state.y / self.multiplier_units,
+        )
+
+    def measured(self, block_force: Array) -> LimitProblem:
+        """Return the same problem with other units of force: block by block, and by the lesser at interfaces.
+
+        Parameters
+        ----------
+        block_force : Array, shape (n,)
+            Forces to measure the blocks by, in N, positive; rounded to powers of two.
+        """
+        old = self.units
+        block = power_of_two(block_force)
+        at_ends = np.where(self.ends >= 0, block[self.ends], np.inf).min(axis=1)
+        live = old.live * float(np.abs(self.live * np.repeat(old.block_force / block, 6)).sum())
+        units = replace(old, block_force=block, interface_force=at_ends, live=live)
+        loads, stresses = old.loads / units.loads, at_ends / old.interface_force
+        columns, rows = stresses[self.stress_interface], stresses[self.row_interface]
+        live_share = old.live / live
+        scaled = [
+            sparse.csr_array(sparse.diags_array(1.0 / rows) @ part @ sparse.diags_array(columns))
+            for part in (self.F, self.G)
+        ]
+        return replace(
+            self,
+            C=sparse.csr_array(sparse.diags_array(columns) @ self.C @ sparse.diags_array(loads)),
+            dead=read_only(self.dead * loads),
+            live=read_only(self.live * loads * live_share),
+            F=scaled[0],
+            G=scaled[1],
+            g=read_only(self.g / rows),
+            compliance=read_only(self.compliance * columns**2),
+            units=units,
+        )

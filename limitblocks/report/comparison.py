@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from limitblocks.analysis.bounds import Bounds
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.report.sections import limits
 

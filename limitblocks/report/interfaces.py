@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.bounds import Bounds
+from limitblocks.evidence.associated import Bounds
 from limitblocks.arrays import Array
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import LoadPath, Nonassociated

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from limitblocks.analysis.bounds import Bounds
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any, NamedTuple
 
-from limitblocks.analysis.bounds import TOLERANCE, Bounds
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp

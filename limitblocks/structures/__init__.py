@@ -20,6 +20,7 @@ from limitblocks.structures.stacks import block, column, overhang
 from limitblocks.structures.stairs import cantilever_stair, stair
 from limitblocks.structures.vaults import barrel_vault
 from limitblocks.structures.walls import two_leaf_wall, wall
+from limitblocks.structures.wedges import wedge
 
 __all__ = [
     "EXAMPLES",
@@ -50,4 +51,5 @@ __all__ = [
     "tower",
     "two_leaf_wall",
     "wall",
+    "wedge",
 ]

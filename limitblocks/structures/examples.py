@@ -27,6 +27,7 @@ from limitblocks.structures.stacks import block, column, overhang
 from limitblocks.structures.stairs import cantilever_stair, stair
 from limitblocks.structures.vaults import barrel_vault
 from limitblocks.structures.walls import two_leaf_wall, wall
+from limitblocks.structures.wedges import wedge
 
 #: Function name, or that and what is special about the call, to the call. All stand under their dead loads
 #: with friction 0.7 or more.
@@ -100,5 +101,9 @@ EXAMPLES: Mapping[str, Callable[[Joint], Model]] = MappingProxyType(
         ),
         "stair": lambda joint: stair(joint, treads=7),
         "cantilever_stair": lambda joint: cantilever_stair(joint, treads=4),
+        "wedge": lambda joint: wedge(joint, half_angle=np.pi / 4),
+        "wedge, two unequal planes": lambda joint: wedge(
+            joint, half_angle=np.pi / 4, plunge=np.pi / 9, tilt=np.pi / 12
+        ),
     }
 )

@@ -9,7 +9,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from limitblocks.analysis.bounds import Bounds, bounds
+from limitblocks.analysis.bounds import bounds
+from limitblocks.evidence.associated import Bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError, UnlimitedLoad
 from limitblocks.evidence.results import Nonassociated

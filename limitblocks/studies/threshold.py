@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from limitblocks.analysis.bounds import TOLERANCE
-from limitblocks.analysis.margin import standing_margin
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.analysis.stability import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.model import Model
 from limitblocks.studies.results import in_columns, write_rows
@@ -38,7 +38,7 @@ class Threshold:
         Of the live load that acts beside the dead loads.
     trials : tuple of (float, float)
         Every value tried with its margin in mean block weights, see
-        :func:`limitblocks.analysis.margin.standing_margin`; down to -1e-6, the tolerance of all residuals,
+        :func:`limitblocks.analysis.stability.standing_margin`; down to -1e-6, the tolerance of all residuals,
         it counts as standing.
     """
 
@@ -114,7 +114,7 @@ def minimum(
     """Return the least value of a parameter for which the loads stand, such as the thickness of an arch.
 
     The structure of `low` falls and that of `high` stands; in between there is one change. Brent's method
-    (scipy.optimize.brentq) finds where the margin of :func:`limitblocks.analysis.margin.standing_margin`
+    (scipy.optimize.brentq) finds where the margin of :func:`limitblocks.analysis.stability.standing_margin`
     passes zero, and trials on both sides of it close the bracket. The dead loads are those of the model;
     with a load factor its live load acts, too. The flow is associated: for sliding without dilatancy,
     standing in this sense is necessary, not sufficient.

@@ -70,18 +70,35 @@ def closed_forms():
                    "every value >= mu solves it", 0.3, 1e-6, partial(nonassociated, jammed, kind(0.3)),
                    at_least=True)  # fmt: skip
     yield from oblique()
+    yield from wedges()
     yield from limits()
 
 
 def oblique():
-    """Coulomb's circle in every direction; the paper's octagon is around it."""
+    """Coulomb's circle in every direction; the paper's octagon is around it, in one of its directions."""
     push = (math.cos(0.3), math.sin(0.3), 0.0)
     build = partial(block, 1.0, 0.5, direction=push)
     for (name, kind), flow in product(JOINTS.items(), FLOWS):
-        octagon = name == "OrdunaLourenco"
-        yield Case("Closed forms", f"block pushed 0.3 rad off its side, {name}", flow,
-                   "mu / cos(0.3): octagon" if octagon else "mu", 0.3 / (push[0] if octagon else 1.0), 3e-6,
+        yield Case("Closed forms", f"block pushed 0.3 rad off its side, {name}", flow, "mu", 0.3, 3e-6,
                    partial(ANALYSES[flow], build, kind(0.3)), quick=True)  # fmt: skip
+    octagon = lb.OrdunaLourenco(0.3, slip="paper")
+    for flow in FLOWS:
+        yield Case("Closed forms", "block pushed 0.3 rad off its side, OrdunaLourenco(slip='paper')", flow,
+                   "mu / cos(0.3): octagon", 0.3 / push[0], 3e-6,
+                   partial(ANALYSES[flow], build, octagon), quick=True)  # fmt: skip
+
+
+def wedges():
+    """A wedge pushed along a V groove: derived in tests/validation/test_wedges.py."""
+    for (name, kind), degrees in product(JOINTS.items(), (30, 45, 60)):
+        w, mu = math.radians(degrees), 0.4
+        build = partial(lambda joint, w: structures.wedge(joint, half_angle=w), w=w)
+        structure = f"wedge in a V groove of half angle {degrees} degrees, friction {mu}, {name}"
+        yield Case("Closed forms", structure, "associated", "mu / sqrt(sin(w)^2 - mu^2 cos(w)^2)",
+                   mu / math.sqrt(math.sin(w) ** 2 - (mu * math.cos(w)) ** 2), 1e-6,
+                   partial(associated, build, kind(mu)), quick=True)  # fmt: skip
+        yield Case("Closed forms", structure, "non-associated", "mu / sin(w)", mu / math.sin(w),
+                   1e-3 * mu / math.sin(w), partial(nonassociated, build, kind(mu)), quick=True)  # fmt: skip
 
 
 def limits():

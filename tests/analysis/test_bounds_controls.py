@@ -10,7 +10,7 @@ from scipy.linalg import null_space
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import programs
-from limitblocks.analysis.bounds import TOLERANCE, bounds_residuals
+from limitblocks.evidence.residuals import TOLERANCE, bounds_residuals
 from limitblocks.evidence.residuals import worth_of_violations
 
 STATIC, KINEMATIC = {"equilibrium", "yield"}, {"flow", "normalisation", "multipliers", "power"}

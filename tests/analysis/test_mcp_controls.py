@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.evidence.check import Claim, check_mcp
+from limitblocks.evidence.check import check_mcp
+from limitblocks.evidence.claim import Claim
 
 MU, B, H, DEPTH = 0.3, 2.0, 1.0, 1.5
 WEIGHT = 20e3 * B * H * DEPTH

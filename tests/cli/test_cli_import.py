@@ -62,6 +62,8 @@ WRONG = {
     "support": (("--supports", "bas"), "'bas' is neither a block nor a layer; did you mean 'base'?"),
     "units": (("--supports", "base", "--units", "km"), "'km'"),
     "joint": (("--supports", "base", "--joint", "Glue"), "'Glue' is unknown"),
+    "slip": (("--supports", "base", "--slip", "round"), "'round', expected one of 'exact'"),
+    "slip of points": (("--supports", "base", "--joint", "PointContact", "--slip", "paper"), "only Orduna"),
     "live": (("--supports", "base", "--live", "1;0;0"), "1,0,0"),
     "live of two": (("--supports", "base", "--live", "1,0"), "three"),
     "unit weight": (("--supports", "base", "--unit-weight", "heavy"), "LAYER=NUMBER"),
@@ -79,6 +81,12 @@ def test_wrong_options_are_said_in_one_line(name, obj, tmp_path):
     assert result.stderr.count("\n") == 1
     assert said in result.stderr
     assert not (tmp_path / "two.json").exists()
+
+
+def test_slip_of_the_joint(obj, tmp_path):
+    for options, slip in (((), "exact"), (("--slip", "paper"), "paper")):
+        assert run(obj, *OPTIONS, "--supports", "base", *options, "--force").exit_code == 0
+        assert lb.read(tmp_path / "two.json").interfaces[0].joint == lb.OrdunaLourenco(0.6, slip=slip)
 
 
 def test_unit_weights_by_layer(tmp_path):

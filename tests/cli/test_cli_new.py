@@ -36,7 +36,7 @@ def test_every_generator_is_a_command_with_all_its_parameters(name):
         if key in options and key != "joint":
             assert options[key].required == (parameter.default is parameter.empty)
             assert options[key].help or key in command_of(name).help, key
-    assert {"joint", "friction", "compressive_strength", "output", "force"} <= set(options)
+    assert {"joint", "friction", "slip", "compressive_strength", "output", "force"} <= set(options)
 
 
 def test_no_public_generator_is_missing():
@@ -64,6 +64,7 @@ def test_the_file_is_the_model_that_python_makes():
     ("options", "joint"),
     [
         ((), lb.OrdunaLourenco(0.6)),
+        (("--slip", "paper"), lb.OrdunaLourenco(0.6, slip="paper")),
         (("--compressive-strength", 3e6), lb.OrdunaLourenco(0.6, compressive_strength=3e6)),
         (("--joint", "point-contact"), lb.PointContact(0.6)),
         (("--joint", "exact-torsion"), lb.ExactTorsion(0.6)),
@@ -86,6 +87,8 @@ def test_nothing_is_overwritten_unless_asked():
     ("arguments", "said"),
     [
         ((*WALL, "--joint", "point-contact", "--compressive-strength", 1e6), "no compressive strength"),
+        ((*WALL, "--joint", "point-contact", "--slip", "paper"), "no slip; leave --slip out"),
+        ((*WALL, "--slip", "round"), "'exact', 'paper', 'inner', 'outer'"),
         ((*WALL, "--friction", -1), "friction"),
         ((*WALL, "--courses", 0), "courses"),
         ((*WALL, "--courses", "two"), "--courses"),

@@ -11,8 +11,8 @@ from limitblocks.joints.question import _cone_reach
 MU, N = 0.7, -240.0
 RECTANGLE = np.array([(0.15, -0.1), (0.15, 0.1), (-0.15, 0.1), (-0.15, -0.1)])
 JOINTS = [
-    lb.OrdunaLourenco(MU),
-    lb.OrdunaLourenco(MU, 2e4, slip="exact"),
+    lb.OrdunaLourenco(MU, slip="paper"),
+    lb.OrdunaLourenco(MU, 2e4),
     lb.ExactTorsion(MU, fineness=2),
     lb.PointContact(MU),
 ]
@@ -134,8 +134,8 @@ def test_bad_questions_are_named():
 
 def test_words_name_what_is_not_default():
     assert repr(lb.OrdunaLourenco(0.6)) == "OrdunaLourenco(friction=0.6)"
-    assert repr(lb.OrdunaLourenco(0.6, 2e6, slip="exact")) == (
-        "OrdunaLourenco(friction=0.6, compressive_strength=2000000.0, slip='exact')"
+    assert repr(lb.OrdunaLourenco(0.6, 2e6, slip="paper")) == (
+        "OrdunaLourenco(friction=0.6, compressive_strength=2000000.0, slip='paper')"
     )
     assert repr(lb.PointContact(0.7)) == "PointContact(friction=0.7)"
     assert repr(lb.ExactTorsion(0.7, side="outer")) == "ExactTorsion(friction=0.7, side='outer')"

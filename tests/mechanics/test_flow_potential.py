@@ -8,8 +8,8 @@ from limitblocks.problem.flow import SMALL_NORMAL_FORCE, dilatancy_share, plasti
 
 MU = 0.5
 JOINTS = [
+    lb.OrdunaLourenco(MU, slip="paper"),
     lb.OrdunaLourenco(MU),
-    lb.OrdunaLourenco(MU, slip="exact"),
     lb.OrdunaLourenco(MU, compressive_strength=1e6),
     lb.ExactTorsion(MU, fineness=2),
     lb.PointContact(MU),

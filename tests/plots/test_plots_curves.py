@@ -27,7 +27,8 @@ def contains(points, wanted):
 
 
 def test_slip_octagon_has_its_corners():
-    ax = lb.plots.interaction(JOINT, RECTANGLE, "V1", "V2")
+    octagon = lb.OrdunaLourenco(friction=FRICTION, slip="paper")
+    ax = lb.plots.interaction(octagon, RECTANGLE, "V1", "V2")
     side = FRICTION * np.tan(np.pi / 8)
     assert contains(curve(ax), [(FRICTION, side), (side, FRICTION), (-FRICTION, -side), (side, -FRICTION)])
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("$V_1 / |N|$ (–)", "$V_2 / |N|$ (–)")
@@ -88,11 +89,11 @@ def test_stress_states_keep_their_normal_force_on_a_curve_over_it():
 
 
 def test_joints_are_compared_on_the_same_axes():
-    ax = lb.plots.interaction(JOINT, RECTANGLE, "V1", "V2")
-    circle = lb.OrdunaLourenco(friction=FRICTION, slip="exact")
-    assert lb.plots.interaction(circle, RECTANGLE, "V1", "V2", label="circle", ax=ax) is ax
+    octagon = lb.OrdunaLourenco(friction=FRICTION, slip="paper")
+    ax = lb.plots.interaction(octagon, RECTANGLE, "V1", "V2")
+    assert lb.plots.interaction(JOINT, RECTANGLE, "V1", "V2", label="circle", ax=ax) is ax
     assert np.allclose(np.linalg.norm(curve(ax, "circle"), axis=1), FRICTION)
-    assert len({line.get_color() for line in ax.lines if line.get_label() in ("circle", repr(JOINT))}) == 2
+    assert len({line.get_color() for line in ax.lines if line.get_label() in ("circle", repr(octagon))}) == 2
 
 
 def test_point_contacts_have_a_curve_too():

@@ -7,7 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import studies
-from limitblocks.analysis.margin import standing_margin
+from limitblocks.analysis.stability import standing_margin
 
 GAMMA, H, PUSH = 20e3, 2.0, 4e3
 

@@ -41,12 +41,11 @@ def test_a_block_slides_at_the_same_load_whatever_the_dilatancy(joint_type, shar
 
 
 @pytest.mark.parametrize("angle", [0.3, 0.7])
-def test_a_block_pushed_obliquely(angle):
+def test_a_block_pushed_obliquely(joint_type, angle):
     """Coulomb cones: mu in every direction. Octagon around the circle: mu / cos(angle to its contact)."""
-    direction = (np.cos(angle), np.sin(angle), 0)
-    cone = structures.block(lb.PointContact(0.3), width=1.0, height=0.5, direction=direction)
-    assert_load_factor(cone, 0.3)
-    octagon = structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=0.5, direction=direction)
+    push = {"width": 1.0, "height": 0.5, "direction": (np.cos(angle), np.sin(angle), 0)}
+    assert_load_factor(structures.block(joint_type(0.3), **push), 0.3)
+    octagon = structures.block(lb.OrdunaLourenco(0.3, slip="paper"), **push)
     contact = np.pi / 4 * round(angle / (np.pi / 4))
     assert_load_factor(octagon, 0.3 / np.cos(angle - contact))
 

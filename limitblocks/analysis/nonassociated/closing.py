@@ -10,10 +10,9 @@ import numpy as np
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
 from limitblocks.analysis.nonassociated.implicit_step import Loading, Point, StepResult, implicit_step
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.nonassociated.stage import Stage, State
-from limitblocks.evidence.check import mcp_residuals
-from limitblocks.evidence.residuals import SMALL_LOAD, Residuals
-from limitblocks.problem import LimitProblem
+from limitblocks.analysis.nonassociated.stage import Stage
+from limitblocks.evidence.residuals import Residuals, mcp_residuals
+from limitblocks.problem import Flow, State
 
 LEAP = 0.03  # of the tolerance: the flow residual that a leap aims at
 FARTHEST = 300.0  # times the last step
@@ -46,7 +45,7 @@ def reached(
         back = nearest.find(z.x, np.zeros_like(z.y))
         if back is not None:
             state = State(*back, z.u, z.y)
-    proof = evidence(problem, state, loading.dilatancy)
+    proof = evidence(loading.flow, state)
     stage = Stage(state, proof, loading.rho, kind, result.iterations, failures)
     return Reach(stage, z, loading, nearest, result.accepted)
 
@@ -70,9 +69,9 @@ def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
     stage, z, loading = reach.stage, reach.point, reach.loading
     start, problem = State(z.load_factor, z.x, z.u, z.y), loading.problem
     for from_state in (stage.state, start) if stage.kind == "jump" else (start,):
-        state, rounds = fixed_point(reach.nearest, from_state, loading.dilatancy, tolerance, settings.rounds)
+        state, rounds = fixed_point(reach.nearest, from_state, loading.flow, tolerance, settings.rounds)
         if state is not None:
-            proof = evidence(problem, state, loading.dilatancy)
+            proof = evidence(loading.flow, state)
             found = Stage(state, proof, loading.rho, "fixed point", rounds, 0)
             return Closing(found, _drift(start.load_factor, state.load_factor))
     return Closing(None, np.inf)
@@ -80,15 +79,15 @@ def closed(reach: Reach, tolerance: float, settings: Settings) -> Closing:
 
 def _drift(before: float, after: float) -> float:
     """Relative change of the load factor."""
-    return abs(after - before) / max(abs(before), SMALL_LOAD)
+    return abs(after - before) / max(abs(before), abs(after), 1e-300)
 
 
 def flow_before_return(reach: Reach) -> float:
     """Flow residual of a jump before its stresses were brought back to yield."""
     z, loading = reach.point, reach.loading
-    return evidence(loading.problem, State(z.load_factor, z.x, z.u, z.y), loading.dilatancy)["flow"]
+    return evidence(loading.flow, State(z.load_factor, z.x, z.u, z.y))["flow"]
 
 
-def evidence(problem: LimitProblem, state: State, dilatancy: float) -> Residuals:
+def evidence(flow: Flow, state: State) -> Residuals:
     """Residuals of Eqs (54)-(59)."""
-    return mcp_residuals(problem, state.load_factor, state.x, state.u, state.y, dilatancy)
+    return mcp_residuals(flow, state)

@@ -17,12 +17,10 @@ from typing import Any
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.nonassociated.stage import State
 from limitblocks.analysis.programs import in_cone
 from limitblocks.arrays import Array
-from limitblocks.evidence.check import mcp_residuals
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import plastic_potential
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.problem import Flow, LimitProblem, State
 
 PENALTY = 1e5  # of a remaining gap against the change of stresses
 PROGRESS = 0.5  # a round must bring the worst residual below this part of the best
@@ -43,11 +41,12 @@ def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
     return None if found is None else found[0]
 
 
-def frozen_mechanism(problem: LimitProblem, x: Array, dilatancy: float) -> tuple[Array, Array] | None:
+def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
     """Rates and multipliers (u, y) of the flow frozen at x with the least gap y . (F x + g)."""
+    problem = flow.problem
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(len(problem.g))
-    flow = problem.C @ u + plastic_potential(problem, x, dilatancy).T @ y == 0
-    constraints = [flow, problem.live @ u == 1, *in_cone(y, problem.cones)]
+    compatible = problem.C @ u + flow.matrix(x).T @ y == 0
+    constraints = [compatible, problem.live @ u == 1, *in_cone(y, problem.cones)]
     found = _minimised((problem.F @ x + problem.g) @ y, constraints, u, y)
     return None if found is None else (found[0], found[1])
 
@@ -97,7 +96,7 @@ class NearestStresses:
 
 
 def fixed_point(
-    nearest: NearestStresses, start: State, dilatancy: float, tolerance: float, rounds: int
+    nearest: NearestStresses, start: State, flow: Flow, tolerance: float, rounds: int
 ) -> tuple[State | None, int]:
     """Iterate from `start`; return a state within the tolerance, or None, and the number of rounds."""
     problem = nearest.problem
@@ -111,11 +110,11 @@ def fixed_point(
                 return None, k
             load_factor, x = stresses
         adjusted = False
-        mechanism = frozen_mechanism(problem, x, dilatancy)
+        mechanism = frozen_mechanism(flow, x)
         if mechanism is None:
             return None, k
         u, y = mechanism
-        worst = mcp_residuals(problem, load_factor, x, u, y, dilatancy).worst.value
+        worst = mcp_residuals(flow, State(load_factor, x, u, y)).worst.value
         if worst <= tolerance:
             return State(load_factor, x, u, y), k
         if worst > PROGRESS * best:

@@ -18,11 +18,9 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
 from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import plastic_potential, turning
+from limitblocks.problem import Flow, LimitProblem
 
 ACCURACY = 2e-9  # of the linear equations and the flow, dimensionless
 CENTRED = 1e-13  # mean of s o y at the end: products that vanish in both factors are found to its root
@@ -38,14 +36,18 @@ class Loading:
     `weights` is the compliance W of the joints, `damping` is the viscosity of the multipliers over rho.
     """
 
-    problem: LimitProblem
+    flow: Flow
     blocks: InterfaceBlocks
     weights: Array
     x0: Array
     y0: Array
     rho: float
     damping: float
-    dilatancy: float
+
+    @property
+    def problem(self) -> LimitProblem:
+        """The structure."""
+        return self.flow.problem
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +86,7 @@ class Newton:
     def __init__(self, loading: Loading, z: Point) -> None:
         self.loading, self.z = loading, z
         p = loading.problem
-        G = plastic_potential(p, z.x, loading.dilatancy)
+        G = loading.flow.matrix(z.x)
         self.GT = sparse.csr_array(G.T)
         self.defect = (
             loading.rho * loading.weights * (z.x - loading.x0) - self.GT @ z.y - p.C @ z.u,
@@ -98,9 +100,9 @@ class Newton:
     def factorise(self) -> None:
         """Eliminate s and y, then x by interfaces; what is left couples the rates and the load factor."""
         step, p, z = self.loading, self.loading.problem, self.z
-        self.scaling = inverse_arrow(p.cones, z.s + step.damping * z.y)
-        self.slope = sparse.csr_array(self.scaling @ arrow(p.cones, z.y))
-        self.turn = turning(p, z.x, z.y, step.dilatancy)
+        self.scaling = p.cones.inverse_arrow(z.s + step.damping * z.y)
+        self.slope = sparse.csr_array(self.scaling @ p.cones.arrow(z.y))
+        self.turn = step.flow.derivative(z.x, z.y)
         H = self.GT @ (self.slope @ p.F) + sparse.diags_array(step.rho * step.weights + REGULAR) + self.turn
         self.flexibility = step.blocks.inverse(H)
         K = p.C.T @ (self.flexibility @ p.C) + 1e-13 * sparse.eye_array(p.C.shape[1])
@@ -114,7 +116,7 @@ class Newton:
         """Direction to s o y = target, refined on the full equations, else accuracy is lost at small mu."""
         step, p, z = self.loading, self.loading.problem, self.z
         q1, q2, q3, q4 = self.defect
-        q5 = target - product(p.cones, z.s, z.y)
+        q5 = target - p.cones.product(z.s, z.y)
         d = self._solve(-q1, -q2, -q3, -q4, q5)
         for _ in range(2):
             elastic = step.rho * step.weights * d.x + self.turn @ d.x
@@ -123,7 +125,7 @@ class Newton:
                 -q2 + p.C.T @ d.x - p.live * d.load_factor,
                 -q3 - float(p.live @ d.u),
                 -q4 - (p.F @ d.x - d.s + step.damping * d.y),
-                q5 - product(p.cones, z.s, d.y) - product(p.cones, z.y, d.s),
+                q5 - p.cones.product(z.s, d.y) - p.cones.product(z.y, d.s),
             )
             d = d.moved(1.0, correction)
         return d
@@ -134,19 +136,19 @@ class Newton:
         w = self.lu.solve(np.append(q2 + p.C.T @ h, q3))
         dx = h + self.flexibility @ (p.C @ w[:-1])
         ds = p.F @ dx - q4
-        dy = self.scaling @ (q5 - product(p.cones, self.z.y, ds))
+        dy = self.scaling @ (q5 - p.cones.product(self.z.y, ds))
         return Point(dx, w[:-1], float(w[-1]), ds + self.loading.damping * dy, dy)
 
     def best_step(self) -> tuple[float, Point]:
         """Length and direction: Mehrotra's, or with more and more centring until it is long enough."""
         cones, z = self.loading.problem.cones, self.z
         probe = self.direction(np.zeros_like(z.s))
-        t = min(1.0, longest(cones, z.s, probe.s), longest(cones, z.y, probe.y))
+        t = min(1.0, cones.longest(z.s, probe.s), cones.longest(z.y, probe.y))
         reached = float((z.s + t * probe.s) @ (z.y + t * probe.y)) / cones.degree
         sigma = min(max((reached / self.mu) ** 3 if reached > 0.0 else 1e-3, 1e-4), 1.0)
         # mu must not run ahead of the flow: an inadmissible point on the boundary cannot recover
         sigma = max(sigma, min(1.0, 1e-3 * float(np.abs(self.defect[0]).max()) / self.mu))
-        second_order = product(cones, probe.s, probe.y)
+        second_order = cones.product(probe.s, probe.y)
         best, best_length = probe, -1.0
         for centring, correction in ((sigma, 1.0), (max(0.3, sigma), 0.0), (0.8, 0.0), (1.0, 0.0)):
             d = self.direction(centring * self.mu * cones.identity - correction * second_order)
@@ -160,10 +162,10 @@ class Newton:
     def _length(self, d: Point) -> float:
         """Longest step that keeps every product above a thousandth of their mean."""
         cones, z = self.loading.problem.cones, self.z
-        t = min(1.0, 0.95 * min(longest(cones, z.s, d.s), longest(cones, z.y, d.y)))
+        t = min(1.0, 0.95 * min(cones.longest(z.s, d.s), cones.longest(z.y, d.y)))
         for _ in range(25):
             s, y = z.s + t * d.s, z.y + t * d.y
-            if least_product(cones, s, y) >= 1e-3 * float(s @ y) / cones.degree:
+            if cones.least_product(s, y) >= 1e-3 * float(s @ y) / cones.degree:
                 return t
             t *= 0.8
         return 0.0

@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from limitblocks.analysis.bounds import TOLERANCE
+from limitblocks.analysis.bounds import resultants_of
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.loop import finished, initial, iteration
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.analysis.nonassociated.start import (
     Start,
     bracket,
@@ -20,11 +20,11 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration, LoadPath, PathStep
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import dilatancy_share
+from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 FLOWING = 1e-6  # of the largest displacement rate: less counts as no flow
 # Small steps, halved where one fails; viscosity only where the structure snaps at every size.
@@ -43,6 +43,7 @@ def load_path(
     model: Model,
     *,
     dilatancy: float = 0.0,
+    turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
     stiffness: Stiffness | Mapping[Joint, Stiffness] | None = None,
@@ -60,14 +61,14 @@ def load_path(
 
     Parameters
     ----------
-    model, dilatancy, tolerance, settings, progress, throw
+    model, dilatancy, turning, tolerance, settings, progress, throw
         As for :func:`limitblocks.nonassociated`.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads; as for
         :func:`limitblocks.nonassociated`.
     stiffness : (float, float) or mapping from joints to (float, float), optional
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
-        only the displacements. Without it both are one mean block weight per block length cubed, and
+        only the displacements. Without it both are one mean unit of force of the interfaces over the cube of their mean length, and
         displacements are relative.
 
     Raises
@@ -81,13 +82,13 @@ def load_path(
         If the path ends above the tolerance; carries the collapse state.
     """
     problem = model.problem
-    dilatancy_share(problem, dilatancy)
+    flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
     compliance = _compliance(model, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     x0 = start_stresses(model, weights, start)
     enclosing = bracket(model)
-    refuse_unlimited(problem, enclosing.associated, dilatancy)
+    refuse_unlimited(flow, enclosing.associated)
     scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
@@ -96,9 +97,9 @@ def load_path(
         if progress is not None:
             progress(history[-1])
 
-    found = stages(problem, x0, weights, dilatancy, tolerance, settings, scale, record)
-    last = found[-1] if found else initial(problem, x0, dilatancy)
-    collapse = finished(model, last, enclosing, tuple(history), dilatancy, tolerance, throw)
+    found = stages(flow, x0, weights, tolerance, settings, scale, record)
+    last = found[-1] if found else initial(flow, x0)
+    collapse = finished(model, last, enclosing, tuple(history), flow, tolerance, throw)
     return LoadPath(_steps(model, x0, found, softness), collapse)
 
 
@@ -119,7 +120,8 @@ def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] |
                 "expected (normal, shear) in N/m3, both positive"
             )
         pairs.append(pair)
-    unit = problem.scales.force / problem.scales.length**3
+    force, length = _means(problem)
+    unit = force / length**3
     normal, shear = np.array(pairs).T / unit
     per_resultant = np.stack([shear, shear, normal, normal, normal, shear], axis=1).ravel()
     B = abs(problem.resultants).tocoo()
@@ -130,20 +132,25 @@ def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] |
     return np.asarray(problem.compliance / per_resultant[own])
 
 
+def _means(problem: LimitProblem) -> tuple[float, float]:
+    """Mean units of force and length of the interfaces, in which compliances are near one."""
+    return float(problem.units.interface_force.mean()), float(problem.units.interface_length.mean())
+
+
 def _steps(model: Model, x0: Array, found: list[Stage], softness: float) -> tuple[PathStep, ...]:
     """The permanent-load state and every stage, with displacements added up, `softness` times as large."""
     problem = model.problem
     free = {block.name: k for k, block in enumerate(model.blocks)}
     places = [free[name] for name in problem.blocks]
     moved = np.zeros((len(model.blocks), 6))
+    unit = np.prod(_means(problem)) / problem.units.loads
     first = {"equilibrium": 0.0, "yield": 0.0}
     steps = [_step(problem, 0.0, x0, moved, (), first, "permanent loads")]
     before: frozenset[tuple[str, str]] = frozenset()
     for stage in found:
         if stage.kind != "fixed point":  # it changes the stresses at collapse, not the way to it
-            unit = np.repeat([problem.scales.length, 1.0], 3)
             moved = moved.copy()
-            moved[places] += softness * (stage.state.u / stage.rho).reshape(-1, 6) * unit
+            moved[places] += softness * (stage.state.u / stage.rho * unit).reshape(-1, 6)
         flowing = _flowing(problem, stage.state)
         state, residuals = stage.state, {name: stage.residuals[name] for name in first}
         new = tuple(sorted(flowing - before))
@@ -162,8 +169,8 @@ def _step(
     kind: str,
 ) -> PathStep:
     return PathStep(
-        load_factor=load_factor * problem.scales.load_factor,
-        stress_resultants=read_only((problem.resultants @ x).reshape(-1, 6) * problem.scales.resultants),
+        load_factor=load_factor / problem.units.live,
+        stress_resultants=resultants_of(problem, x),
         displacements=read_only(moved),
         active=active,
         residuals=residuals,
@@ -173,5 +180,7 @@ def _step(
 
 def _flowing(problem: LimitProblem, state: State) -> frozenset[tuple[str, str]]:
     """(interface, mode) of every row with a multiplier."""
-    rows = np.flatnonzero(np.abs(state.y) > FLOWING * np.abs(state.u).max())
+    speed = np.abs(state.u / problem.units.loads).max()
+    rates = np.abs(state.y) * problem.multiplier_units * problem.units.live
+    rows = np.flatnonzero(rates > FLOWING * speed)
     return frozenset((problem.interfaces[problem.row_interface[r]], problem.row_mode[r]) for r in rows)

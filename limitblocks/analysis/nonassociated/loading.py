@@ -26,19 +26,20 @@ from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import Flow, LimitProblem
 
 log = logging.getLogger(__name__)
 
 Progress = Callable[[Stage], None]
+SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 while stepping
+EXACT = 1e-12  # and in the evidence
 AGAIN = 0.25  # of the flow residual where closing was last tried: from here the next try is worth its cost
 
 
 def stages(
-    problem: LimitProblem,
+    flow: Flow,
     x0: Array,
     weights: Array,
-    dilatancy: float,
     tolerance: float,
     settings: Settings,
     scale: float,
@@ -48,12 +49,13 @@ def stages(
 
     `scale` is the load factor that steps are measured by, the associated one.
     """
+    problem, dilatancy = flow.problem, flow.dilatancy
     first = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
     blocks = InterfaceBlocks(problem)
     found: list[Stage] = []
 
     def judged(stage: Stage) -> Stage:
-        return replace(stage, residuals=evidence(problem, stage.state, dilatancy))
+        return replace(stage, residuals=evidence(replace(flow, softening=EXACT), stage.state))
 
     def report(stage: Stage) -> None:
         _log(stage)
@@ -64,7 +66,8 @@ def stages(
         partial = replace(problem, pivot=turning * problem.pivot)
         slope = dilatancy + dilating * (float(problem.friction.min()) - dilatancy)
         nearest = NearestStresses(partial, weights)
-        task = _Task(partial, blocks, weights, slope, tolerance, settings, first, nearest)
+        partly = Flow(partial, slope, flow.turning, SOFTENING)
+        task = _Task(partly, blocks, weights, tolerance, settings, first, nearest)
         followed = _followed(task, found[-1].state.x if found else x0, report)
         found += [judged(stage) for stage in followed]
     return found
@@ -81,10 +84,9 @@ def elastic_work(problem: LimitProblem, weights: Array) -> float:
 class _Task(NamedTuple):
     """What stays the same from step to step; `first` is the rho of a step of one."""
 
-    problem: LimitProblem
+    flow: Flow
     blocks: InterfaceBlocks
     weights: Array
-    dilatancy: float
     tolerance: float
     settings: Settings
     first: float
@@ -92,7 +94,7 @@ class _Task(NamedTuple):
 
     def loading(self, x: Array, y: Array, rho: float, viscosity: float) -> Loading:
         """The step of size 1 / rho from the state (x, y)."""
-        return Loading(self.problem, self.blocks, self.weights, x, y, rho, viscosity / rho, self.dilatancy)
+        return Loading(self.flow, self.blocks, self.weights, x, y, rho, viscosity / rho)
 
 
 class _Pace(NamedTuple):
@@ -107,7 +109,7 @@ class _Pace(NamedTuple):
 def _followed(task: _Task, x0: Array, report: Progress) -> list[Stage]:
     """Accepted states from the stresses `x0` on, of steps, jumps and the solution that closes them."""
     settings = task.settings
-    x, y, pace = x0, np.zeros(len(task.problem.g)), _Pace(task.first / settings.first)
+    x, y, pace = x0, np.zeros(len(task.flow.problem.g)), _Pace(task.first / settings.first)
     found: list[Stage] = []
     kept, tried, budget = Closing(None, np.inf), np.inf, settings.budget
     while True:

@@ -6,27 +6,29 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from limitblocks.analysis.bounds import TOLERANCE, in_model_order
+from limitblocks.analysis.bounds import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.closing import evidence
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
-    associated_everywhere,
     associated_stage,
     bracket,
     load_scale,
     refuse_unlimited,
     start_stresses,
 )
+from limitblocks.analysis.polish import polish
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
+from limitblocks.evidence.locked_shear import locked_shear
+from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import dilatancy_share
+from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 # A snap that jams one step size is crossed by another, or by a flow rule that grows into the true one.
 ATTEMPTS = (
@@ -45,6 +47,7 @@ def nonassociated(
     model: Model,
     *,
     dilatancy: float = 0.0,
+    turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
     settings: Settings | Sequence[Settings] = ATTEMPTS,
@@ -66,6 +69,9 @@ def nonassociated(
     dilatancy : float
         Tangent of the dilatancy angle of sliding and twisting, 0 to the least friction coefficient, where
         the flow is associated.
+    turning : {"centroid", "centre of pressure"}
+        What twisting under bending turns about: the centroid, which never does negative work, or the point where
+        the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
@@ -90,10 +96,10 @@ def nonassociated(
         If no attempt ends within the tolerance.
     """
     problem = model.problem
-    dilatancy_share(problem, dilatancy)
+    flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
     x0 = start_stresses(model, problem.compliance, start)
     enclosing = bracket(model)
-    refuse_unlimited(problem, enclosing.associated, dilatancy)
+    refuse_unlimited(flow, enclosing.associated)
     scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
@@ -103,22 +109,21 @@ def nonassociated(
             progress(history[-1])
 
     met: list[Stage] = []
-    if enclosing.bounds and start is None and associated_everywhere(problem, dilatancy):
-        met = associated_stage(problem, enclosing.bounds, dilatancy, tolerance)
-        for stage in met:
-            record(stage)
+    if enclosing.bounds and start is None and flow.associated:
+        met = [associated_stage(model, flow, enclosing.bounds)]
+        record(met[-1])
     for setting in [settings] if isinstance(settings, Settings) else settings:
         if met and met[-1].residuals.worst.value <= tolerance:
             break
         x = _first_stresses(problem, setting, enclosing, x0)
         if x is not None:
-            met += stages(problem, x, problem.compliance, dilatancy, tolerance, setting, scale, record)
+            met += stages(flow, x, problem.compliance, tolerance, setting, scale, record)
     return finished(
         model,
-        best_of(met, tolerance) or initial(problem, x0, dilatancy),
+        best_of(met, tolerance) or initial(flow, x0),
         enclosing,
         tuple(history),
-        dilatancy,
+        flow,
         tolerance,
         throw,
     )
@@ -143,17 +148,17 @@ def best_of(met: list[Stage], tolerance: float) -> Stage | None:
     return min(near, key=lambda stage: stage.residuals.worst.value)
 
 
-def initial(problem: LimitProblem, x0: Array, dilatancy: float) -> Stage:
+def initial(flow: Flow, x0: Array) -> Stage:
     """The permanent-load state as a stage: what is left to show where no step succeeds."""
-    u, y = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    u, y = np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g))
     state = State(0.0, x0, u, y)
-    return Stage(state, evidence(problem, state, dilatancy), np.inf, "step", 0, 0)
+    return Stage(state, evidence(flow, state), np.inf, "step", 0, 0)
 
 
 def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
     """What a stage tells the user."""
     return Iteration(
-        load_factor=stage.state.load_factor * problem.scales.load_factor,
+        load_factor=stage.state.load_factor / problem.units.live,
         kind=stage.kind,
         step_size=1.0 / stage.rho,
         residuals=stage.residuals.to_dict(),
@@ -167,27 +172,31 @@ def finished(
     stage: Stage,
     enclosing: Bracket,
     history: tuple[Iteration, ...],
-    dilatancy: float,
+    flow: Flow,
     tolerance: float,
     throw: bool,
 ) -> Nonassociated:
     """The result of a stage, raised as NotConverged where its residuals are above the tolerance."""
-    problem, state = model.problem, stage.state
-    worst = stage.residuals.worst
+    state = polish(flow, stage.state)
+    si, residuals = model.problem.in_si(state), mcp_residuals(flow, state)
+    worst = residuals.worst
+    found = enclosing.bounds
+    dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
-        load_factor=state.load_factor * problem.scales.load_factor,
+        load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
         associated=enclosing.associated,
-        stress_resultants=read_only(
-            (problem.resultants @ state.x).reshape(-1, 6) * problem.scales.resultants
-        ),
-        generalised_stresses=read_only(state.x * problem.stress_units),
-        displacement_rates=in_model_order(model, state.u),
-        flow_multipliers=read_only(state.y * problem.scales.work),
-        residuals=stage.residuals,
+        stress_resultants=resultants_of(model.problem, state.x),
+        generalised_stresses=read_only(si.x),
+        displacement_rates=in_model_order(model, si.u),
+        flow_multipliers=read_only(si.y),
+        dead_load_stresses=dead,
+        residuals=residuals,
         status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
         history=history,
-        dilatancy=dilatancy,
+        dilatancy=flow.dilatancy,
+        turning=flow.turning,
+        remarks=locked_shear(flow, state),
         tolerance=tolerance,
         digest=model.digest,
     )

@@ -1,21 +1,11 @@
-"""States of the limit problem, dimensionless, and the stages of the outer loop that reach them."""
+"""Stages of the outer loop: the states it reaches, with their evidence."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
-from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals
-
-
-@dataclass(frozen=True, eq=False)
-class State:
-    """Load factor, generalised stresses x, displacement rates u and multipliers y of a LimitProblem."""
-
-    load_factor: float
-    x: Array
-    u: Array
-    y: Array
+from limitblocks.problem import State
 
 
 @dataclass(frozen=True, eq=False)

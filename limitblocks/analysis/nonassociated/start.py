@@ -7,20 +7,20 @@ from dataclasses import dataclass, is_dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.analysis.bounds import TOLERANCE, Bounds, bounds, refuse_falling
-from limitblocks.analysis.nonassociated.closing import evidence
-from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, permanent_state
-from limitblocks.analysis.nonassociated.stage import Stage, State
+from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.stage import Stage
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError, SolverFailure, UnlimitedLoad
-from limitblocks.evidence.residuals import SMALL_LOAD, Residuals, static_residuals
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
-from limitblocks.problem.flow import dilatancy_share
+from limitblocks.problem import Flow, LimitProblem, State
 
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
-ROUNDS = 10  # of the fixed point from an associated state
+GIVEN = 1e-6  # residual up to which a state that is given may be started from
 
 Start = Nonassociated | Bounds | npt.ArrayLike
 
@@ -66,32 +66,24 @@ def _limited(model: Model) -> Bounds | None:
         return None
 
 
-def associated_everywhere(problem: LimitProblem, dilatancy: float) -> bool:
-    """Whether the flow of every row is its gradient."""
-    return bool((dilatancy_share(problem, dilatancy) == 1.0).all())
-
-
-def associated_stage(problem: LimitProblem, found: Bounds, dilatancy: float, tolerance: float) -> list[Stage]:
-    """The bounds as a solution of Eqs (54)-(59), which for associated flow they are; empty if inaccurate."""
-    scales = problem.scales
-    x, y = found.generalised_stresses / problem.stress_units, found.flow_multipliers / scales.work
-    start = State(found.lower / scales.load_factor, x, np.zeros(problem.C.shape[1]), y)
-    nearest = NearestStresses(problem, problem.compliance)
-    state, rounds = fixed_point(nearest, start, dilatancy, tolerance, ROUNDS)
-    if state is None:
-        return []
-    return [Stage(state, evidence(problem, state, dilatancy), np.inf, "fixed point", rounds, 0)]
+def associated_stage(model: Model, flow: Flow, found: Bounds) -> Stage:
+    """The bounds as a solution of Eqs (54)-(59), which for associated flow they are."""
+    places = [k for k, block in enumerate(model.blocks) if block.name not in set(model.supports)]
+    rates = found.displacement_rates[places].ravel()
+    si = State(found.lower, found.generalised_stresses, rates, found.flow_multipliers)
+    state = model.problem.dimensionless(si)
+    return Stage(state, mcp_residuals(flow, state), np.inf, "fixed point", 0, 0)
 
 
 def load_scale(problem: LimitProblem, associated: float) -> float:
     """Dimensionless load factor that steps are measured by; the dead load's where none limits the load."""
-    limit = associated / problem.scales.load_factor
-    return max(limit, SMALL_LOAD) if np.isfinite(limit) else float(len(problem.blocks))
+    limit = associated * problem.units.live
+    return limit if 0.0 < limit < np.inf else float(len(problem.blocks))
 
 
-def refuse_unlimited(problem: LimitProblem, associated: float, dilatancy: float) -> None:
+def refuse_unlimited(flow: Flow, associated: float) -> None:
     """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
-    if np.isinf(associated) and associated_everywhere(problem, dilatancy):
+    if np.isinf(associated) and flow.associated:
         raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
 
 
@@ -106,9 +98,9 @@ def start_stresses(model: Model, weights: Array, start: Start | None) -> Array:
     problem = model.problem
     if start is not None:
         return _given(model, start)
+    dead_load_state(problem)  # a least-norm state of what falls may look like one
     x = permanent_state(problem, weights)
-    if x is None or Residuals(static_residuals(problem, 0.0, x)).worst.value > TOLERANCE:
-        refuse_falling(problem)
+    if x is None:
         raise SolveError("no state of the permanent loads was found, though they stand")
     return x
 
@@ -131,9 +123,9 @@ def _given(model: Model, start: Start) -> Array:
     carried = problem.C.T @ x - problem.dead
     load_factor = float(carried @ problem.live / (problem.live @ problem.live))
     worst = Residuals(static_residuals(problem, load_factor, x)).worst
-    if worst.value > TOLERANCE:
+    if worst.value > GIVEN:
         raise ModelError(
-            f"start is no state of this model: {worst.name} residual {worst.value:.1e} block weights at load "
-            f"factor {load_factor * problem.scales.load_factor:.6g}, at most {TOLERANCE:g} is needed"
+            f"start is no state of this model: {worst.name} residual {worst.value:.1e} at load "
+            f"factor {load_factor / problem.units.live:.6g}, at most {GIVEN:g} is needed"
         )
     return x

@@ -1,0 +1,218 @@
+"""End game: from a state near a solution to one that satisfies Eqs (54)-(59) to rounding.
+
+The rows that yield are read off the state: of a linear row or a cone, s = F x + g or its multiplier y is the
+larger one, and the smaller is zero in the solution (strict complementarity). What is left is a smooth square
+system in (x, u, load factor, y of what yields):
+
+    C u + G(x)^T y = 0,   C^T x = dead + a live,   live . u = 1,
+    s = 0 where y is the larger,   s o y = 0 for a cone where both lie on the boundary,
+
+solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique, so each
+step is the least one: minimum norm, multipliers measured by their size, from the quasidefinite system
+
+    [ I   J^T ] [ p ]   [  0 ]
+    [ J  -eps ] [ q ] = [ -r ]
+
+(Vanderbei 1995, Symmetric quasidefinite matrices, SIAM J. Optimization 5). The idea of a polish by active rows
+with regularisation and refinement is that of OSQP (Stellato et al. 2020, Math. Prog. Computation 12, Section 5.4).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.problem import Cones, Flow, LimitProblem, State
+
+REGULAR = 1e-11  # eps of the quasidefinite system
+ROUNDING = 1e-14  # a residual that cannot fall further
+LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
+ROUNDS = 4  # of reading the yielding rows off the state
+STEPS = 8  # of Newton's method in a round
+
+
+class Kind(IntEnum):
+    """What a linear row or a cone does: y = 0, both on the boundary of the cone, or s = 0."""
+
+    FREE = 0
+    BOUNDARY = 1
+    TIGHT = 2
+
+
+@dataclass(frozen=True, eq=False)
+class Active:
+    """What yields: the kind of each linear row and each cone, the yielding rows and those of boundary cones."""
+
+    kind: Indices
+    rows: Indices
+    on_boundary: Indices
+
+
+def defect(flow: Flow, state: State) -> float:
+    """Return the largest residual of Eqs (54)-(59)."""
+    return mcp_residuals(flow, state).worst.value
+
+
+def classified(cones: Cones, s: Array, y: Array) -> Active:
+    """Read off what yields: the larger of s and y, eigenvalue by eigenvalue of a cone."""
+    kind = np.where(s[: cones.linear] < y[: cones.linear], Kind.TIGHT, Kind.FREE)
+    kinds = [kind]
+    for index in cones.groups:
+        a, b = s[index], y[index]
+        across, along = np.linalg.norm(a[:, 1:], axis=1), np.linalg.norm(b[:, 1:], axis=1)
+        # s and y of a solution share a frame, in reverse: the least of s meets the largest of y
+        free, tight = a[:, 0] - across >= b[:, 0] + along, b[:, 0] - along >= a[:, 0] + across
+        kinds.append(np.where(free, Kind.FREE, np.where(tight, Kind.TIGHT, Kind.BOUNDARY)))
+    kind = np.concatenate(kinds)
+    of_row = kind[cones.member]
+    return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
+
+
+def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
+    """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
+
+    Parameters
+    ----------
+    flow : Flow
+        Any flow rule; with associated flow the state is a pair of bounds.
+    state : State
+        A state near a solution, dimensionless.
+    rounds : int
+        How often the yielding rows may be read off again.
+    """
+    best, least = state, defect(flow, state)
+    now = state
+    for _ in range(rounds):
+        if least < ROUNDING:
+            break
+        active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
+        found = _newton(flow, now, active)
+        if found is None:
+            break
+        worst = defect(flow, found)
+        if worst < least:
+            best, least = found, worst
+        again = classified(flow.problem.cones, flow.problem.F @ found.x + flow.problem.g, found.y)
+        if np.array_equal(again.kind, active.kind):
+            break
+        now = found
+    return best
+
+
+def _newton(flow: Flow, state: State, active: Active) -> State | None:
+    """Newton's method on the equations of one set of yielding rows; the best state it meets."""
+    y = np.zeros_like(state.y)
+    y[active.rows] = state.y[active.rows]
+    now = State(state.load_factor, state.x, state.u, y)
+    found, least = None, np.inf
+    for _ in range(STEPS):
+        try:
+            now = _step(flow, now, active)
+        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+            break
+        inside = _admissible(flow.problem.cones, now)
+        worst = defect(flow, inside)
+        if not worst < 0.5 * least:
+            if worst < least:
+                found = inside
+            break
+        found, least = inside, worst
+        if least < ROUNDING:
+            break
+    return found
+
+
+def _step(flow: Flow, now: State, active: Active) -> State:
+    """One Newton step, the least one where the equations leave a choice."""
+    p = flow.problem
+    residual, matrix = _equations(flow, now, active)
+    size = np.maximum(np.abs(now.y[active.rows]), LEAST_MULTIPLIER * max(np.abs(now.y).max(), 1e-12))
+    columns = np.concatenate([np.ones(matrix.shape[1] - len(size)), size / max(size.max(), 1e-300)])
+    scaled = matrix @ sparse.diags_array(columns)
+    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
+    rows = 1.0 / np.where(length > 0.0, length, 1.0)
+    J = sparse.csr_array(sparse.diags_array(rows) @ scaled)
+    d = columns * _least_solution(J, -rows * residual)
+    n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
+    y = now.y.copy()
+    y[active.rows] += d[k + 1 :]
+    return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
+
+
+def _least_solution(J: sparse.csr_array, r: Array) -> Array:
+    """Least-norm least-squares solution of J p = r, with refinement."""
+    m, n = J.shape
+    eps = sparse.diags_array(np.full(m, -REGULAR))
+    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
+    lu = linalg.splu(K)
+    right = np.concatenate([np.zeros(n), r])
+    z = lu.solve(right)
+    for _ in range(2):
+        z = z + lu.solve(right - K @ z)
+    return np.asarray(z[:n])
+
+
+def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:
+    """Residual of the equations of the yielding rows, and their derivative by (x, u, a, y of the rows)."""
+    p = flow.problem
+    s = p.F @ now.x + p.g
+    G = flow.matrix(now.x)
+    yields, conditions, by_stress, by_multiplier = _complementarity(p, s, now.y, active)
+    live = sparse.csr_array(p.live[:, None])
+    residual = np.concatenate(
+        [
+            p.C @ now.u + G.T @ now.y,
+            p.C.T @ now.x - p.dead - now.load_factor * p.live,
+            [p.live @ now.u - 1.0],
+            conditions,
+        ]
+    )
+    turn = None if flow.constant else -flow.derivative(now.x, now.y)
+    blocks = [
+        [turn, p.C, None, sparse.csr_array(G[yields].T)],
+        [sparse.csr_array(p.C.T), None, -live, None],
+        [None, live.T, None, None],
+        [by_stress, None, None, by_multiplier],
+    ]
+    if not len(yields):
+        blocks = [row[:3] for row in blocks[:3]]
+    return residual, sparse.csr_array(sparse.block_array(blocks))
+
+
+def _complementarity(
+    p: LimitProblem, s: Array, y: Array, active: Active
+) -> tuple[Indices, Array, sparse.csr_array, sparse.csr_array]:
+    """Yielding rows, their conditions s = 0 or s o y = 0, and the derivatives by x and by y of these rows."""
+    rows, cones = active.rows, p.cones
+    both = np.zeros(cones.height)
+    both[active.on_boundary] = 1.0
+    # a cone on the boundary counts in units of its larger part
+    unit = np.maximum(np.abs(s[cones.heads]), np.abs(y[cones.heads]))[cones.member]
+    weight = np.where(both > 0.0, 1.0 / np.maximum(unit, 1e-300), 1.0)
+    conditions = np.where(both > 0.0, cones.product(s, y), s) * weight
+    on, tight = sparse.diags_array(both * weight), sparse.diags_array(1.0 - both)
+    by_stress = sparse.csr_array((on @ cones.arrow(y) + tight) @ p.F)[rows]
+    by_multiplier = sparse.csr_array(on @ cones.arrow(s))[rows][:, rows]
+    return rows, conditions[rows], by_stress, by_multiplier
+
+
+def _admissible(cones: Cones, state: State) -> State:
+    """The state with multipliers that left K by rounding put back."""
+    y = state.y.copy()
+    y[: cones.linear] = np.maximum(y[: cones.linear], 0.0)
+    for index in cones.groups:
+        v = y[index]
+        across = np.linalg.norm(v[:, 1:], axis=1)
+        # the nearest point of K: (t + r)/2 (1, z/r) for |t| < r, zero for t <= -r
+        half = np.clip((v[:, 0] + across) / 2.0, 0.0, None)
+        outside = across > v[:, 0]
+        ratio = np.where(across > 0.0, half / np.where(across > 0.0, across, 1.0), 0.0)
+        v[outside] = np.column_stack([half, v[:, 1:] * ratio[:, None]])[outside]
+        y[index] = v
+    return State(state.load_factor, state.x, state.u, y)

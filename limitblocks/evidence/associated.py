@@ -1,0 +1,103 @@
+"""Result of the associated bounds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import Residuals
+from limitblocks.problem import ASSOCIATED, Turning
+
+
+@dataclass(frozen=True, eq=False)
+class Bounds:
+    """Bounds on the load factor of the associated flow, with the states that prove them.
+
+    For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
+    in equilibrium within the yield surface) and `upper` (a mechanism). Each comes from its own program.
+
+    Attributes
+    ----------
+    lower, upper : float
+        Static and kinematic load factor; equal up to `gap`.
+    gap : float
+        Difference relative to the larger of the two.
+    worth : float
+        What the violations of both states may be worth in the load factor, relative to it, added up in size.
+    stress_resultants : Array, shape (m, 6)
+        (V1, V2, N, M1, M2, T) of each interface at the lower bound, local axes, N and N m; N <= 0.
+    generalised_stresses : Array, shape (s,)
+        What the joints' rows act on, N and N m: for OrdunaLourenco the stress resultants, for PointContact the
+        forces of the points, in the order of the limit problem.
+    displacement_rates : Array, shape (n, 6)
+        Mechanism of the upper bound: (du, dv, dw, dwX, dwY, dwZ) of each block of the model at its centroid,
+        global axes, such that the live load does the work 1 N m, Eq. (55); zero for supports.
+    flow_multipliers : Array, shape (R,)
+        Flow multiplier of each row of the limit problem, m, in the scale of the mechanism.
+    dead_load_stresses : Array, shape (s,)
+        Generalised stresses, N and N m, that carry the dead loads alone.
+    residuals : Residuals
+        Recomputed from the limit problem without the solver; all at most `tolerance`.
+    solvers : tuple of str
+        Solver of the static and of the kinematic program.
+    tolerance : float
+        Largest residual and gap accepted.
+    digest : str
+        SHA-256 of the model.
+    """
+
+    lower: float
+    upper: float
+    gap: float
+    worth: float
+    stress_resultants: Array
+    generalised_stresses: Array
+    displacement_rates: Array
+    flow_multipliers: Array
+    dead_load_stresses: Array
+    residuals: Residuals
+    solvers: tuple[str, str]
+    tolerance: float
+    digest: str
+
+    @property
+    def load_factor(self) -> float:
+        """The static bound, as which :func:`limitblocks.check_mcp` judges the result."""
+        return self.lower
+
+    @property
+    def dilatancy(self) -> float:
+        """Infinite: the flow is associated at every interface."""
+        return ASSOCIATED
+
+    @property
+    def turning(self) -> Turning:
+        """Of no account where the flow is associated."""
+        return Turning.CENTROID
+
+    def __str__(self) -> str:
+        worst = self.residuals.worst
+        return (
+            f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
+            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name})"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain numbers, lists and text."""
+        return {
+            "analysis": "bounds",
+            "lower": self.lower,
+            "upper": self.upper,
+            "gap": self.gap,
+            "worth": self.worth,
+            "residuals": self.residuals.to_dict(),
+            "tolerance": self.tolerance,
+            "solvers": list(self.solvers),
+            "stress_resultants": self.stress_resultants.tolist(),
+            "generalised_stresses": self.generalised_stresses.tolist(),
+            "displacement_rates": self.displacement_rates.tolist(),
+            "flow_multipliers": self.flow_multipliers.tolist(),
+            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            "model_digest": self.digest,
+        }

@@ -1,0 +1,122 @@
+"""What is claimed of a model: a load factor with the state that is to prove it, from any source, in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.model import Model
+from limitblocks.problem import Turning, turning_of
+
+
+@dataclass(frozen=True, eq=False)
+class Claim:
+    """A claimed solution, from any source, in SI units.
+
+    Attributes
+    ----------
+    load_factor : float
+        Load factor.
+    stress_resultants : Array, shape (m, 6)
+        (V1, V2, N, M1, M2, T) of the model's interfaces, local axes, N and N m; N <= 0 in compression.
+    displacement_rates : Array, shape (n, 6), optional
+        Of all blocks of the model at their centroids, global axes, m and rad, in the scale in which the live
+        load does the work 1 N m, Eq. (55); searched for if missing.
+    flow_multipliers : Array, shape (R,), optional
+        Of the rows of the limit problem, m, in the same scale; searched for if missing.
+    generalised_stresses : Array, shape (s,), optional
+        Stresses that the rows act on, N and N m; needed where a joint has inner forces (PointContact).
+    dead_load_stresses : Array, shape (s,), optional
+        Generalised stresses that carry the dead loads alone; searched for if missing.
+    dilatancy : float
+        Tangent of the dilatancy angle of the flow; infinite for the associated flow.
+    turning : {"centroid", "centre of pressure"}
+        What twisting under bending turns about.
+    digest : str
+        SHA-256 of the model it belongs to; empty if unknown.
+    """
+
+    load_factor: float
+    stress_resultants: Array
+    displacement_rates: Array | None = None
+    flow_multipliers: Array | None = None
+    generalised_stresses: Array | None = None
+    dead_load_stresses: Array | None = None
+    dilatancy: float = 0.0
+    turning: Turning | str = Turning.CENTROID
+    digest: str = ""
+
+
+ARRAYS = (
+    "stress_resultants",
+    "displacement_rates",
+    "flow_multipliers",
+    "generalised_stresses",
+    "dead_load_stresses",
+)
+
+
+def claim_of(model: Model, result: Any) -> Claim:
+    """Return what `result` claims of `model`; a load path claims its collapse.
+
+    Raises
+    ------
+    ModelError
+        If it is no result, belongs to another model, or a number is missing, of the wrong shape, complex or
+        not finite.
+    """
+    result = getattr(result, "collapse", result)
+    missing = [name for name in ("load_factor", "stress_resultants") if not hasattr(result, name)]
+    if missing:
+        raise ModelError(
+            f"{type(result).__name__} has no {' and no '.join(missing)}; expected a Claim or a result"
+        )
+    digest = str(getattr(result, "digest", ""))
+    if digest and digest != model.digest:
+        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    problem, shapes = model.problem, {}
+    stresses, rows = problem.C.shape[0], len(problem.g)
+    expected = ((len(model.interfaces), 6), (len(model.blocks), 6), (rows,), (stresses,), (stresses,))
+    for name, shape in zip(ARRAYS, expected, strict=True):
+        shapes[name] = _array(name, getattr(result, name, None), shape)
+    dilatancy = _number("dilatancy", getattr(result, "dilatancy", 0.0), infinite=True)
+    if dilatancy < 0.0:
+        raise ModelError(f"dilatancy is {dilatancy!r}, expected 0 or more; infinite means associated flow")
+    if shapes["stress_resultants"] is None:
+        raise ModelError("stress_resultants are missing, and a load factor alone cannot be checked")
+    return Claim(
+        load_factor=_number("load_factor", result.load_factor),
+        dilatancy=dilatancy,
+        turning=turning_of(getattr(result, "turning", Turning.CENTROID)),
+        digest=digest,
+        **shapes,  # type: ignore[arg-type] # the required one is there
+    )
+
+
+def _array(name: str, value: Any, shape: tuple[int, ...]) -> Array | None:
+    """`value` as a real and finite array of this shape, None if it is missing."""
+    if value is None:
+        return None
+    array = np.asarray(value)
+    if array.dtype.kind not in "fiu":
+        raise ModelError(f"{name} holds {array.dtype}, expected real numbers")
+    if array.shape != shape:
+        raise ModelError(f"{name} has shape {array.shape}, expected {shape} for this model")
+    bad = np.argwhere(~np.isfinite(array))
+    if len(bad):
+        place = tuple(bad[0].tolist())
+        raise ModelError(f"{name}{list(place)} is {array[place]}, expected finite numbers")
+    return np.asarray(array, dtype=float)
+
+
+def _number(name: str, value: Any, infinite: bool = False) -> float:
+    array = np.asarray(value)
+    if array.shape != () or array.dtype.kind not in "fiu" or np.isnan(array):
+        raise ModelError(f"{name} is {value!r}, expected a real number")
+    if not infinite and not np.isfinite(array):
+        raise ModelError(f"{name} is {value!r}, expected a finite number")
+    return float(array)

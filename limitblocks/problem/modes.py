@@ -1,0 +1,40 @@
+"""Failure modes of yield rows, in the paper's words, and what each lets an interface do."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class Mode(StrEnum):
+    """Failure mode of a yield row; the value is the paper's word.
+
+    Attributes
+    ----------
+    opens : bool
+        One side of the interface lifts (hinging, crushing, opening of a point): the flow is associated.
+    slides, twists : bool
+        The interface slides, or turns about its normal.
+    """
+
+    SLIP = "slip"
+    TWIST = "twist"
+    SLIP_TWIST = "slip-twist"
+    MOMENT_TWIST = "moment-twist"
+    HINGE = "hinge"
+    CRUSH = "crush"
+    OPEN = "open"
+
+    @property
+    def opens(self) -> bool:
+        """Whether one side lifts."""
+        return self in (Mode.HINGE, Mode.CRUSH, Mode.OPEN)
+
+    @property
+    def slides(self) -> bool:
+        """Whether it slides."""
+        return self in (Mode.SLIP, Mode.SLIP_TWIST)
+
+    @property
+    def twists(self) -> bool:
+        """Whether it turns about its normal."""
+        return self in (Mode.TWIST, Mode.SLIP_TWIST, Mode.MOMENT_TWIST)

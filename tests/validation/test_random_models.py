@@ -1,0 +1,66 @@
+"""Models whose load factors are known exactly: random ones, weights far apart, tiny and huge frictions."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "oracle"))
+import draw
+import judge
+import random_models
+import shapes
+from coulomb import Truth
+
+SEEDS = range(60)
+RECORD = judge.recorded()
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_random_model(seed):
+    case = random_models.case(seed)
+    expected = judge.truth_of(case, RECORD)
+    assert expected.verdict != "undecided"
+    verdict = judge.judged(case.model, expected)
+    assert verdict.outcome == "right", verdict.said
+
+
+def apart(*stones):
+    """Cubes (side, weight, friction) on one floor, far from each other."""
+    x, boxes = 0.0, {}
+    for k, (side, _, _) in enumerate(stones):
+        boxes[f"b{k}"] = ((x, 0.0, 0.0), (x + side, side, side))
+        x += 3 * side
+    floor = draw.floor_under(boxes)
+    frictions = iter([friction for _, _, friction in stones])
+    found = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
+    blocks = [shapes.box("floor", *floor["floor"])]
+    blocks += [
+        shapes.box(name, *ends, weight)
+        for (name, ends), (_, weight, _) in zip(boxes.items(), stones, strict=True)
+    ]
+    return lb.Model(blocks, ["floor"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+@pytest.mark.parametrize(
+    ("stones", "expected"),
+    [
+        pytest.param([(10.0, 2e7, 0.6), (0.02, 0.16, 0.3)], 0.3, id="10 m and 2 cm"),
+        pytest.param([(1.0, 1.0, 0.4), (1.0, 1e7, 0.8)], 0.4, id="beside 1e7 times the weight"),
+        pytest.param([(1.0, 1e-8, 0.4), (1.0, 1e8, 0.8)], 0.4, id="beside 1e16 times the weight"),
+        pytest.param([(1.0, 1e-8, 0.8), (1.0, 1e8, 0.4)], 0.4, id="the heavy one slides"),
+    ],
+)
+def test_cubes_apart(stones, expected):
+    verdict = judge.judged(apart(*stones), Truth("number", expected))
+    assert verdict.outcome == "right", verdict.said
+
+
+@pytest.mark.parametrize("friction", [1e-9, 1e-6, 1e-3, 1e3, 1e8])
+def test_cube_of_extreme_friction(friction):
+    model = structures.block(lb.PointContact(friction), width=0.5, height=1.0)
+    verdict = judge.judged(model, Truth("number", min(friction, 0.5)))
+    assert verdict.outcome == "right", verdict.said
