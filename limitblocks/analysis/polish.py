@@ -2,25 +2,26 @@
 
 The rows that yield are read off the state: of a linear row or a cone, s = F x + g or its multiplier y is the
 larger one, and the smaller is zero in the solution (strict complementarity). What is left is a smooth square
-system in (x, u, load factor, y of what yields):
+system in (x, u, load factor a, y of what yields):
 
     C u + G(x)^T y = 0,   C^T x = dead + a live,   live . u = 1,
     s = 0 where y is the larger,   s o y = 0 for a cone where both lie on the boundary,
 
-solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique, so each
-step is the least one: minimum norm, multipliers measured by their size, from the quasidefinite system
+solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique: J is
+singular. With the first equations negated it is skew for associated flow, so that J + delta I is regular and
+refinement on J is the proximal point method (Rockafellar 1976, SIAM J. Control 14); the polish of OSQP does
+the same (Stellato et al. 2020, Math. Prog. Computation 12). Where it does not converge, the step of least
+norm comes from the quasidefinite system (Vanderbei 1995, SIAM J. Optimization 5)
 
     [ I   J^T ] [ p ]   [  0 ]
     [ J  -eps ] [ q ] = [ -r ]
-
-(Vanderbei 1995, Symmetric quasidefinite matrices, SIAM J. Optimization 5). The idea of a polish by active rows
-with regularisation and refinement is that of OSQP (Stellato et al. 2020, Math. Prog. Computation 12, Section 5.4).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -30,7 +31,10 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
+PROXIMAL = 1e-7  # delta
 REGULAR = 1e-11  # eps of the quasidefinite system
+SOLVED = 1e-6  # part of a right-hand side that may be left unsolved
+REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 ROUNDS = 4  # of reading the yielding rows off the state
@@ -47,7 +51,7 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Active:
-    """What yields: the kind of each linear row and each cone, the yielding rows and those of boundary cones."""
+    """What yields: kinds of the linear rows and the cones, yielding rows, and those of boundary cones."""
 
     kind: Indices
     rows: Indices
@@ -74,7 +78,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -83,16 +87,16 @@ def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
         Any flow rule; with associated flow the state is a pair of bounds.
     state : State
         A state near a solution, dimensionless.
-    rounds : int
-        How often the yielding rows may be read off again.
+    until : float
+        Residual that is small enough.
     """
     best, least = state, defect(flow, state)
     now = state
-    for _ in range(rounds):
-        if least < ROUNDING:
+    for _ in range(ROUNDS):
+        if least <= until:
             break
         active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
-        found = _newton(flow, now, active)
+        found = _newton(flow, now, active, until)
         if found is None:
             break
         worst = defect(flow, found)
@@ -105,7 +109,7 @@ def polish(flow: Flow, state: State, *, rounds: int = ROUNDS) -> State:
     return best
 
 
-def _newton(flow: Flow, state: State, active: Active) -> State | None:
+def _newton(flow: Flow, state: State, active: Active, until: float) -> State | None:
     """Newton's method on the equations of one set of yielding rows; the best state it meets."""
     y = np.zeros_like(state.y)
     y[active.rows] = state.y[active.rows]
@@ -123,26 +127,44 @@ def _newton(flow: Flow, state: State, active: Active) -> State | None:
                 found = inside
             break
         found, least = inside, worst
-        if least < ROUNDING:
+        if least <= until:
             break
     return found
 
 
 def _step(flow: Flow, now: State, active: Active) -> State:
-    """One Newton step, the least one where the equations leave a choice."""
+    """One Newton step."""
     p = flow.problem
-    residual, matrix = _equations(flow, now, active)
-    size = np.maximum(np.abs(now.y[active.rows]), LEAST_MULTIPLIER * max(np.abs(now.y).max(), 1e-12))
-    columns = np.concatenate([np.ones(matrix.shape[1] - len(size)), size / max(size.max(), 1e-300)])
-    scaled = matrix @ sparse.diags_array(columns)
-    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
-    rows = 1.0 / np.where(length > 0.0, length, 1.0)
-    J = sparse.csr_array(sparse.diags_array(rows) @ scaled)
-    d = columns * _least_solution(J, -rows * residual)
+    residual, J = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
+    d = _proximal_solution(J, -residual, n)
+    if d is None:
+        d = _scaled_least_solution(J, -residual, now.y[active.rows])
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
+
+
+def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array | None:
+    """Solution of J d = r from J + delta I with refinement; the first n equations negated. None if none."""
+    sign = np.where(np.arange(len(r)) < n, -1.0, 1.0)
+    K = sparse.csc_array(sparse.diags_array(sign) @ J + PROXIMAL * sparse.eye_array(len(r)))
+    lu = linalg.splu(K, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.001)
+    d = lu.solve(sign * r)
+    for _ in range(REFINEMENTS):
+        d = d + lu.solve(sign * (r - J @ d))
+    solved = float(np.abs(J @ d - r).max()) <= SOLVED * float(np.abs(r).max(initial=0.0)) + ROUNDING
+    return np.asarray(d) if solved else None
+
+
+def _scaled_least_solution(J: sparse.csr_array, r: Array, y: Array) -> Array:
+    """Step of least norm, multipliers measured by their size so that small ones stay positive."""
+    size = np.maximum(np.abs(y), LEAST_MULTIPLIER * np.abs(y).max(initial=1e-12))
+    columns = np.concatenate([np.ones(J.shape[1] - len(y)), size / size.max(initial=1e-12)])
+    scaled = sparse.csr_array(J @ sparse.diags_array(columns))
+    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
+    rows = 1.0 / np.where(length > 0.0, length, 1.0)
+    return columns * _least_solution(sparse.csr_array(sparse.diags_array(rows) @ scaled), rows * r)
 
 
 def _least_solution(J: sparse.csr_array, r: Array) -> Array:
@@ -174,7 +196,7 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
         ]
     )
     turn = None if flow.constant else -flow.derivative(now.x, now.y)
-    blocks = [
+    blocks: list[list[Any]] = [
         [turn, p.C, None, sparse.csr_array(G[yields].T)],
         [sparse.csr_array(p.C.T), None, -live, None],
         [None, live.T, None, None],

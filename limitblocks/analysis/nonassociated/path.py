@@ -29,7 +29,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
-from limitblocks.analysis.nonassociated.polish import defect, polish
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
