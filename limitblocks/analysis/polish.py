@@ -38,6 +38,7 @@ REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 ROUNDS = 4  # of reading the yielding rows off the state
+CONVERGING = 0.1  # part of the residual that a step of Newton's method may leave
 STEPS = 8  # of Newton's method in a round
 
 
@@ -78,7 +79,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING, rounds: int = ROUNDS) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -89,10 +90,12 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
         A state near a solution, dimensionless.
     until : float
         Residual that is small enough.
+    rounds : int
+        How often the yielding rows may be read off.
     """
     best, least = state, defect(flow, state)
     now = state
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         if least <= until:
             break
         active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
@@ -122,7 +125,7 @@ def _newton(flow: Flow, state: State, active: Active, until: float) -> State | N
             break
         inside = _admissible(flow.problem.cones, now)
         worst = defect(flow, inside)
-        if not worst < 0.5 * least:
+        if not worst < CONVERGING * least:
             if worst < least:
                 found = inside
             break

@@ -40,6 +40,7 @@ CORRECTORS, HALVINGS = 5, 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
 CLOSED = 1e-9  # residual of a solution
+TRIES = 2  # rounds of the polish on the way
 BUDGET = 600  # factorisations
 
 
@@ -223,7 +224,7 @@ class _Walk:
         if mu < LAST:
             raise _Lost("no solution at the end")
         self.tried = DECADE * mu
-        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y))
+        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y), rounds=TRIES)
         residual = defect(self.path.flow, state)
         if self.best is None or residual < defect(self.path.flow, self.best):
             self.best = state
