@@ -91,6 +91,17 @@ def test_the_small_barrier_comes_first_and_the_next_means_rescues_where_it_winds
     assert 0.0 < load_factor(model, state) < lb.bounds(model).upper
 
 
+@pytest.mark.parametrize(
+    ("name", "direction", "means"), [("pavilion_vault", (0, 1, 0), 3), ("dome", (1, 0, 0), 4)]
+)
+def test_larger_barriers_rescue_what_the_means_before_them_leave_open(name, direction, means):
+    joint = lb.OrdunaLourenco(0.7, slip="exact")
+    model = replace(structures.EXAMPLES[name](joint), live=lb.mass_proportional(direction))
+    _, paths = follow(*start(model))
+    assert [path.closed for path in paths] == [False] * (means - 1) + [True]
+    assert paths[-1].residual <= 1e-8
+
+
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
 def test_the_derivative_is_that_of_the_equations(joint, rule):
