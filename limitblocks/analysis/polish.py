@@ -2,19 +2,19 @@
 
 The rows that yield are read off the state: of a linear row or a cone, s = F x + g or its multiplier y is the
 larger one, and the smaller is zero in the solution (strict complementarity). What is left is a smooth square
-system in (x, u, load factor, y of what yields):
+system in (x, u, load factor a, y of what yields):
 
     C u + G(x)^T y = 0,   C^T x = dead + a live,   live . u = 1,
     s = 0 where y is the larger,   s o y = 0 for a cone where both lie on the boundary,
 
-solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique, so each
-step is the least one: minimum norm, multipliers measured by their size, from the quasidefinite system
+solved by Newton's method. Stresses of rigid parts and multipliers of redundant rows are not unique: J is
+singular. With the first equations negated it is skew for associated flow, so that J + delta I is regular and
+refinement on J is the proximal point method (Rockafellar 1976, SIAM J. Control 14); the polish of OSQP does
+the same (Stellato et al. 2020, Math. Prog. Computation 12). Where it does not converge, the step of least
+norm comes from the quasidefinite system (Vanderbei 1995, SIAM J. Optimization 5)
 
     [ I   J^T ] [ p ]   [  0 ]
     [ J  -eps ] [ q ] = [ -r ]
-
-(Vanderbei 1995, Symmetric quasidefinite matrices, SIAM J. Optimization 5). A polish by active rows with
-regularisation and refinement is that of OSQP (Stellato et al. 2020, Math. Prog. Computation 12, Section 5.4).
 """
 
 from __future__ import annotations
@@ -31,10 +31,14 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
+PROXIMAL = 1e-7  # delta
 REGULAR = 1e-11  # eps of the quasidefinite system
+SOLVED = 1e-6  # part of a right-hand side that may be left unsolved
+REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 ROUNDS = 4  # of reading the yielding rows off the state
+CONVERGING = 0.1  # part of the residual that a step of Newton's method may leave
 STEPS = 8  # of Newton's method in a round
 
 
@@ -48,7 +52,7 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, eq=False)
 class Active:
-    """The kind of each linear row and each cone, the yielding rows and those of boundary cones."""
+    """What yields: kinds of the linear rows and the cones, yielding rows, and those of boundary cones."""
 
     kind: Indices
     rows: Indices
@@ -75,7 +79,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING, rounds: int = ROUNDS) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -86,10 +90,12 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
         A state near a solution, dimensionless.
     until : float
         Residual that is small enough.
+    rounds : int
+        How often the yielding rows may be read off.
     """
     best, least = state, defect(flow, state)
     now = state
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         if least <= until:
             break
         active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
@@ -119,7 +125,7 @@ def _newton(flow: Flow, state: State, active: Active, until: float) -> State | N
             break
         inside = _admissible(flow.problem.cones, now)
         worst = defect(flow, inside)
-        if not worst < 0.5 * least:
+        if not worst < CONVERGING * least:
             if worst < least:
                 found = inside
             break
@@ -130,20 +136,38 @@ def _newton(flow: Flow, state: State, active: Active, until: float) -> State | N
 
 
 def _step(flow: Flow, now: State, active: Active) -> State:
-    """One Newton step, the least one where the equations leave a choice."""
+    """One Newton step."""
     p = flow.problem
-    residual, matrix = _equations(flow, now, active)
-    size = np.maximum(np.abs(now.y[active.rows]), LEAST_MULTIPLIER * max(np.abs(now.y).max(), 1e-12))
-    columns = np.concatenate([np.ones(matrix.shape[1] - len(size)), size / max(size.max(), 1e-300)])
-    scaled = matrix @ sparse.diags_array(columns)
-    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
-    rows = 1.0 / np.where(length > 0.0, length, 1.0)
-    J = sparse.csr_array(sparse.diags_array(rows) @ scaled)
-    d = columns * _least_solution(J, -rows * residual)
+    residual, J = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
+    d = _proximal_solution(J, -residual, n)
+    if d is None:
+        d = _scaled_least_solution(J, -residual, now.y[active.rows])
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
+
+
+def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array | None:
+    """Solution of J d = r from J + delta I with refinement; the first n equations negated. None if none."""
+    sign = np.where(np.arange(len(r)) < n, -1.0, 1.0)
+    K = sparse.csc_array(sparse.diags_array(sign) @ J + PROXIMAL * sparse.eye_array(len(r)))
+    lu = linalg.splu(K, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.001)
+    d = lu.solve(sign * r)
+    for _ in range(REFINEMENTS):
+        d = d + lu.solve(sign * (r - J @ d))
+    solved = float(np.abs(J @ d - r).max()) <= SOLVED * float(np.abs(r).max(initial=0.0)) + ROUNDING
+    return np.asarray(d) if solved else None
+
+
+def _scaled_least_solution(J: sparse.csr_array, r: Array, y: Array) -> Array:
+    """Step of least norm, multipliers measured by their size so that small ones stay positive."""
+    size = np.maximum(np.abs(y), LEAST_MULTIPLIER * np.abs(y).max(initial=1e-12))
+    columns = np.concatenate([np.ones(J.shape[1] - len(y)), size / size.max(initial=1e-12)])
+    scaled = sparse.csr_array(J @ sparse.diags_array(columns))
+    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
+    rows = 1.0 / np.where(length > 0.0, length, 1.0)
+    return columns * _least_solution(sparse.csr_array(sparse.diags_array(rows) @ scaled), rows * r)
 
 
 def _least_solution(J: sparse.csr_array, r: Array) -> Array:
@@ -175,7 +199,7 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
         ]
     )
     turn = None if flow.constant else -flow.derivative(now.x, now.y)
-    blocks: list[Any] = [
+    blocks: list[list[Any]] = [
         [turn, p.C, None, sparse.csr_array(G[yields].T)],
         [sparse.csr_array(p.C.T), None, -live, None],
         [None, live.T, None, None],

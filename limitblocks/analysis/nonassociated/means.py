@@ -1,0 +1,68 @@
+"""The paths that are tried one after the other until one ends at a solution."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
+from limitblocks.arrays import Array
+from limitblocks.problem import Flow, State
+
+
+class Means(NamedTuple):
+    """A path to try: its barrier, the seed of its weights, and the factorisations it may take."""
+
+    barrier: Barrier
+    seed: int
+    budget: int
+
+
+# The small barrier is the load path. Where it winds, the compliance fades before the barrier (power 2), which
+# cuts most folds; then the barrier grows. Each has a case in the tests that those before it leave open.
+MEANS = (
+    Means(Barrier(), 0, 400),
+    Means(Barrier(0.1, 2.0), 0, 300),
+    Means(Barrier(1.0, 2.0), 0, 300),
+    Means(Barrier(3.0, 2.0), 0, 800),
+)
+
+
+def follow(
+    flow: Flow,
+    x0: Array,
+    weights: Array,
+    *,
+    means: Sequence[Means] = MEANS,
+    progress: Callable[[Progress], None] | None = None,
+) -> tuple[State, tuple[Tracked, ...]]:
+    """Follow paths until one is closed.
+
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule.
+    x0 : Array, shape (s,)
+        Stresses under the permanent loads, dimensionless.
+    weights : Array, shape (s,)
+        Compliance of the joints.
+    means : sequence of Means
+        The paths to try, in this order.
+    progress : callable, optional
+        Called with each accepted point.
+
+    Returns
+    -------
+    State, tuple of Tracked
+        The solution, or the state of least residual; how each path went that was tried.
+    """
+    tried = []
+    for barrier, seed, budget in means:
+        found = track(flow, x0, weights, barrier=barrier, seed=seed, budget=budget, progress=progress)
+        tried.append(found)
+        if found[1].closed:
+            return found[0], tuple(info for _, info in tried)
+    state, _ = min(tried, key=lambda found: found[1].residual)
+    return state, tuple(info for _, info in tried)

@@ -1,0 +1,231 @@
+"""The non-associated answer as the end of one path, followed through its folds by arclength.
+
+The central path of the non-associated problem folds: the barrier has to grow again before it can go on
+falling, so that steps which lower it fail. Arclength follows the curve instead (Allgower & Georg 1990,
+Numerical Continuation Methods, Chapters 2 and 6), by a predictor along the tangent and Newton's method in the
+plane normal to it. The way along the tangent comes from the sign of det J, which changes where theta turns
+back; the angle to the last tangent goes wrong at long steps. One factorisation serves corrector and tangent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.nonassociated.path_equations import (
+    Barrier,
+    Path,
+    Point,
+    distance,
+    inner,
+    moved_on,
+    residuals,
+    room,
+    theta_slope,
+)
+from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
+from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.polish import defect, polish
+from limitblocks.arrays import Array
+from limitblocks.problem import Flow, State
+
+FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
+CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
+BOUNDARY = 0.95  # of the way to the boundary of the cone
+CORRECTORS, HALVINGS = 5, 6
+RETURNED = 1.2  # theta: the path went back beyond its start
+TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
+CLOSED = 1e-9  # residual of a solution
+TRIES = 2  # rounds of the polish on the way
+BUDGET = 600  # factorisations
+
+
+class _Lost(Exception):
+    """The path cannot be followed any further."""
+
+
+class _Base(NamedTuple):
+    """Where predictors start: a point near the path, its last correction and its tangent."""
+
+    point: Point
+    correction: Point
+    tangent: Point
+
+
+def track(
+    flow: Flow,
+    x0: Array,
+    weights: Array,
+    *,
+    barrier: Barrier | None = None,
+    seed: int = 0,
+    budget: int = BUDGET,
+    progress: Callable[[Progress], None] | None = None,
+) -> tuple[State, Tracked]:
+    """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
+
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule.
+    x0 : Array, shape (s,)
+        Stresses under the permanent loads, dimensionless.
+    weights : Array, shape (s,)
+        Compliance of the joints, which the path follows as long as the barrier is small.
+    barrier : Barrier, optional
+        How compliance and barrier fade; a small barrier by default.
+    seed : int
+        Of the weights of the products.
+    budget : int
+        Factorisations.
+    progress : callable, optional
+        Called with each accepted point.
+
+    Returns
+    -------
+    State, Tracked
+        The solution, or the best state met, and how the path went.
+    """
+    with np.errstate(all="ignore"):  # a point that ran away is not accepted
+        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed), budget, progress)
+        end = walk.go()
+        best = walk.best
+        if best is None:
+            best = polish(flow, walk.state) if walk.points else walk.state
+    found = Tracked(
+        walk.path.barrier,
+        seed,
+        end,
+        defect(flow, best),
+        walk.factorisations,
+        walk.failures,
+        tuple(walk.points),
+    )
+    return best, found
+
+
+class _Walk:
+    """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
+
+    def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
+        self.path, self.budget, self.progress = path, budget, progress
+        self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
+        self.base: _Base | None = None
+        self.length, self.correctors, self.tried = FIRST, 0, TRIED
+        self.factorisations = self.failures = 0
+        self.points: list[Progress] = []
+        self.best: State | None = None
+
+    @property
+    def state(self) -> State:
+        """The point as a state."""
+        return State(self.z.load_factor, self.z.x, self.z.u, self.z.y)
+
+    def go(self) -> str:
+        """Follow the path to its end, and say what it was."""
+        try:
+            first, self.factorisations = centred(self.path)
+            if first is None:
+                return "not centred"
+            self.z = first
+            while not self._closed():
+                if self.factorisations >= self.budget:
+                    return "budget"
+                self._advance()
+        except _Lost as lost:
+            return str(lost)
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+            return "singular start"
+        return "closed"
+
+    def _advance(self) -> None:
+        """Correct the point, or accept it and predict the next one."""
+        left = residuals(self.path, self.z)
+        off = distance(self.path, self.z, left)
+        if not np.isfinite(off) or (off > 1.0 and self.correctors >= CORRECTORS):
+            self._retreat()
+            return
+        self.factorisations += 1
+        try:
+            newton = Newton(self.path, self.z)
+            step = newton.solve(left.negative())
+            turn = replace(newton.solve(theta_slope(self.path, self.z).negative()), theta=1.0)
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+            self._retreat()
+            return
+        length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
+        if not (np.isfinite(length) and length > 0.0 and newton.sign):
+            self._retreat()
+            return
+        tangent = turn.scaled(self._heading(newton.sign, turn) / length)
+        correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
+        if off > 1.0:
+            self._correct(correction, off)
+        else:
+            self._accept(newton.sign, correction, tangent)
+
+    def _heading(self, sign: float, turn: Point) -> float:
+        """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
+        return -sign * (self.points[0].sign if self.points else sign)
+
+    def _correct(self, d: Point, off: float) -> None:
+        """Move along a correction as far as it brings the point nearer to the path."""
+        self.correctors += 1
+        t = min(1.0, BOUNDARY * room(self.path.cones, self.z, d))
+        for _ in range(HALVINGS):
+            z = self.z.moved(t, d)
+            nearer = distance(self.path, z, residuals(self.path, z))
+            if nearer <= max(1.0, (1.0 - 0.1 * t) * off):
+                self.z = z
+                return
+            t *= 0.5
+        self._retreat()
+
+    def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+        """Go on from a point near the path."""
+        self.points.append(Progress(self.z.theta, self.z.load_factor, sign, self.factorisations))
+        if self.progress is not None:
+            self.progress(self.points[-1])
+        if self.z.theta > RETURNED:
+            raise _Lost("returned")
+        if self.base is not None and self.correctors <= 1:
+            self.length = min(GROWTH * self.length, LONGEST)
+        self.path = moved_on(self.path, self.z)
+        self.base = _Base(self.z, correction, tangent)
+        self._predict()
+
+    def _retreat(self) -> None:
+        """Predict again from the last base, not as far."""
+        self.failures += 1
+        self.length *= CUT
+        if self.base is None or self.length < LEAST:
+            raise _Lost("no step succeeds")
+        self._predict()
+
+    def _predict(self) -> None:
+        assert self.base is not None
+        z, correction, tangent = self.base
+        z = z.moved(min(1.0, 0.5 * room(self.path.cones, z, correction)), correction)
+        self.z = z.moved(min(self.length, BOUNDARY * room(self.path.cones, z, tangent)), tangent)
+        self.correctors = 0
+
+    def _closed(self) -> bool:
+        """Whether the polish of a base far down the path is a solution; tried once a decade of mu."""
+        if self.base is None:
+            return False
+        z = self.base.point
+        mu = self.path.barrier.size * z.theta
+        if mu >= self.tried:
+            return False
+        if mu < LAST:
+            raise _Lost("no solution at the end")
+        self.tried = DECADE * mu
+        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y), rounds=TRIES)
+        residual = defect(self.path.flow, state)
+        if self.best is None or residual < defect(self.path.flow, self.best):
+            self.best = state
+        return residual < CLOSED

@@ -1,0 +1,157 @@
+"""Equations of a tracked path and their residuals.
+
+    rho W (x - x0) = C u + G(x)^T y + theta r,   dead + a live = C^T x,   live . u = 1,
+    F x + g = s,   s o y = mu w,   s, y in int K,        rho = rho0 max(theta^p, floor),   mu = mu0 theta
+
+At theta = 1 it is a small step of rigid blocks on joints of compliance W from the stresses x0, at theta = 0
+Eqs (54)-(59). The weights w of rows and cones are random: they break the symmetry of structures whose paths
+would branch (Chow, Mallet-Paret & Yorke 1978, Math. of Computation 32). Where rho has reached its floor, x0
+moves on with x, else the stresses of rigid parts lose their equations; r carries the jump that this would
+make and fades with theta.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from limitblocks.analysis.nonassociated.path_cones import relative, spread
+from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.arrays import Array
+from limitblocks.problem import Cones, Flow
+
+WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
+FLOW = 0.05  # of theta: how far off the flow may be
+
+
+@dataclass(frozen=True)
+class Barrier:
+    """How compliance and barrier fade along a path: mu = size theta, rho = rho0 max(theta^power, floor).
+
+    A small barrier follows the loading of joints of compliance W; a large one leads to another solution of
+    the set, mostly at a higher load factor, with fewer folds.
+    """
+
+    size: float = 0.1
+    power: float = 1.0
+    floor: float = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """Variables of a path, or a direction in them."""
+
+    x: Array
+    u: Array
+    load_factor: float
+    s: Array
+    y: Array
+    theta: float
+
+    def moved(self, t: float, d: Point) -> Point:
+        """Return this point moved by t along the direction d."""
+        return Point(
+            self.x + t * d.x,
+            self.u + t * d.u,
+            self.load_factor + t * d.load_factor,
+            self.s + t * d.s,
+            self.y + t * d.y,
+            self.theta + t * d.theta,
+        )
+
+    def scaled(self, t: float) -> Point:
+        """Return this direction t times as long."""
+        return Point(t * self.x, t * self.u, t * self.load_factor, t * self.s, t * self.y, t * self.theta)
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """What fixes a path: flow, barrier, weights w (R,), rho0 W, and x0 with the residual r it carries."""
+
+    flow: Flow
+    layout: Layout
+    barrier: Barrier
+    weights: Array
+    elastic: Array
+    x0: Array
+    carried: Array
+
+    @property
+    def cones(self) -> Cones:
+        """The cone K."""
+        return self.flow.problem.cones
+
+    def rho(self, theta: float) -> float:
+        """Share of the elastic compliance at theta."""
+        return float(max(theta**self.barrier.power, self.barrier.floor))
+
+    def at_floor(self, theta: float) -> bool:
+        """Whether rho has reached its floor."""
+        return bool(theta**self.barrier.power <= self.barrier.floor)
+
+    def target(self, theta: float) -> Array:
+        """Products s o y of the path at theta, shape (R,)."""
+        return self.barrier.size * theta * self.weights
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """What is left of the five equations of a path: flow, equilibrium, normalisation, slacks, products."""
+
+    flow: Array
+    balance: Array
+    work: float
+    slack: Array
+    product: Array
+
+    def negative(self) -> Equations:
+        """Return the same with the other sign."""
+        return Equations(-self.flow, -self.balance, -self.work, -self.slack, -self.product)
+
+
+def residuals(path: Path, z: Point) -> Equations:
+    """Return the residuals at a point."""
+    p = path.flow.problem
+    elastic = path.rho(z.theta) * path.elastic * (z.x - path.x0)
+    return Equations(
+        elastic - p.C @ z.u - path.flow.matrix(z.x).T @ z.y - z.theta * path.carried,
+        p.dead + z.load_factor * p.live - p.C.T @ z.x,
+        float(p.live @ z.u - 1.0),
+        p.F @ z.x + p.g - z.s,
+        p.cones.product(z.s, z.y) - path.target(z.theta),
+    )
+
+
+def theta_slope(path: Path, z: Point) -> Equations:
+    """Return the derivative of the residuals by theta."""
+    p, power = path.flow.problem, path.barrier.power
+    rho = 0.0 if path.at_floor(z.theta) else power * z.theta ** (power - 1.0)
+    flow = rho * path.elastic * (z.x - path.x0) - path.carried
+    return Equations(flow, np.zeros_like(p.dead), 0.0, np.zeros_like(z.s), -path.target(1.0))
+
+
+def distance(path: Path, z: Point, left: Equations) -> float:
+    """Return how far a point is from the path; at most one is near."""
+    off = float(np.abs(left.flow).max()) / (FLOW * z.theta)
+    return max(off, spread(path.cones, z.s, z.y, path.target(z.theta)) / WIDE)
+
+
+def moved_on(path: Path, z: Point) -> Path:
+    """Return the path through the same points with x0 := x once rho is at its floor."""
+    if not path.at_floor(z.theta):
+        return path
+    jump = path.rho(z.theta) * path.elastic * (z.x - path.x0) / z.theta
+    return Path(path.flow, path.layout, path.barrier, path.weights, path.elastic, z.x, path.carried - jump)
+
+
+def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:
+    """Return the product of two directions: mean of the relative changes of s and y, and that of theta."""
+    changes = relative(cones, z.s, a.s, b.s) + relative(cones, z.y, a.y, b.y)
+    return changes / cones.degree + a.theta * b.theta / z.theta**2
+
+
+def room(cones: Cones, z: Point, d: Point) -> float:
+    """Return the largest t for which z + t d keeps s and y in K and theta at least zero."""
+    t = min(cones.longest(z.s, d.s), cones.longest(z.y, d.y))
+    return min(t, z.theta / -d.theta) if d.theta < 0.0 else t

@@ -1,0 +1,138 @@
+"""Where the numbers of a path go: dense blocks of interfaces and the fixed pattern of the matrix left over.
+
+The stresses and rows of an interface couple with those of no other one; eliminated by interfaces, what is
+left couples the rates of neighbouring blocks and the load factor. All index maps are made once a problem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem import LimitProblem
+
+
+def _places(owner: Indices, m: int) -> Indices:
+    """Running number of each entry among those of its owner."""
+    count = np.bincount(owner, minlength=m)
+    order = np.argsort(owner, kind="stable")
+    place = np.empty(len(owner), dtype=np.int64)
+    place[order] = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
+    return place
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Index maps of a limit problem; interfaces with fewer stresses, rows or free blocks are padded."""
+
+    problem: LimitProblem
+
+    @cached_property
+    def interfaces(self) -> int:
+        """Number of interfaces."""
+        return len(self.problem.interfaces)
+
+    @cached_property
+    def stress_place(self) -> Indices:
+        """Place of each stress in its interface, shape (s,)."""
+        return _places(self.problem.stress_interface, self.interfaces)
+
+    @cached_property
+    def stresses(self) -> Indices:
+        """Stresses of each interface, shape (m, k); s where there is none."""
+        n = len(self.stress_place)
+        table = np.full((self.interfaces, int(self.stress_place.max()) + 1), n)
+        table[self.problem.stress_interface, self.stress_place] = np.arange(n)
+        return table
+
+    @cached_property
+    def padding(self) -> Array:
+        """Ones on the diagonals of places without a stress, shape (m, k, k)."""
+        empty = self.stresses == len(self.stress_place)
+        return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
+
+    @cached_property
+    def row_place(self) -> Indices:
+        """Place of each row in its interface, shape (R,)."""
+        return _places(self.problem.row_interface, self.interfaces)
+
+    def rows(self, matrix: sparse.csr_array) -> Array:
+        """Return the rows of a (R, s) matrix in the places of their own interface, shape (R, k)."""
+        found, entries = np.zeros((matrix.shape[0], self.stresses.shape[1])), matrix.tocoo()
+        found[entries.row, self.stress_place[entries.col]] = entries.data
+        return found
+
+    def by_interface(self, rows: Array) -> Array:
+        """Return rows (R, k) gathered by interface, shape (m, r, k)."""
+        shape = (self.interfaces, int(self.row_place.max()) + 1, rows.shape[1])
+        found = np.zeros(shape)
+        found[self.problem.row_interface, self.row_place] = rows
+        return found
+
+    @cached_property
+    def yield_rows(self) -> Array:
+        """Rows of F, shape (R, k)."""
+        return self.rows(self.problem.F)
+
+    @cached_property
+    def rates(self) -> Indices:
+        """Rates that move each interface, shape (m, d); 6 n where there is none."""
+        entries = self.problem.C.tocoo()
+        n = self.problem.C.shape[1]
+        pairs = np.unique(self.problem.stress_interface[entries.row] * n + entries.col)
+        owner, rate = pairs // n, pairs % n
+        place = _places(owner, self.interfaces)
+        table = np.full((self.interfaces, int(place.max()) + 1), n)
+        table[owner, place] = rate
+        return table
+
+    @cached_property
+    def compatibility(self) -> Array:
+        """C of each interface, shape (m, k, d)."""
+        m, n = self.interfaces, self.problem.C.shape[1]
+        lookup = np.full((m, n + 1), -1)
+        lookup[np.arange(m)[:, None], self.rates] = np.arange(self.rates.shape[1])
+        found = np.zeros((m, self.stresses.shape[1], self.rates.shape[1]))
+        entries = self.problem.C.tocoo()
+        k = self.problem.stress_interface[entries.row]
+        found[k, self.stress_place[entries.row], lookup[k, entries.col]] = entries.data
+        return found
+
+    @cached_property
+    def _pattern(self) -> tuple[Any, Indices, Indices, Indices]:
+        """Pattern of [[-K, live], [live^T, 0]], and the places of K's parts and of live in its data."""
+        n, d = self.problem.C.shape[1], self.rates.shape[1]
+        shape = (self.interfaces, d, d)
+        i = np.broadcast_to(self.rates[:, :, None], shape).ravel()
+        j = np.broadcast_to(self.rates[:, None, :], shape).ravel()
+        inside = np.flatnonzero((i < n) & (j < n))
+        loaded = np.flatnonzero(self.problem.live)
+        end = np.full(len(loaded), n)
+        row = np.concatenate([i[inside], np.arange(n + 1), loaded, end])
+        column = np.concatenate([j[inside], np.arange(n + 1), end, loaded])
+        places, at = np.unique(column * (n + 1) + row, return_inverse=True)
+        pattern = sparse.csc_array(
+            (np.ones(len(places)), (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1)
+        )
+        return pattern, inside, at[: len(inside)], at[len(inside) + n + 1 :]
+
+    def condensed(self, parts: Array) -> Any:
+        """Return [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d), csc."""
+        pattern, inside, at, border = self._pattern
+        data = -np.bincount(at, weights=parts.ravel()[inside], minlength=pattern.nnz)
+        live = self.problem.live[self.problem.live != 0.0]
+        data[border] = np.concatenate([live, live])
+        return sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
+
+    def per_interface(self, x: Array) -> Array:
+        """Return stresses (s,) by interface, shape (m, k)."""
+        return np.append(x, 0.0)[self.stresses]
+
+    def per_stress(self, blocks: Array) -> Array:
+        """Return what stands by interface (m, k) as stresses (s,)."""
+        return np.asarray(blocks[self.problem.stress_interface, self.stress_place])

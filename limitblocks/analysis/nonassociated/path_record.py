@@ -1,0 +1,54 @@
+"""What a tracked path leaves behind: its points, and how it ended."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+
+CLOSED = "closed"
+
+
+class Progress(NamedTuple):
+    """One point of a path: theta, dimensionless load factor, sign of det J, factorisations so far."""
+
+    theta: float
+    load_factor: float
+    sign: float
+    factorisations: int
+
+
+@dataclass(frozen=True, eq=False)
+class Tracked:
+    """How a path went.
+
+    `end` is "closed", or why it ended without a solution; `points` holds every accepted point; `residual` the
+    worst one of Eqs (54)-(59).
+    """
+
+    barrier: Barrier
+    seed: int
+    end: str
+    residual: float
+    factorisations: int
+    failures: int
+    points: tuple[Progress, ...]
+
+    @property
+    def closed(self) -> bool:
+        """Whether the path ended at a solution."""
+        return self.end == CLOSED
+
+    @property
+    def how(self) -> str:
+        """What path it was, in words."""
+        size = "small barrier" if self.barrier == Barrier() else f"barrier {self.barrier.size:g}"
+        return f"tracked path, {size}, power {self.barrier.power:g}, seed {self.seed}"
+
+    @property
+    def folds(self) -> int:
+        """How often theta turned."""
+        signs = [point.sign for point in self.points]
+        return sum(a != b for a, b in pairwise(signs))

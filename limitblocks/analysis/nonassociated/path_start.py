@@ -1,0 +1,71 @@
+"""The start of a path: one small elastic step from the permanent-load stresses, centred at theta = 1."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import linalg
+
+from limitblocks.analysis.nonassociated.path_cones import inverse, spread
+from limitblocks.analysis.nonassociated.path_equations import (
+    WIDE,
+    Barrier,
+    Path,
+    Point,
+    residuals,
+    room,
+)
+from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.arrays import Array
+from limitblocks.problem import Flow
+
+SPREAD = 0.7  # of the logarithms of the weights
+INSIDE = 0.1  # least distance of the first slacks from the boundary
+EXACT = 1e-9  # of the linear equations and the flow at the start
+ITERATIONS = 60
+
+
+def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int) -> Path:
+    """Return the path from stresses x0; rho0 makes it start with one unit of load on elastic joints.
+
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule.
+    x0 : Array, shape (s,)
+        Stresses under the permanent loads, dimensionless.
+    weights : Array, shape (s,)
+        Compliance W of the joints.
+    barrier : Barrier
+        How compliance and barrier fade.
+    seed : int
+        Of the weights of the products: another seed is another path.
+    """
+    p, layout = flow.problem, Layout(flow.problem)
+    stiffness = layout.padding.copy()
+    diagonal = np.arange(stiffness.shape[1])
+    stiffness[:, diagonal, diagonal] += layout.per_interface(1.0 / weights)
+    C = layout.compatibility
+    K = layout.condensed(np.swapaxes(C, 1, 2) @ stiffness @ C)
+    # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
+    rho0 = float(linalg.splu(K).solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1])
+    logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
+    products = np.exp(logarithms)[p.cones.member] * p.cones.identity
+    return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0))
+
+
+def centred(path: Path) -> tuple[Point | None, int]:
+    """Return the first point of the path, None if Newton's method finds none, and the factorisations used."""
+    p, cones = path.flow.problem, path.cones
+    rows = p.F @ path.x0 + p.g
+    s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
+    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, path.barrier.size * inverse(cones, s), 1.0)
+    for k in range(ITERATIONS):
+        left = residuals(path, z)
+        parts = (left.flow, left.balance, left.work, left.slack)
+        worst = max(float(np.max(np.abs(part))) for part in parts)
+        if worst < EXACT and spread(cones, z.s, z.y, path.target(1.0)) < WIDE:
+            return z, k
+        d = Newton(path, z).solve(left.negative())
+        z = z.moved(min(1.0, 0.9 * room(cones, z, d)), d)
+    return None, ITERATIONS

@@ -1,0 +1,148 @@
+"""One tracked path: closed forms, published walls, a fold, and a case for each further means."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.nonassociated import path as tracking
+from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.means import MEANS, follow
+from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.path_equations import (
+    Barrier,
+    Point,
+    inner,
+    moved_on,
+    residuals,
+    theta_slope,
+)
+from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.problem import Flow, Turning
+
+# Ferris & Tin-Loi (2001), non-associated: the reference and another code; not unique, so 1 % about the two
+FERRIS_TIN_LOI = {1: (0.640, 0.641), 2: (0.563, 0.564), 3: (0.356, 0.358), 4: (0.264, 0.264)}
+
+
+def start(model, **rule):
+    problem = model.problem
+    return Flow(problem, **rule), permanent_state(problem, problem.compliance), problem.compliance
+
+
+def load_factor(model, state):
+    return model.problem.in_si(state).load_factor
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.PointContact])
+@pytest.mark.parametrize(("friction", "width"), [(0.4, 1.0), (0.7, 0.3)])
+def test_a_block_slides_or_rocks_at_its_closed_form(joint, friction, width):
+    model = structures.block(joint(friction), width=width, height=1.0)
+    state, path = track(*start(model))
+    assert path.closed
+    assert path.residual <= 1e-10
+    assert load_factor(model, state) == pytest.approx(min(friction, width), rel=1e-9)
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.65), lb.PointContact(0.65)], ids=repr)
+@pytest.mark.parametrize("number", FERRIS_TIN_LOI)
+def test_ferris_and_tin_loi_walls(number, joint):
+    model = structures.ferris_tin_loi_wall(number, joint)
+    state, path = track(*start(model))
+    assert path.residual <= 1e-8
+    least, most = FERRIS_TIN_LOI[number]
+    assert 0.99 * least <= load_factor(model, state) <= 1.01 * most
+
+
+def pushed_diagonally(name, joint):
+    return replace(structures.EXAMPLES[name](joint), live=lb.mass_proportional((1.0, 1.0, 0.0)))
+
+
+def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypatch):
+    begin = start(pushed_diagonally("pavilion_vault", lb.PointContact(0.7)))
+    barrier = Barrier(0.1, 2.0)
+    _, path = track(*begin, barrier=barrier, budget=250)
+    assert path.closed
+    assert path.folds >= 2
+    thetas = [point.theta for point in path.points]
+    assert np.diff(thetas).max() > 0.0  # theta had to grow on the way
+
+    def by_angle(walk, _sign, turn):
+        if walk.base is None:
+            return -1.0
+        return float(np.sign(inner(walk.path.cones, walk.z, turn, walk.base.tangent)))
+
+    monkeypatch.setattr(tracking._Walk, "_heading", by_angle)
+    _, path = track(*begin, barrier=barrier, budget=250)
+    assert path.end == "returned"
+
+
+def test_the_small_barrier_comes_first_and_the_next_means_rescues_where_it_winds():
+    model = structures.barrel_vault(
+        lb.PointContact(0.6), radius=1.5, thickness=0.4, length=1.8, courses=7, stones=3, direction=(1, 1, 0)
+    )
+    state, paths = follow(*start(model))
+    assert [path.closed for path in paths] == [False, True]
+    assert [path.barrier.power for path in paths] == [1.0, 2.0]
+    assert paths[1].residual <= 1e-8
+    assert "small barrier, power 1, seed 0" in paths[0].how
+    assert 0.0 < load_factor(model, state) < lb.bounds(model).upper
+
+
+@pytest.mark.parametrize(
+    ("name", "direction", "means"), [("pavilion_vault", (0, 1, 0), 3), ("dome", (1, 0, 0), 4)]
+)
+def test_larger_barriers_rescue_what_the_means_before_them_leave_open(name, direction, means):
+    joint = lb.OrdunaLourenco(0.7, slip="exact")
+    model = replace(structures.EXAMPLES[name](joint), live=lb.mass_proportional(direction))
+    _, paths = follow(*start(model))
+    assert [path.closed for path in paths] == [False] * (means - 1) + [True]
+    assert paths[-1].residual <= 1e-8
+
+
+@pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
+def test_the_derivative_is_that_of_the_equations(joint, rule):
+    flow, x0, weights = start(structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)), **rule)
+    path = path_from(flow, x0, weights, Barrier(), 0)
+    z, _ = centred(path)
+    random = np.random.default_rng(0)
+    q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))
+    d = Newton(path, z).solve(q)
+    h = 1e-5
+    ends = [residuals(path, z.moved(t, d)) for t in (h, -h)]
+    for name in ("flow", "balance", "work", "slack", "product"):
+        slope = (getattr(ends[0], name) - getattr(ends[1], name)) / (2.0 * h)
+        np.testing.assert_allclose(slope, getattr(q, name), atol=1e-6)
+
+
+def direction(random, z, size):
+    parts = [size * random.normal(size=v.shape) for v in (z.x, z.u, z.s, z.y)]
+    return Point(parts[0], parts[1], size, parts[2], parts[3], 0.0)
+
+
+def test_the_stresses_move_on_without_a_jump_of_the_path():
+    flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
+    path = path_from(flow, x0, weights, Barrier(floor=2.0), 0)
+    z, _ = centred(path)
+    z = z.moved(0.5, Newton(path, z).solve(theta_slope(path, z).negative()))
+    onward = moved_on(path, z)
+    assert np.abs(onward.x0 - path.x0).max() > 1e-3
+    np.testing.assert_allclose(residuals(onward, z).flow, residuals(path, z).flow, atol=1e-12)
+
+
+def test_a_path_out_of_budget_says_so_and_leaves_its_best_state():
+    seen = []
+    begin = start(structures.ferris_tin_loi_wall(1, lb.PointContact(0.65)))
+    _, path = track(*begin, budget=10, progress=seen.append)
+    assert path.end == "budget"
+    assert not path.closed
+    assert np.isfinite(path.residual)
+    assert tuple(seen) == path.points
+
+
+def test_the_means_begin_with_the_small_barrier():
+    assert MEANS[0].barrier == Barrier()
+    assert len(set(MEANS)) == len(MEANS)
