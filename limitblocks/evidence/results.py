@@ -22,20 +22,21 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Iteration:
-    """One stage of the outer loop.
+    """One point of the path, or one stage of the outer loop of the load path.
 
     Attributes
     ----------
     load_factor : float
         Load factor.
     kind : str
-        "step" (quasi-static), "jump" (across a snap, with viscosity) or "fixed point".
+        "path" (a point of the tracked path), "polish" (its end); of the load path "step" (quasi-static),
+        "jump" (across a snap, with viscosity) or "fixed point".
     step_size : float
-        Dimensionless; the work of the live load.
+        Dimensionless; the work of the live load. Of a path theta, what is left of compliance and barrier.
     residuals : dict
-        All residuals of Eqs (54)-(59).
+        All residuals of Eqs (54)-(59); of a point of a path theta.
     inner, failures : int
-        Newton iterations or rounds, and attempts that failed before.
+        Newton iterations, rounds or factorisations so far, and attempts that failed before.
     """
 
     load_factor: float
@@ -73,8 +74,10 @@ class Nonassociated:
         Of Eqs (54)-(59), recomputed by the checker.
     status : Status
         Whether it converged.
+    how : str
+        Which path led there, in words.
     history : tuple of Iteration
-        The outer loop.
+        Points of the path, or stages of the outer loop of the load path.
     dead_load_stresses : Array, shape (s,)
         Generalised stresses, N and N m, that carry the dead loads alone.
     dilatancy : float
@@ -99,6 +102,7 @@ class Nonassociated:
     dead_load_stresses: Array
     residuals: Residuals
     status: Status
+    how: str
     history: tuple[Iteration, ...] = field(repr=False)
     dilatancy: float
     turning: Turning
@@ -133,6 +137,7 @@ class Nonassociated:
             "remarks": list(self.remarks),
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
+            "how": self.how,
             "history": [asdict(iteration) for iteration in self.history],
             "stress_resultants": self.stress_resultants.tolist(),
             "generalised_stresses": self.generalised_stresses.tolist(),

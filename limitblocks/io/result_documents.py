@@ -46,7 +46,9 @@ class ResultDocument(Document):
     status: Any = None
     residuals: Any = None
     tolerance: Any = None
+    how: Any = None
     history: Any = None
+    remarks: Any = None
     versions: Any = None
 
 

@@ -7,17 +7,20 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from limitblocks.analysis.bounds import resultants_of
+from limitblocks.analysis.nonassociated.closing import evidence
 from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.loop import finished, initial, iteration
+from limitblocks.analysis.nonassociated.loop import finished
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.analysis.nonassociated.start import (
     Start,
     bracket,
     load_scale,
+    own_units,
     refuse_unlimited,
     start_stresses,
 )
+from limitblocks.analysis.polish import polish
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.evidence.residuals import TOLERANCE
@@ -81,14 +84,15 @@ def load_path(
     NotConverged
         If the path ends above the tolerance; carries the collapse state.
     """
-    problem = model.problem
-    flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
-    compliance = _compliance(model, stiffness)
+    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    enclosing = bracket(model)
+    problem = own_units(model, enclosing)
+    flow = Flow(problem, slope, about)
+    refuse_unlimited(flow, enclosing.associated)
+    compliance = _compliance(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
-    x0 = start_stresses(model, weights, start)
-    enclosing = bracket(model)
-    refuse_unlimited(flow, enclosing.associated)
+    x0 = start_stresses(model, problem, weights, start)
     scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
@@ -98,14 +102,35 @@ def load_path(
             progress(history[-1])
 
     found = stages(flow, x0, weights, tolerance, settings, scale, record)
-    last = found[-1] if found else initial(flow, x0)
-    collapse = finished(model, last, enclosing, tuple(history), flow, tolerance, throw)
-    return LoadPath(_steps(model, x0, found, softness), collapse)
+    last = polish(flow, (found[-1] if found else initial(flow, x0)).state)
+    how = "implicit steps of the load path"
+    collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
+    return LoadPath(_steps(model, problem, x0, found, softness), collapse)
 
 
-def _compliance(model: Model, stiffness: Stiffness | Mapping[Joint, Stiffness] | None) -> Array:
+def initial(flow: Flow, x0: Array) -> Stage:
+    """The permanent-load state as a stage: what is left to show where no step succeeds."""
+    u, y = np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g))
+    state = State(0.0, x0, u, y)
+    return Stage(state, evidence(flow, state), np.inf, "step", 0, 0)
+
+
+def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
+    """What a stage tells the user."""
+    return Iteration(
+        load_factor=stage.state.load_factor / problem.units.live,
+        kind=stage.kind,
+        step_size=1.0 / stage.rho,
+        residuals=stage.residuals.to_dict(),
+        inner=stage.inner,
+        failures=stage.failures,
+    )
+
+
+def _compliance(
+    model: Model, problem: LimitProblem, stiffness: Stiffness | Mapping[Joint, Stiffness] | None
+) -> Array:
     """Dimensionless compliance of each generalised stress."""
-    problem = model.problem
     if stiffness is None:
         return problem.compliance
     table = (
@@ -137,9 +162,10 @@ def _means(problem: LimitProblem) -> tuple[float, float]:
     return float(problem.units.interface_force.mean()), float(problem.units.interface_length.mean())
 
 
-def _steps(model: Model, x0: Array, found: list[Stage], softness: float) -> tuple[PathStep, ...]:
+def _steps(
+    model: Model, problem: LimitProblem, x0: Array, found: list[Stage], softness: float
+) -> tuple[PathStep, ...]:
     """The permanent-load state and every stage, with displacements added up, `softness` times as large."""
-    problem = model.problem
     free = {block.name: k for k, block in enumerate(model.blocks)}
     places = [free[name] for name in problem.blocks]
     moved = np.zeros((len(model.blocks), 6))

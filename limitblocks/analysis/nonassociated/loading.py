@@ -49,10 +49,9 @@ def stages(
 
     `scale` is the load factor that steps are measured by, the associated one.
     """
-    problem, dilatancy = flow.problem, flow.dilatancy
+    problem = flow.problem
     first = 1.0 / (elastic_work(problem, weights) * scale)  # rho of a step of one
     blocks = InterfaceBlocks(problem)
-    found: list[Stage] = []
 
     def judged(stage: Stage) -> Stage:
         return replace(stage, residuals=evidence(replace(flow, softening=EXACT), stage.state))
@@ -62,15 +61,9 @@ def stages(
         if progress is not None:
             progress(judged(stage))
 
-    for turning, dilating in settings.flows:
-        partial = replace(problem, pivot=turning * problem.pivot)
-        slope = dilatancy + dilating * (float(problem.friction.min()) - dilatancy)
-        nearest = NearestStresses(partial, weights)
-        partly = Flow(partial, slope, flow.turning, SOFTENING)
-        task = _Task(partly, blocks, weights, tolerance, settings, first, nearest)
-        followed = _followed(task, found[-1].state.x if found else x0, report)
-        found += [judged(stage) for stage in followed]
-    return found
+    softened = replace(flow, softening=SOFTENING)
+    task = _Task(softened, blocks, weights, tolerance, settings, first, NearestStresses(problem, weights))
+    return [judged(stage) for stage in _followed(task, x0, report)]
 
 
 def elastic_work(problem: LimitProblem, weights: Array) -> float:

@@ -4,25 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-
 from limitblocks.analysis.bounds import in_model_order, resultants_of
-from limitblocks.analysis.nonassociated.closing import evidence
-from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.nonassociated.stage import Stage
+from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
+from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
-    associated_stage,
+    associated_state,
     bracket,
-    load_scale,
+    own_units,
     refuse_unlimited,
     start_stresses,
 )
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import NotConverged
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
@@ -30,17 +26,7 @@ from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
-# A snap that jams one step size is crossed by another, or by a flow rule that grows into the true one.
-ATTEMPTS = (
-    Settings(),
-    Settings(longest=5e3),
-    Settings(first=1.0, longest=15.0),
-    Settings(flows=((0.0, 0.0), (0.5, 0.0), (1.0, 0.0))),
-    Settings(first=0.13, retries=((1.0, 0.0), (1.0, 1e-3), (1.0, 1e-2), (1.0, 1e-1)), budget=800),
-    Settings(flows=tuple((1.0, share) for share in (1.0, 0.8, 0.6, 0.4, 0.2, 0.1, 0.0)), budget=400),
-)
-ASSOCIATED = (1.0, 1.0)
-COLLAPSING = 0.9  # of the largest load factor met: states below it are no candidates for the best one
+SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
 
 
 def nonassociated(
@@ -50,17 +36,17 @@ def nonassociated(
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
-    settings: Settings | Sequence[Settings] = ATTEMPTS,
+    means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
     throw: bool = True,
 ) -> Nonassociated:
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
 
-    Implicit steps of growing size lead from the permanent-load state towards collapse; near it a fixed
-    point of two convex programs with frozen flow, or one very long step, finds the solution. Where they jam,
-    the flow rule grows from a simpler one into the true one; see :class:`limitblocks.Settings`. The load
-    factor of a non-associated structure is not unique: this is one solution, between the frictionless and
-    the associated value.
+    One path of solutions leads from a small step of rigid blocks on slightly compliant joints to the
+    solution, on which compliance and a barrier fade to nothing; it is followed through its folds by arclength,
+    and Newton's method on the rows that yield takes its end to rounding. The load factor of a non-associated
+    structure is not unique: this is one solution, the one that loading leads to where the barrier is small
+    (`how` says which path it was), between the frictionless and the associated value.
 
     Parameters
     ----------
@@ -77,8 +63,8 @@ def nonassociated(
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
-    settings : Settings or sequence of Settings
-        How to step; further settings are tried in turn where the first do not converge.
+    means : sequence of Means
+        Paths to follow in turn, until one ends at a solution.
     progress : callable, optional
         Called with each Iteration.
     throw : bool
@@ -93,92 +79,58 @@ def nonassociated(
     UnlimitedLoad
         If the flow is associated everywhere and the live load can grow without limit.
     NotConverged
-        If no attempt ends within the tolerance.
+        If no path ends within the tolerance.
     """
-    problem = model.problem
-    flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
-    x0 = start_stresses(model, problem.compliance, start)
+    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
+    problem = own_units(model, enclosing)
+    flow = Flow(problem, slope, about)
     refuse_unlimited(flow, enclosing.associated)
-    scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
-    def record(stage: Stage) -> None:
-        history.append(iteration(problem, stage))
+    def record(iteration: Iteration) -> None:
+        history.append(iteration)
         if progress is not None:
-            progress(history[-1])
+            progress(iteration)
 
-    met: list[Stage] = []
     if enclosing.bounds and start is None and flow.associated:
-        met = [associated_stage(model, flow, enclosing.bounds)]
-        record(met[-1])
-    for setting in [settings] if isinstance(settings, Settings) else settings:
-        if met and met[-1].residuals.worst.value <= tolerance:
-            break
-        x = _first_stresses(problem, setting, enclosing, x0)
-        if x is not None:
-            met += stages(flow, x, problem.compliance, tolerance, setting, scale, record)
-    return finished(
-        model,
-        best_of(met, tolerance) or initial(flow, x0),
-        enclosing,
-        tuple(history),
-        flow,
-        tolerance,
-        throw,
-    )
+        state, how = associated_state(model, flow, enclosing.bounds), "associated flow: the bounds"
+    else:
+        smooth = Flow(problem, slope, about, SOFTENING)
+        x0 = start_stresses(model, problem, problem.compliance, start)
+        state, tracked = follow(
+            smooth, x0, problem.compliance, means=means, progress=lambda at: record(_point(problem, at))
+        )
+        how = tracked[-1].how
+    state = polish(flow, state)
+    record(_end(flow, state))
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
 
 
-def _first_stresses(problem: LimitProblem, setting: Settings, enclosing: Bracket, x0: Array) -> Array | None:
-    """Where an attempt starts; None where its flow rules say nothing new or there is no associated state."""
-    turnings, dilatings = (set(shares) for shares in zip(*setting.flows, strict=True))
-    if setting.flows[0] == ASSOCIATED:
-        found = enclosing.bounds
-        return None if found is None else np.asarray(found.generalised_stresses / problem.stress_units)
-    return x0 if problem.pivot.any() or turnings == {1.0} or len(dilatings) > 1 else None
+def _point(problem: LimitProblem, at: Progress) -> Iteration:
+    """What a point of the path tells the user."""
+    load_factor = at.load_factor / problem.units.live
+    return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
 
 
-def best_of(met: list[Stage], tolerance: float) -> Stage | None:
-    """The last stage if it converged, else that of least residual among those close to collapse."""
-    if not met or met[-1].residuals.worst.value <= tolerance:
-        return met[-1] if met else None
-    largest = max(stage.state.load_factor for stage in met)
-    least = largest - (1.0 - COLLAPSING) * abs(largest)
-    near = [stage for stage in met if stage.state.load_factor >= least]
-    return min(near, key=lambda stage: stage.residuals.worst.value)
-
-
-def initial(flow: Flow, x0: Array) -> Stage:
-    """The permanent-load state as a stage: what is left to show where no step succeeds."""
-    u, y = np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g))
-    state = State(0.0, x0, u, y)
-    return Stage(state, evidence(flow, state), np.inf, "step", 0, 0)
-
-
-def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
-    """What a stage tells the user."""
-    return Iteration(
-        load_factor=stage.state.load_factor / problem.units.live,
-        kind=stage.kind,
-        step_size=1.0 / stage.rho,
-        residuals=stage.residuals.to_dict(),
-        inner=stage.inner,
-        failures=stage.failures,
-    )
+def _end(flow: Flow, state: State) -> Iteration:
+    load_factor = state.load_factor / flow.problem.units.live
+    return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
 
 
 def finished(
     model: Model,
-    stage: Stage,
+    state: State,
     enclosing: Bracket,
     history: tuple[Iteration, ...],
     flow: Flow,
+    how: str,
     tolerance: float,
     throw: bool,
 ) -> Nonassociated:
-    """The result of a stage, raised as NotConverged where its residuals are above the tolerance."""
-    state = polish(flow, stage.state)
-    si, residuals = model.problem.in_si(state), mcp_residuals(flow, state)
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
+    problem = flow.problem
+    si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
@@ -186,13 +138,14 @@ def finished(
         load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
         associated=enclosing.associated,
-        stress_resultants=resultants_of(model.problem, state.x),
+        stress_resultants=resultants_of(problem, state.x),
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
         status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
+        how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,

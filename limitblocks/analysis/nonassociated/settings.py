@@ -30,11 +30,6 @@ class Settings:
     iterations, leap, budget, patience : int
         Newton iterations of one step, of the leap that closes them (0: none), of all together, and after the
         first solution kept.
-    flows : tuple of (float, float)
-        Flow rules gone through one after the other, each from the state where the one before ended: the share
-        of the terms by which Table 5 turns about (e1, e2), and how far the dilatancy is on the way to the
-        least friction coefficient. The last is (1, 0), the flow rule itself. Where the first is associated,
-        (1, 1), they start from the associated state.
     """
 
     first: float = 0.4
@@ -50,4 +45,3 @@ class Settings:
     leap: int = 100
     budget: int = 1000
     patience: int = 300
-    flows: tuple[tuple[float, float], ...] = ((1.0, 0.0),)

@@ -9,12 +9,12 @@ import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
-from limitblocks.analysis.nonassociated.stage import Stage
+from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError, SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
+from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State
@@ -66,13 +66,26 @@ def _limited(model: Model) -> Bounds | None:
         return None
 
 
-def associated_stage(model: Model, flow: Flow, found: Bounds) -> Stage:
+def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
+    """The limit problem in units of what acts on its blocks at the associated load, where that is known."""
+    if enclosing.bounds is None:
+        return model.problem
+    state = _state_of(model, model.problem, enclosing.bounds)
+    return remeasured(model.problem, state) or model.problem
+
+
+def associated_state(model: Model, flow: Flow, found: Bounds) -> State:
     """The bounds as a solution of Eqs (54)-(59), which for associated flow they are."""
-    places = [k for k, block in enumerate(model.blocks) if block.name not in set(model.supports)]
+    return _state_of(model, flow.problem, found)
+
+
+def _state_of(model: Model, problem: LimitProblem, found: Bounds) -> State:
+    supports = set(model.supports)
+    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     rates = found.displacement_rates[places].ravel()
-    si = State(found.lower, found.generalised_stresses, rates, found.flow_multipliers)
-    state = model.problem.dimensionless(si)
-    return Stage(state, mcp_residuals(flow, state), np.inf, "fixed point", 0, 0)
+    return problem.dimensionless(
+        State(found.lower, found.generalised_stresses, rates, found.flow_multipliers)
+    )
 
 
 def load_scale(problem: LimitProblem, associated: float) -> float:
@@ -87,7 +100,7 @@ def refuse_unlimited(flow: Flow, associated: float) -> None:
         raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
 
 
-def start_stresses(model: Model, weights: Array, start: Start | None) -> Array:
+def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: Start | None) -> Array:
     """Dimensionless stresses to start from: given, or the least under the dead loads, proven to balance them.
 
     Raises
@@ -95,9 +108,8 @@ def start_stresses(model: Model, weights: Array, start: Start | None) -> Array:
     ModelError
         The state given belongs to another model, or it is not in equilibrium within yield.
     """
-    problem = model.problem
     if start is not None:
-        return _given(model, start)
+        return _given(model, problem, start)
     dead_load_state(problem)  # a least-norm state of what falls may look like one
     x = permanent_state(problem, weights)
     if x is None:
@@ -105,8 +117,7 @@ def start_stresses(model: Model, weights: Array, start: Start | None) -> Array:
     return x
 
 
-def _given(model: Model, start: Start) -> Array:
-    problem = model.problem
+def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if isinstance(start, Nonassociated | Bounds):
         if start.digest != model.digest:
             raise ModelError(
