@@ -25,7 +25,6 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (
     Residuals,
     bounds_residuals,
-    relative_gap,
 )
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
@@ -80,7 +79,7 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     return Bounds(
         lower=si.load_factor,
         upper=upper,
-        gap=relative_gap(si.load_factor, upper),
+        gap=pair.residuals["gap"],
         worth=pair.residuals["worth"],
         stress_resultants=resultants_of(problem, pair.state.x),
         generalised_stresses=read_only(si.x),

@@ -22,7 +22,8 @@ class Bounds:
     lower, upper : float
         Static and kinematic load factor; equal up to `gap`.
     gap : float
-        Difference relative to the larger of the two.
+        Difference relative to the load factor; where that is less than the rounding errors of the power of
+        all forces, relative to those.
     worth : float
         What the violations of both states may be worth in the load factor, relative to it, added up in size.
     stress_resultants : Array, shape (m, 6)

@@ -227,12 +227,6 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     )
 
 
-def relative_gap(lower: float, upper: float) -> float:
-    """Return |upper - lower| over the larger bound; 0 where both are zero."""
-    largest = max(abs(lower), abs(upper))
-    return abs(upper - lower) / largest if largest > 0.0 else 0.0
-
-
 def worth_of_violations(problem: LimitProblem, state: State) -> float:
     """Return what the violations of a pair of bounds may be worth in the load factor, dimensionless.
 

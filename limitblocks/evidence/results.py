@@ -163,9 +163,10 @@ class PathStep:
     active : tuple of tuple
         (interface, mode) pairs that flow in this step and did not in the one before.
     residuals : dict
-        Equilibrium and yield violation, in mean block weights.
+        Equilibrium and yield violation, over what acts on the blocks.
     kind : str
-        "permanent loads", "step" (quasi-static), "jump" (across a snap) or "fixed point" (collapse).
+        "permanent loads", "step" (quasi-static), "jump" (across a snap), "fixed point" or "polish"
+        (collapse).
     """
 
     load_factor: float

@@ -111,7 +111,7 @@ def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, 
     own, push = magnitude(dead), magnitude(live)
     own = np.where(own > 0.0, own, push * (own.sum() / push.sum() or 1.0))
     ends = _ends(free, interfaces)
-    block = power_of_two(carried(own, ends))
+    block = carried(own, ends)
     return Units(
         block_force=read_only(block),
         block_length=read_only(length),

@@ -15,7 +15,7 @@ from limitblocks.problem.modes import Mode
 
 @dataclass(frozen=True, eq=False)
 class Units:
-    """Units of the dimensionless numbers: each block and each interface has its own, powers of two.
+    """Units of the dimensionless numbers: each block and each interface has its own.
 
     `block_force` (n,) and `block_length` (n,) measure what acts on a block, `interface_force` (m,) and
     `interface_length` (m,) what an interface carries, N and m. `live` is the sum of the live loads over their
@@ -45,7 +45,7 @@ def _six(force: Array, length: Array) -> Array:
 
 
 def power_of_two(values: Array) -> Array:
-    """Return the nearest powers of two: units that change no digit of a number."""
+    """Return the nearest powers of two: units that many blocks and interfaces share."""
     return np.asarray(np.exp2(np.round(np.log2(values))))
 
 
@@ -180,10 +180,10 @@ class LimitProblem:
         Parameters
         ----------
         block_force : Array, shape (n,)
-            Forces to measure the blocks by, in N, positive; rounded to powers of two.
+            Forces to measure the blocks by, in N, positive.
         """
         old = self.units
-        block = power_of_two(block_force)
+        block = block_force
         at_ends = np.where(self.ends >= 0, block[self.ends], np.inf).min(axis=1)
         live = old.live * float(np.abs(self.live * np.repeat(old.block_force / block, 6)).sum())
         units = replace(old, block_force=block, interface_force=at_ends, live=live)

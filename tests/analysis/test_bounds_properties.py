@@ -139,7 +139,6 @@ def test_virtual_work(seed):
     problem = model.problem
     place = {name: k for k, name in enumerate(problem.blocks)}
     centroid = {block.name: block.centroid for block in model.blocks}
-    unit = problem.scales.length
     u = random.uniform(-1, 1, (len(place), 6))
     Q = random.uniform(-1, 1, (len(model.interfaces), 6))
     F = np.zeros_like(u)
@@ -150,14 +149,16 @@ def test_virtual_work(seed):
         for name, sign in ((interface.block_i, -1.0), (interface.block_j, 1.0)):
             if name not in place:
                 continue
-            r = (interface.centroid - centroid[name]) / unit
+            r = interface.centroid - centroid[name]
             v, w = u[place[name], :3], u[place[name], 3:]
             rates += sign * np.concatenate([interface.axes @ (v + np.cross(w, r)), interface.axes @ w])
             F[place[name]] += sign * np.concatenate([f, m + np.cross(r, f)])
         work += q @ rates
     assert F.ravel() @ u.ravel() == pytest.approx(work, abs=1e-12)
-    assert problem.C @ u.ravel() @ Q.ravel() == pytest.approx(work, abs=1e-12)
-    assert problem.C.T @ Q.ravel() == pytest.approx(F.ravel(), abs=1e-12)
+    loads, stresses = problem.units.loads, problem.stress_units  # C in their units, u the dual of loads
+    C = problem.C / stresses[:, None] * loads
+    assert C @ u.ravel() @ Q.ravel() == pytest.approx(work, abs=1e-12)
+    assert C.T @ Q.ravel() == pytest.approx(F.ravel(), abs=1e-12)
 
 
 def test_stress_resultants_balance_the_loads_of_every_block(reference):

@@ -75,7 +75,7 @@ def test_the_live_load_goes_on_working(walked):
     model, path = walked
     free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
     live = model.live.on(model.free_blocks)
-    work = [np.sum(live * step.displacements[free]) for step in path.steps if step.kind != "fixed point"]
+    work = [np.sum(live * step.displacements[free]) for step in path.steps if step.kind in {"step", "jump"}]
     assert (np.diff(work) > 0.0).all()
     moved, load_factors = path.curve(last_block(model), 0)
     assert (np.diff(moved) >= 0.0).all()
@@ -105,7 +105,7 @@ def test_a_path_with_a_jump_keeps_to_equilibrium_and_yield():
     cautious = lb.Settings(retries=((1.0, 1e-3),), budget=100)  # every step with viscosity
     for path in (lb.load_path(model), lb.load_path(model, settings=cautious, throw=False)):
         assert max(max(step.residuals.values()) for step in path.steps) <= 1e-6
-    assert {step.kind for step in path.steps[1:]} <= {"jump", "fixed point"}
+    assert {step.kind for step in path.steps[1:]} <= {"jump", "fixed point", "polish"}
     assert "jump" in {step.kind for step in path.steps}
 
 

@@ -186,7 +186,7 @@ def test_flow_has_no_dilatancy_and_turns_about_the_point_of_action():
         lb.interface(RECTANGLE, None),
     )
     Q = np.add(COMPRESSION, [5, 3, 0, 8.0, -12.0, 2.0])
-    flow = joint.flow_directions(interface, Q)
+    flow = joint.flow_directions(interface, Q, turning="centre of pressure")
     rows = joint.yield_rows(RECTANGLE[None])
     modes = np.array(rows.modes[: rows.linear])
     assert not flow[: rows.linear, 2:5].any()

@@ -6,8 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
-from limitblocks.joints.question import _cone_reach
+from limitblocks.problem import Cones
 
+CONE = Cones(0, ((1, 3),))
 MU, N = 0.7, -240.0
 RECTANGLE = np.array([(0.15, -0.1), (0.15, 0.1), (-0.15, 0.1), (-0.15, -0.1)])
 JOINTS = [
@@ -27,7 +28,7 @@ def test_reach_within_a_cone_against_bisection(numbers):
     def margin(t):
         return value[0] + t * slope[0] - np.hypot(*(value[1:] + t * slope[1:]))
 
-    t = _cone_reach(value, slope)
+    t = CONE.longest(value, slope)
     size = np.abs(value).max() + np.abs(slope).max()
     if np.isinf(t):
         assert margin(1e6) >= -1e-9 * 1e6 * size
@@ -47,7 +48,7 @@ def test_reach_at_the_apex_and_along_the_boundary():
         ((1, 1, 0), (0, -1, 0), 2),
         ((1, 0, 0), (-0.5, 0, 0), 2),
     ):
-        assert _cone_reach(np.array(value, float), np.array(slope, float)) == pytest.approx(expected)
+        assert CONE.longest(np.array(value, float), np.array(slope, float)) == pytest.approx(expected)
 
 
 @every_joint

@@ -71,8 +71,8 @@ def load_path(
         :func:`limitblocks.nonassociated`.
     stiffness : (float, float) or mapping from joints to (float, float), optional
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
-        only the displacements. Without it both are the mean unit of force of the interfaces over the cube
-        of their mean length, and displacements are relative.
+        only the displacements. Without it both are one mean block weight per block length cubed, and
+        displacements are relative.
 
     Raises
     ------
@@ -103,9 +103,10 @@ def load_path(
 
     found = stages(flow, x0, weights, tolerance, settings, scale, record)
     last = polish(flow, (found[-1] if found else initial(flow, x0)).state)
+    end = Stage(last, evidence(flow, last), np.inf, "polish", 0, 0)
     how = "implicit steps of the load path"
     collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
-    return LoadPath(_steps(model, problem, x0, found, softness), collapse)
+    return LoadPath(_steps(model, problem, x0, [*found, end], softness), collapse)
 
 
 def initial(flow: Flow, x0: Array) -> Stage:
@@ -132,7 +133,9 @@ def _compliance(
 ) -> Array:
     """Dimensionless compliance of each generalised stress."""
     if stiffness is None:
-        return problem.compliance
+        free = model.free_blocks
+        unit = np.mean([b.weight for b in free]) / np.mean([np.cbrt(b.volume) for b in free]) ** 3
+        stiffness = (float(unit), float(unit))
     table = (
         stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}
     )
@@ -145,7 +148,7 @@ def _compliance(
                 "expected (normal, shear) in N/m3, both positive"
             )
         pairs.append(pair)
-    force, length = _means(problem)
+    force, length = _means(model.problem)
     unit = force / length**3
     normal, shear = np.array(pairs).T / unit
     per_resultant = np.stack([shear, shear, normal, normal, normal, shear], axis=1).ravel()
@@ -169,12 +172,12 @@ def _steps(
     free = {block.name: k for k, block in enumerate(model.blocks)}
     places = [free[name] for name in problem.blocks]
     moved = np.zeros((len(model.blocks), 6))
-    unit = np.prod(_means(problem)) / problem.units.loads
+    unit = np.prod(_means(model.problem)) / problem.units.loads
     first = {"equilibrium": 0.0, "yield": 0.0}
     steps = [_step(problem, 0.0, x0, moved, (), first, "permanent loads")]
     before: frozenset[tuple[str, str]] = frozenset()
     for stage in found:
-        if stage.kind != "fixed point":  # it changes the stresses at collapse, not the way to it
+        if stage.kind in ("step", "jump"):  # what follows changes the stresses at collapse, not the way to it
             moved = moved.copy()
             moved[places] += softness * (stage.state.u / stage.rho * unit).reshape(-1, 6)
         flowing = _flowing(problem, stage.state)

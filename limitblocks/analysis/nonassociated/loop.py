@@ -10,8 +10,9 @@ from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
-    associated_state,
     bracket,
+    flowing_state,
+    load_scale,
     own_units,
     refuse_unlimited,
     start_stresses,
@@ -43,7 +44,7 @@ def nonassociated(
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
 
     One path of solutions leads from a small step of rigid blocks on slightly compliant joints to the
-    solution, on which compliance and a barrier fade to nothing; it is followed through its folds by arclength,
+    solution, on which compliance and a barrier fade to nothing; it is followed through folds by arclength,
     and Newton's method on the rows that yield takes its end to rounding. The load factor of a non-associated
     structure is not unique: this is one solution, the one that loading leads to where the barrier is small
     (`how` says which path it was), between the frictionless and the associated value.
@@ -93,13 +94,20 @@ def nonassociated(
         if progress is not None:
             progress(iteration)
 
-    if enclosing.bounds and start is None and flow.associated:
-        state, how = associated_state(model, flow, enclosing.bounds), "associated flow: the bounds"
+    given = enclosing.bounds if flow.associated and start is None else start
+    state = flowing_state(model, flow, given)
+    if state is not None and (flow.associated or mcp_residuals(flow, state).worst.value <= tolerance):
+        how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
         smooth = Flow(problem, slope, about, SOFTENING)
         x0 = start_stresses(model, problem, problem.compliance, start)
         state, tracked = follow(
-            smooth, x0, problem.compliance, means=means, progress=lambda at: record(_point(problem, at))
+            smooth,
+            x0,
+            problem.compliance,
+            means=means,
+            power=load_scale(problem, enclosing.associated) / len(problem.blocks),
+            progress=lambda at: record(_point(problem, at)),
         )
         how = tracked[-1].how
     state = polish(flow, state)

@@ -24,9 +24,9 @@ class Means(NamedTuple):
 # cuts most folds; then the barrier grows. Each has a case in the tests that those before it leave open.
 MEANS = (
     Means(Barrier(), 0, 400),
-    Means(Barrier(0.1, 2.0), 0, 300),
-    Means(Barrier(1.0, 2.0), 0, 300),
-    Means(Barrier(3.0, 2.0), 0, 800),
+    Means(Barrier(0.1, 2.0), 1, 300),
+    Means(Barrier(1.0, 2.0), 1, 300),
+    Means(Barrier(3.0, 2.0), 1, 800),
 )
 
 
@@ -36,6 +36,7 @@ def follow(
     weights: Array,
     *,
     means: Sequence[Means] = MEANS,
+    power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
 ) -> tuple[State, tuple[Tracked, ...]]:
     """Follow paths until one is closed.
@@ -50,6 +51,8 @@ def follow(
         Compliance of the joints.
     means : sequence of Means
         The paths to try, in this order.
+    power : float
+        Unit of the barriers' sizes, dimensionless.
     progress : callable, optional
         Called with each accepted point.
 
@@ -60,7 +63,9 @@ def follow(
     """
     tried = []
     for barrier, seed, budget in means:
-        found = track(flow, x0, weights, barrier=barrier, seed=seed, budget=budget, progress=progress)
+        found = track(
+            flow, x0, weights, barrier=barrier, seed=seed, budget=budget, power=power, progress=progress
+        )
         tried.append(found)
         if found[1].closed:
             return found[0], tuple(info for _, info in tried)

@@ -31,6 +31,7 @@ from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
@@ -39,7 +40,7 @@ BOUNDARY = 0.95  # of the way to the boundary of the cone
 CORRECTORS, HALVINGS = 5, 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
-CLOSED = 1e-9  # residual of a solution
+CLOSED = TOLERANCE  # residual of a solution
 TRIES = 2  # rounds of the polish on the way
 BUDGET = 600  # factorisations
 
@@ -64,6 +65,7 @@ def track(
     barrier: Barrier | None = None,
     seed: int = 0,
     budget: int = BUDGET,
+    power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
 ) -> tuple[State, Tracked]:
     """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
@@ -82,6 +84,8 @@ def track(
         Of the weights of the products.
     budget : int
         Factorisations.
+    power : float
+        Unit of the barrier's size, dimensionless.
     progress : callable, optional
         Called with each accepted point.
 
@@ -91,7 +95,7 @@ def track(
         The solution, or the best state met, and how the path went.
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed), budget, progress)
+        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
         best = walk.best
         if best is None:

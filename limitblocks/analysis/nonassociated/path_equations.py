@@ -12,7 +12,7 @@ make and fades with theta.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,7 +33,7 @@ class Barrier:
     the set, mostly at a higher load factor, with fewer folds.
     """
 
-    size: float = 0.1
+    size: float = 0.02
     power: float = 1.0
     floor: float = 1e-6
 
@@ -67,7 +67,10 @@ class Point:
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """What fixes a path: flow, barrier, weights w (R,), rho0 W, and x0 with the residual r it carries."""
+    """What fixes a path: flow, barrier, weights w (R,), rho0 W, and x0 with the residual r it carries.
+
+    `power` is the unit of the barrier's size, dimensionless.
+    """
 
     flow: Flow
     layout: Layout
@@ -76,6 +79,7 @@ class Path:
     elastic: Array
     x0: Array
     carried: Array
+    power: float = 1.0
 
     @property
     def cones(self) -> Cones:
@@ -92,7 +96,7 @@ class Path:
 
     def target(self, theta: float) -> Array:
         """Products s o y of the path at theta, shape (R,)."""
-        return self.barrier.size * theta * self.weights
+        return self.barrier.size * self.power * theta * self.weights
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +146,7 @@ def moved_on(path: Path, z: Point) -> Path:
     if not path.at_floor(z.theta):
         return path
     jump = path.rho(z.theta) * path.elastic * (z.x - path.x0) / z.theta
-    return Path(path.flow, path.layout, path.barrier, path.weights, path.elastic, z.x, path.carried - jump)
+    return replace(path, x0=z.x, carried=path.carried - jump)
 
 
 def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:

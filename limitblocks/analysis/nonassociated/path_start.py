@@ -25,8 +25,8 @@ EXACT = 1e-9  # of the linear equations and the flow at the start
 ITERATIONS = 60
 
 
-def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int) -> Path:
-    """Return the path from stresses x0; rho0 makes it start with one unit of load on elastic joints.
+def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int, power: float) -> Path:
+    """Return the path from stresses x0; rho0 makes it start with a load factor of `power` on elastic joints.
 
     Parameters
     ----------
@@ -39,7 +39,9 @@ def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int
     barrier : Barrier
         How compliance and barrier fade.
     seed : int
-        Of the weights of the products: another seed is another path.
+        Of the weights of the products, all one for seed 0: another seed is another path.
+    power : float
+        Unit of the barrier's size and of the first load factor, dimensionless.
     """
     p, layout = flow.problem, Layout(flow.problem)
     stiffness = layout.padding.copy()
@@ -48,10 +50,12 @@ def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int
     C = layout.compatibility
     K = layout.condensed(np.swapaxes(C, 1, 2) @ stiffness @ C)
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
-    rho0 = float(linalg.splu(K).solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1])
-    logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
+    rho0 = float(linalg.splu(K).solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
+    logarithms = np.zeros(p.cones.degree)
+    if seed:
+        logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
     products = np.exp(logarithms)[p.cones.member] * p.cones.identity
-    return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0))
+    return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0), power)
 
 
 def centred(path: Path) -> tuple[Point | None, int]:
@@ -59,7 +63,9 @@ def centred(path: Path) -> tuple[Point | None, int]:
     p, cones = path.flow.problem, path.cones
     rows = p.F @ path.x0 + p.g
     s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
-    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, path.barrier.size * inverse(cones, s), 1.0)
+    z = Point(
+        path.x0, np.zeros(p.C.shape[1]), 0.0, s, path.barrier.size * path.power * inverse(cones, s), 1.0
+    )
     for k in range(ITERATIONS):
         left = residuals(path, z)
         parts = (left.flow, left.balance, left.work, left.slack)

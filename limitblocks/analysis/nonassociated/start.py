@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
@@ -74,24 +75,26 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     return remeasured(model.problem, state) or model.problem
 
 
-def associated_state(model: Model, flow: Flow, found: Bounds) -> State:
-    """The bounds as a solution of Eqs (54)-(59), which for associated flow they are."""
-    return _state_of(model, flow.problem, found)
+def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None:
+    """A result as a state of the flow rule, polished: with associated flow bounds are a solution."""
+    if not isinstance(given, Nonassociated | Bounds) or given.digest != model.digest:
+        return None
+    return polish(flow, _state_of(model, flow.problem, given))
 
 
-def _state_of(model: Model, problem: LimitProblem, found: Bounds) -> State:
+def _state_of(model: Model, problem: LimitProblem, found: Bounds | Nonassociated) -> State:
     supports = set(model.supports)
     places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     rates = found.displacement_rates[places].ravel()
     return problem.dimensionless(
-        State(found.lower, found.generalised_stresses, rates, found.flow_multipliers)
+        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
     )
 
 
 def load_scale(problem: LimitProblem, associated: float) -> float:
-    """Dimensionless load factor that steps are measured by; the dead load's where none limits the load."""
-    limit = associated * problem.units.live
-    return limit if 0.0 < limit < np.inf else float(len(problem.blocks))
+    """Dimensionless load factor that paths are measured by; that of the dead loads where none limits them."""
+    limit, dead = associated * problem.units.live, float(np.linalg.norm(problem.dead))
+    return limit if 0.0 < limit < np.inf else (dead or 1.0) / float(np.linalg.norm(problem.live))
 
 
 def refuse_unlimited(flow: Flow, associated: float) -> None:
