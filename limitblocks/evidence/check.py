@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
-from limitblocks.evidence.claim import Claim, claim_of
+from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.residuals import (
@@ -109,16 +109,22 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE) -> Check
         If the claim belongs to another model, an array has the wrong shape or is not real and finite, or the
         tolerance is out of range.
     """
-    if not (isinstance(tolerance, int | float | np.number) and 0.0 < tolerance < np.inf):
-        raise ModelError(
-            f"tolerance is {tolerance!r}, expected a finite number above 0, such as {TOLERANCE:g}"
-        )
-    problem = model.problem
+    if not isinstance(model, Model):
+        raise ModelError(f"model is a {type(model).__name__}, expected a Model and then its result")
+    least = real_number("tolerance", tolerance)
+    if not least > 0.0:
+        raise ModelError(f"tolerance is {tolerance!r}, expected a number above 0, such as {TOLERANCE:g}")
     claim = claim_of(model, result)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # undefined residuals are infinite
+        return _checked(model, claim, least)
+
+
+def _checked(model: Model, claim: Claim, tolerance: float) -> Check:
+    problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
     entries = (*mcp_residuals(flow, state).entries, _standing(problem, claim))
-    return Check(Residuals(entries), float(tolerance), found, locked_shear(flow, state), model.digest)
+    return Check(Residuals(entries), tolerance, found, locked_shear(flow, state), model.digest)
 
 
 def _state(model: Model, flow: Flow, claim: Claim) -> tuple[State, bool]:

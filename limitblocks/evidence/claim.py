@@ -83,13 +83,13 @@ def claim_of(model: Model, result: Any) -> Claim:
     expected = ((len(model.interfaces), 6), (len(model.blocks), 6), (rows,), (stresses,), (stresses,))
     for name, shape in zip(ARRAYS, expected, strict=True):
         shapes[name] = _array(name, getattr(result, name, None), shape)
-    dilatancy = _number("dilatancy", getattr(result, "dilatancy", 0.0), infinite=True)
+    dilatancy = real_number("dilatancy", getattr(result, "dilatancy", 0.0), infinite=True)
     if dilatancy < 0.0:
         raise ModelError(f"dilatancy is {dilatancy!r}, expected 0 or more; infinite means associated flow")
     if shapes["stress_resultants"] is None:
         raise ModelError("stress_resultants are missing, and a load factor alone cannot be checked")
     return Claim(
-        load_factor=_number("load_factor", result.load_factor),
+        load_factor=real_number("load_factor", result.load_factor),
         dilatancy=dilatancy,
         turning=turning_of(getattr(result, "turning", Turning.CENTROID)),
         digest=digest,
@@ -101,22 +101,34 @@ def _array(name: str, value: Any, shape: tuple[int, ...]) -> Array | None:
     """`value` as a real and finite array of this shape, None if it is missing."""
     if value is None:
         return None
-    array = np.asarray(value)
-    if array.dtype.kind not in "fiu":
-        raise ModelError(f"{name} holds {array.dtype}, expected real numbers")
+    array = _real(name, value)
     if array.shape != shape:
         raise ModelError(f"{name} has shape {array.shape}, expected {shape} for this model")
     bad = np.argwhere(~np.isfinite(array))
     if len(bad):
         place = tuple(bad[0].tolist())
         raise ModelError(f"{name}{list(place)} is {array[place]}, expected finite numbers")
-    return np.asarray(array, dtype=float)
+    return array
 
 
-def _number(name: str, value: Any, infinite: bool = False) -> float:
-    array = np.asarray(value)
-    if array.shape != () or array.dtype.kind not in "fiu" or np.isnan(array):
+def real_number(name: str, value: Any, infinite: bool = False) -> float:
+    """Return `value` as a float; raise ModelError unless it is real and finite, or may be `infinite`."""
+    number = _real(name, value)
+    if number.shape != () or np.isnan(number):
         raise ModelError(f"{name} is {value!r}, expected a real number")
-    if not infinite and not np.isfinite(array):
+    if not infinite and not np.isfinite(number):
         raise ModelError(f"{name} is {value!r}, expected a finite number")
-    return float(array)
+    return float(number)
+
+
+def _real(name: str, value: Any) -> Array:
+    """`value` as floats; what numpy would turn into numbers by dropping a part of it is refused."""
+    try:
+        array = np.asarray(value)
+    except (ValueError, TypeError):
+        raise ModelError(f"{name} is no array of numbers: its rows differ in length") from None
+    if array.dtype.kind not in "fiu" or np.ma.isMaskedArray(value):
+        kind = "masked values" if np.ma.isMaskedArray(value) else str(array.dtype)
+        raise ModelError(f"{name} holds {kind}, expected real numbers")
+    with np.errstate(over="ignore"):  # of longer floats: infinite, and refused as such
+        return np.asarray(array, dtype=float)

@@ -1,8 +1,10 @@
 """Residuals of a claimed state, recomputed from the limit problem with numpy alone.
 
 Nothing is measured by a mean. What acts on a block is the sum of the sizes of its loads and of its
-interfaces' forces; an interface is measured by what acts on the lesser of its blocks; a rate by the power
-that this force does on it, over the power of the live load: by what it is worth in the load factor.
+interfaces' forces, as far as loads can be behind them: a block wedged between others may be under any
+self-stress, and an imbalance must not hide behind it. An interface is measured by what acts on the lesser of
+its blocks; a rate by the power that this force does on it, over the power of the live load: by what it is
+worth in the load factor. Nor may a drift that costs nothing make that power large.
 """
 
 from __future__ import annotations
@@ -20,6 +22,7 @@ from limitblocks.problem import Flow, LimitProblem, State
 TOLERANCE = 1e-8  # largest residual of an answer
 # Of the power of all forces on the mechanism: smaller load factors are known to it times the tolerance.
 SMALL_POWER = 1e-7
+FASTEST = 1e3  # rate of a block over that at which the live loads do their work: more counts as this
 ROUNDING = 1e-9  # of that power over the tolerance: load factors smaller than rounding errors
 
 POWER = "the power of the interface's own force on it over that of the live load"
@@ -93,23 +96,37 @@ class Measure:
         return np.asarray(acting.reshape(-1, 6).max(axis=1))
 
     @cached_property
+    def loaded(self) -> Array:
+        """What acts on each block, at most all loads of the blocks that it is tied to, (n,)."""
+        p = self.problem
+        loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
+        own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
+        together = np.bincount(p.tied, weights=own)
+        together = np.where(together > 0.0, together, together.max())[p.tied]
+        return np.minimum(self.block, together / p.units.block_force)
+
+    @cached_property
     def interface(self) -> Array:
         """What acts on the lesser of the free blocks of each interface, in its unit of force, (m,)."""
-        p, force = self.problem, self.block * self.problem.units.block_force
+        p, force = self.problem, self.loaded * self.problem.units.block_force
         least = np.where(p.ends >= 0, force[p.ends], np.inf).min(axis=1)
         return np.asarray(least / p.units.interface_force)
 
     @cached_property
+    def everything(self) -> float:
+        """Power of all forces on the mechanism."""
+        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
+        return float(self.loaded @ np.minimum(rates, FASTEST))
+
+    @cached_property
     def power(self) -> float:
         """Power of the live load, or SMALL_POWER of that of all forces where it is less."""
-        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
-        return max(abs(self.state.load_factor), SMALL_POWER * float(self.block @ rates))
+        return max(abs(self.state.load_factor), SMALL_POWER * self.everything)
 
     @property
     def load_factor(self) -> float:
         """Size of the load factor, or rounding errors of the power of all forces where it is less."""
-        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
-        return max(abs(self.state.load_factor), ROUNDING * float(self.block @ rates))
+        return max(abs(self.state.load_factor), ROUNDING * self.everything)
 
 
 def largest_of(problem: LimitProblem, values: Array) -> Array:
@@ -132,7 +149,7 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
             "equilibrium",
             np.abs(unbalanced).reshape(-1, 6).max(axis=1),
             "unbalanced force or moment over what acts on the block, Eq. (56)",
-            measure.block,
+            measure.loaded,
             problem.blocks,
         ),
         residual(

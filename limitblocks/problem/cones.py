@@ -163,11 +163,13 @@ class Cones:
 
 def rays(size: int, count: int) -> Array:
     """Return rays (1, d) on the boundary of a cone, `count` in each plane of two axes d, shape (k, size)."""
+    if size < 3:  # |z| = t at two rays, or no z at all
+        return np.array([[1.0, 1.0], [1.0, -1.0]])[: max(size, 1), :size]
     angles = 2.0 * np.pi * np.arange(count) / count
     found = []
-    for pair in combinations(range(1, size), min(2, size - 1)):
+    for pair in combinations(range(1, size), 2):
         ray = np.eye(1, size).repeat(count, axis=0)
-        ray[:, list(pair)] = np.stack([np.cos(angles), np.sin(angles)], axis=1)[:, : len(pair)]
+        ray[:, list(pair)] = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         found.append(ray)
     return np.concatenate(found)
 

@@ -132,6 +132,13 @@ class LimitProblem:
         return interface
 
     @cached_property
+    def tied(self) -> Indices:
+        """Number of the group of each free block: groups hang together by interfaces without supports."""
+        i, j = self.ends[(self.ends >= 0).all(axis=1)].T
+        graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(self.blocks),) * 2).tocsr()
+        return np.asarray(sparse.csgraph.connected_components(graph, directed=False)[1])
+
+    @cached_property
     def member_interface(self) -> Indices:
         """Interface of each linear row and each cone, shape (degree,)."""
         return np.asarray(self.row_interface[self.cones.heads])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from limitblocks.analysis.cone_algebra import arrow, inverse_arrow, least_product, longest, product
 
 from limitblocks.problem import Cones
+from limitblocks.problem.cones import rays
 
 CONES = Cones(2, ((2, 3), (1, 4)))
 PARTS = [slice(2, 5), slice(5, 8), slice(8, 12)]
@@ -41,19 +41,19 @@ def test_product_and_arrow(a, b):
     expected = a * b
     for part in PARTS:
         expected[part] = dense_arrow(a[part]) @ b[part]
-    np.testing.assert_allclose(product(CONES, a, b), expected, atol=1e-12)
-    np.testing.assert_allclose(arrow(CONES, a) @ b, expected, atol=1e-12)
+    np.testing.assert_allclose(CONES.product(a, b), expected, atol=1e-12)
+    np.testing.assert_allclose(CONES.arrow(a) @ b, expected, atol=1e-12)
 
 
 @given(VECTORS)
 def test_the_identity_of_the_product(a):
-    np.testing.assert_array_equal(product(CONES, CONES.identity, a), a)
+    np.testing.assert_array_equal(CONES.product(CONES.identity, a), a)
 
 
 @given(interior())
 def test_inverse_arrow(a):
-    found = (inverse_arrow(CONES, a) @ arrow(CONES, a)).toarray()
-    condition = np.linalg.cond(arrow(CONES, a).toarray())
+    found = (CONES.inverse_arrow(a) @ CONES.arrow(a)).toarray()
+    condition = np.linalg.cond(CONES.arrow(a).toarray())
     np.testing.assert_allclose(found, np.eye(12), atol=1e-13 * condition)
 
 
@@ -62,7 +62,7 @@ def test_longest_against_bisection(v, dv):
     def inside(t):
         return CONES.margin(v + t * dv).min() >= 0.0
 
-    t = longest(CONES, v, dv)
+    t = CONES.longest(v, dv)
     if np.isinf(t):
         assert CONES.margin(v + 1e6 * dv).min() >= -1e-6
         return
@@ -88,7 +88,7 @@ def test_longest_against_bisection(v, dv):
 def test_longest_by_hand(dv, expected):
     """From (2, 1, 0), which is 1 inside the boundary t = ||z||."""
     start = np.array((2, 1, 0), float)
-    assert longest(Cones(0, ((1, 3),)), start, np.array(dv, float)) == pytest.approx(expected)
+    assert Cones(0, ((1, 3),)).longest(start, np.array(dv, float)) == pytest.approx(expected)
 
 
 @given(interior(), interior())
@@ -104,4 +104,42 @@ def test_least_product_against_eigenvalues(a, b):
         L = dense_arrow(root)
         scaled[part] = (2 * L @ L - dense_arrow(a[part])) @ b[part]
     expected = eigenvalues(scaled).min()
-    assert least_product(CONES, a, b) == pytest.approx(expected, rel=1e-7, abs=1e-9)
+    assert CONES.least_product(a, b) == pytest.approx(expected, rel=1e-7, abs=1e-9)
+
+
+def test_of_sizes_puts_equal_neighbours_together():
+    assert Cones.of_sizes(2, [3, 3, 4]) == CONES
+    assert Cones.of_sizes(1, []) == Cones(1)
+    assert (CONES.degree, CONES.height) == (5, 12)
+    np.testing.assert_array_equal(CONES.heads, [0, 1, 2, 5, 8])
+    np.testing.assert_array_equal(CONES.member, [0, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 4])
+
+
+@given(VECTORS)
+def test_margin_and_norm(a):
+    cones = [(a[p][0] - np.linalg.norm(a[p][1:]), np.linalg.norm(a[p])) for p in PARTS]
+    margins, norms = np.transpose(cones)
+    np.testing.assert_allclose(CONES.margin(a), [*a[:2], *margins], atol=1e-12)
+    np.testing.assert_allclose(CONES.norm(a), [*np.abs(a[:2]), *norms], atol=1e-12)
+
+
+@given(interior(), VECTORS)
+def test_share_is_one_over_the_longest_step(held, rest):
+    """The least s with s held + rest in K is 1/t, t the longest step from held along rest, row by row."""
+    shares = CONES.share(held, rest)
+    t = CONES.longest(held, rest)
+    assert shares.max() == pytest.approx(min(1.0, 1.0 / t) if t > 0.0 else 1.0, abs=1e-7)
+
+
+def test_share_of_nothing_held():
+    cones = Cones(1, ((1, 3),))
+    np.testing.assert_array_equal(cones.share(np.zeros(4), np.array([-1.0, 0, 0, 0])), [1.0, 0.0])
+    np.testing.assert_array_equal(cones.share(np.full(4, 1e-9), np.array([-1e-3, 0, 0, 0]), 1e-6), [1.0, 0.0])
+
+
+@pytest.mark.parametrize("size", [2, 3, 4])
+def test_rays_lie_on_the_boundary_in_the_planes_of_two_axes(size):
+    found = rays(size, 8)
+    np.testing.assert_allclose(found[:, 0], np.linalg.norm(found[:, 1:], axis=1), atol=1e-15)
+    assert (np.count_nonzero(np.abs(found[:, 1:]) > 1e-12, axis=1) <= 2).all()
+    assert len(found) == {2: 2, 3: 8, 4: 24}[size]
