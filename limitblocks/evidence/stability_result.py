@@ -52,8 +52,6 @@ class Stability:
         Recomputed without the solver. Of the states: equilibrium and yield, and flow and complementarity of
         the one that arises. Of the mechanism: flow and multipliers, over the work of the dead loads on it
         less what the joints take up.
-    remarks : tuple of str
-        What a reader of the answer should know.
     digest : str
         SHA-256 of the model.
     """
@@ -66,7 +64,6 @@ class Stability:
     arising: Array | None
     displacement_rates: Array | None
     residuals: Residuals
-    remarks: tuple[str, ...]
     digest: str
 
     @property
@@ -80,7 +77,7 @@ class Stability:
         worst = self.residuals.worst
         return (
             f"{self.kind.value}{moving}; margin {self.margin:.3g}, worst residual {worst.value:.1e} "
-            f"({worst.name}){''.join(f'; {remark}' for remark in self.remarks)}"
+            f"({worst.name})"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -94,7 +91,6 @@ class Stability:
             "margin": self.margin,
             "blocks": list(self.blocks),
             "residuals": self.residuals.to_dict(),
-            "remarks": list(self.remarks),
             **{name: None if (v := getattr(self, name)) is None else v.tolist() for name in arrays},
             "model_digest": self.digest,
         }

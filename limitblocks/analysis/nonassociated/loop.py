@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from limitblocks.analysis.bounds import in_model_order, resultants_of
+from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.closing import evidence
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.settings import Settings
