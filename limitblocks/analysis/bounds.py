@@ -20,7 +20,7 @@ from limitblocks.analysis.programs import (
     static_program,
 )
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (

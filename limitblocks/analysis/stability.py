@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.programs import (
     ROUNDS,
     Program,
-    falling_program,
     in_cone,
     remeasured,
     solved,
@@ -23,6 +23,7 @@ from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, static_residuals
+from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import (
     Stability,
     Standing,
@@ -33,10 +34,6 @@ from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
-MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
-FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
-ARISEN = 1e-6  # largest residual of stresses that arise
-CERTIFIED = 1e-7  # largest residual of a mechanism that proves that a structure falls
 
 
 def stability(model: Model) -> Stability:
@@ -78,7 +75,7 @@ def stability(model: Model) -> Stability:
             + str(Residuals(entries).worst)
         )
     free = sparse.diags_array(np.repeat(1.0 * moving, 6))
-    alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=free @ problem.dead)
+    alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
     fall = falling(Flow(alone), alone.dead)
     if fall is None:
         raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
@@ -212,47 +209,3 @@ def falls(problem: LimitProblem, loads: Array) -> tuple[str, ...]:
     """Return the blocks that move in a mechanism which proves that the loads fall; none where none does."""
     fall = falling(Flow(problem, ASSOCIATED), loads)
     return fall.blocks if fall else ()
-
-
-@dataclass(frozen=True, eq=False)
-class Fall:
-    """A mechanism on which the loads do more work than the joints take up, in the units of its problem."""
-
-    flow: Flow
-    loads: Array
-    state: State
-
-    @property
-    def blocks(self) -> tuple[str, ...]:
-        """Blocks whose power is more than MOVING of the largest."""
-        speed = np.abs(self.state.u).reshape(-1, 6).max(axis=1)
-        return tuple(np.array(self.flow.problem.blocks)[speed > MOVING * speed.max()].tolist())
-
-    @property
-    def rates(self) -> Array:
-        """Displacement rates, m and rad, (6 n,); the largest 1 m, rotations by half the size of the block."""
-        units = self.flow.problem.units
-        u = self.state.u / units.loads
-        arms = np.stack([np.ones_like(units.block_length)] * 3 + [units.block_length] * 3, axis=1)
-        return np.asarray(u / np.abs(u.reshape(-1, 6) * arms).max())
-
-
-def falling(flow: Flow, loads: Array) -> Fall | None:
-    """Return a mechanism of a flow rule that proves that the loads fall, sought in two sets of units.
-
-    Those of the problem, and with every block measured by its own load.
-    """
-    problem = flow.problem
-    own = np.abs(loads).reshape(-1, 6).max(axis=1)
-    light = problem.measured(np.where(own > 0.0, own, own.max()) * problem.units.block_force)
-    share = light.units.loads / problem.units.loads
-    for measured, acting in ((problem, loads), (light, loads / share)):
-        known = replace(flow, problem=measured)
-        G = known.matrix(np.zeros(measured.C.shape[0]))
-        for solver in solvers(bool(problem.cones.second_order)):
-            u, y = solved(falling_program(replace(measured, F=G), acting), solver).values
-            strains = np.abs(measured.C @ u + G.T @ y).max()
-            surplus = acting @ u - measured.g @ y
-            if strains < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
-                return Fall(known, acting, State(0.0, np.zeros(measured.C.shape[0]), u, y))
-    return None

@@ -26,7 +26,8 @@ ITERATIONS = 100  # of Newton's method
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
 # nobody wedges, the step on soft springs has several solutions, and often none is found.
 SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
-CARRIED = 5.0  # times the stiffness, 0.01 to 0.9 of what acts on a block: springs of a block not held carry more
+# Times the stiffness, 0.01 to 0.9 of what acts on a block: the springs of a block not held carry more.
+CARRIED = 5.0
 
 
 def joint_compliance(problem: LimitProblem) -> Array:

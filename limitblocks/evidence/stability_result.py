@@ -9,17 +9,25 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import Measure, Residual, Residuals, largest_of, residual, static_residuals
+from limitblocks.evidence.residuals import (
+    Measure,
+    Residual,
+    Residuals,
+    largest_of,
+    residual,
+    static_residuals,
+)
 from limitblocks.problem import Flow, State
 
 SHOWN = 8  # names in a line
+TOLERANCE = 1e-6  # largest residual of stresses that arise, and of a mechanism
 
 
 class Standing(Enum):
     """Whether a structure stands under its dead loads; the text is for the user."""
 
-    STANDS = "stands: the dead loads alone, put on unstressed blocks, bring about stresses that carry them"
-    SELF_STRESS = "stands only by self-stress: stresses that carry the dead loads exist, but they do not arise"
+    STANDS = "stands: the dead loads, put on unstressed blocks, bring about stresses that carry them"
+    SELF_STRESS = "stands only by self-stress: stresses that carry the dead loads exist, but do not arise"
     FALLS = "falls: no stresses within the yield surface carry the dead loads"
 
 
@@ -105,15 +113,13 @@ def arising_residuals(flow: Flow, weights: Array, state: State) -> tuple[Residua
     p, measure = flow.problem, Measure(flow.problem, state)
     strains = weights * state.x - p.C @ state.u - flow.matrix(state.x).T @ state.y
     power, k = float(p.dead @ state.u), p.member_interface
-    names, at = p.interfaces, [p.interfaces[i] for i in k]
+    at = [p.interfaces[i] for i in k]
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads] * measure.interface[k]
     product = p.cones.norm(p.cones.product(p.F @ state.x + p.g, state.y))
-    over = "over the work of the dead loads"
+    slip, over = largest_of(p, strains) * measure.interface, "over the work of the dead loads"
     found = (
         *static_residuals(p, 0.0, state.x),
-        residual(
-            "flow", largest_of(p, strains) * measure.interface, f"elastic and flow strains, {over}", power, names
-        ),
+        residual("flow", slip, f"strains of the joints, {over}", power, p.interfaces),
         residual("multipliers", negative, f"negative flow multiplier, {over}", power, at),
         residual("complementarity", product, f"yield function times multiplier, {over}", power, at),
     )
@@ -126,8 +132,8 @@ def mechanism_residuals(flow: Flow, loads: Array, state: State) -> tuple[Residua
     surplus, k = float(loads @ state.u - p.g @ state.y), p.member_interface
     strains = largest_of(p, p.C @ state.u + flow.matrix(state.x).T @ state.y)
     negative, at = np.minimum(p.cones.margin(state.y), 0.0), [p.interfaces[i] for i in k]
-    over = "of the unit of force over the surplus work"
+    over = "work of the unit of force over the surplus work"
     return (
-        residual("mechanism flow", strains, f"compatibility and flow rule, work {over}", surplus, p.interfaces),
-        residual("mechanism multipliers", negative, f"negative flow multiplier, work {over}", surplus, at),
+        residual("mechanism flow", strains, f"flow rule, {over}", surplus, p.interfaces),
+        residual("mechanism multipliers", negative, f"negative multiplier, {over}", surplus, at),
     )

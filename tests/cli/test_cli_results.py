@@ -72,9 +72,12 @@ def solver(monkeypatch):
     """Puts analyses of known outcome in place of the real ones."""
 
     def put(nonassociated=solved, load_path=walked):
-        fakes = {"nonassociated": nonassociated, "load_path": load_path}
-        for name, fake in fakes.items():
-            monkeypatch.setitem(sys.modules, f"limitblocks.analysis.{name}", SimpleNamespace(**{name: fake}))
+        for module, name, fake in (
+            ("loop", "nonassociated", nonassociated),
+            ("load_path", "load_path", load_path),
+        ):
+            full = f"limitblocks.analysis.nonassociated.{module}"
+            monkeypatch.setitem(sys.modules, full, SimpleNamespace(**{name: fake}))
 
     put()
     return put
