@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 
 def stability(model: Model) -> Stability:
+    """Does it stand under its dead loads."""
     from limitblocks.analysis.stability import stability as solve
     from limitblocks.report.terminal import shown_progress
 
@@ -20,6 +21,7 @@ def stability(model: Model) -> Stability:
 
 
 def bounds(model: Model, **settings: float) -> Bounds:
+    """Associated bounds."""
     from limitblocks.analysis.bounds import bounds as solve
     from limitblocks.report.terminal import shown_progress
 
@@ -28,6 +30,7 @@ def bounds(model: Model, **settings: float) -> Bounds:
 
 
 def nonassociated(model: Model, **settings: Any) -> Nonassociated:
+    """Solution without dilatancy, or with little."""
     from limitblocks.analysis.nonassociated.loop import nonassociated as solve
     from limitblocks.report.terminal import shown_progress
 
@@ -36,6 +39,7 @@ def nonassociated(model: Model, **settings: Any) -> Nonassociated:
 
 
 def path(model: Model, **settings: Any) -> LoadPath:
+    """States from the permanent loads to collapse."""
     from limitblocks.analysis.nonassociated.load_path import load_path as solve
     from limitblocks.report.terminal import shown_progress
 
