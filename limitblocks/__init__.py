@@ -9,6 +9,7 @@ from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.nonassociated.load_path import load_path
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.stability import stability
 from limitblocks.errors import (
     CheckFailed,
     GeometryError,
@@ -26,6 +27,7 @@ from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import (
     ImportedBlocks,
@@ -99,6 +101,8 @@ __all__ = [
     "Settings",
     "SolveError",
     "SolverFailure",
+    "Stability",
+    "Standing",
     "Status",
     "Tilting",
     "UnlimitedLoad",
@@ -129,6 +133,7 @@ __all__ = [
     "report",
     "report_schema",
     "self_weight",
+    "stability",
     "structures",
     "studies",
     "tilting",

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -19,7 +20,7 @@ from limitblocks.analysis.programs import (
     static_program,
 )
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (
@@ -91,19 +92,6 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         tolerance=tolerance,
         digest=model.digest,
     )
-
-
-def resultants_of(problem: LimitProblem, x: Array) -> Array:
-    """Stress resultants (m, 6), N and N m, of dimensionless stresses."""
-    return read_only((problem.resultants @ x * problem.units.resultants).reshape(-1, 6))
-
-
-def in_model_order(model: Model, rates: Array) -> Array:
-    """Displacement rates (n, 6) of all blocks, supports as zero; `rates` of the free ones, m and rad."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
-    found = np.zeros((len(place), 6))
-    found[[place[name] for name in model.problem.blocks]] = rates.reshape(-1, 6)
-    return read_only(found)
 
 
 def _solved(problem: LimitProblem, tolerance: float) -> _Pair:

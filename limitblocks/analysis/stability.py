@@ -3,36 +3,117 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import cvxpy as cp
 import numpy as np
+from scipy import sparse
 
+from limitblocks.analysis.falling import Fall, falling
+from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.programs import (
     ROUNDS,
     Program,
-    falling_program,
     in_cone,
     remeasured,
     solved,
     solvers,
 )
-from limitblocks.arrays import Array
+from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, static_residuals
+from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
+from limitblocks.evidence.stability_result import (
+    Stability,
+    Standing,
+    arising_residuals,
+    mechanism_residuals,
+)
 from limitblocks.model import Model
-from limitblocks.problem import LimitProblem, State
+from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
-MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
-FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
-CERTIFIED = 1e-7  # largest residual of a mechanism that proves that a structure falls
+
+
+def stability(model: Model) -> Stability:
+    """Say whether the structure stands under its dead loads alone, with the states that prove it.
+
+    Stresses within the yield surface that carry the dead loads are found as far within it as they can be, or
+    a mechanism proves that there are none (static and kinematic theorem). Where they exist, the dead loads
+    are put on unstressed blocks with slightly compliant joints and zero dilatancy: only if that brings
+    about such stresses does the structure stand by itself, see :mod:`limitblocks.analysis.unstressed`.
+
+    Parameters
+    ----------
+    model : Model
+        The structure; its live load is of no account.
+
+    Raises
+    ------
+    SolverFailure
+        If nothing is proven.
+    """
+    problem = model.problem
+    try:
+        x = dead_load_state(problem)
+    except NoEquilibrium:
+        fall = falling(Flow(problem, ASSOCIATED), problem.dead)
+        assert fall  # it was just found
+        return _answer(model, Standing.FALLS, standing_margin(model), fall=fall)
+    margin = min(MOST, _margin(problem, x))
+    flow, weights = Flow(problem), joint_compliance(problem)
+    found = arising(problem, weights)
+    own = State(0.0, found.point.x, found.point.u, found.point.y)
+    entries = arising_residuals(flow, weights, own)
+    if found.accepted and Residuals(entries).worst.value <= ARISEN:
+        return _answer(model, Standing.STANDS, margin, x, own.x, entries)
+    moving = not_held(problem, weights)
+    if moving is None or not moving.any():
+        raise SolverFailure(
+            "stresses that carry the dead loads exist, but whether they arise by themselves is undecided: "
+            + str(Residuals(entries).worst)
+        )
+    free = sparse.diags_array(np.repeat(1.0 * moving, 6))
+    alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
+    fall = falling(Flow(alone), alone.dead)
+    if fall is None:
+        raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
+    return _answer(model, Standing.SELF_STRESS, margin, x, fall=fall)
+
+
+def _answer(
+    model: Model,
+    kind: Standing,
+    margin: float,
+    x: Array | None = None,
+    arisen: Array | None = None,
+    entries: tuple[Residual, ...] = (),
+    fall: Fall | None = None,
+) -> Stability:
+    """The result, with the residuals of the states it has."""
+    problem = model.problem
+    static = () if x is None else static_residuals(problem, 0.0, x)
+    moved = mechanism_residuals(fall.flow, fall.loads, fall.state) if fall else ()
+    return Stability(
+        kind=kind,
+        margin=margin,
+        blocks=fall.blocks if fall else (),
+        stress_resultants=None if x is None else resultants_of(problem, x),
+        generalised_stresses=None if x is None else read_only(x * problem.stress_units),
+        arising=None if arisen is None else resultants_of(problem, arisen),
+        displacement_rates=in_model_order(model, fall.rates) if fall else None,
+        residuals=Residuals((*static, *entries, *moved)),
+        digest=model.digest,
+    )
 
 
 def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """Return the largest least distance to yield of all states in equilibrium, over the interfaces' forces.
 
     Over all stresses x in equilibrium with dead + load_factor live, the largest t such that each row of
-    F x + g is at least t inside the cone K, t <= 1, every interface in its own unit of force. A state within
+    F x + g is at least t inside the cone K, t <= 1, every interface in the largest dead load of the blocks it
+    is tied to. A state within
     the yield surface exists, and the loads stand (static theorem), exactly where t >= 0; below, -t is how
     much every yield function would have to be widened: what a root finder needs, and yes and no do not give.
     Joints without friction carry no shear; where no stresses at all balance the loads, the margin is -1.
@@ -53,7 +134,7 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     said = []
     for t, x, worst in _states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
-            return min(MOST, t, float(problem.cones.margin(problem.F @ x + problem.g).min()))
+            return min(MOST, t, _margin(problem, x))
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
     if falls(problem, problem.dead + load_factor * problem.units.live * problem.live):
         return -MOST
@@ -103,30 +184,28 @@ def _standing_program(problem: LimitProblem, loads: Array) -> Program:
     """The largest margin t and its stresses. Variables: t, x."""
     t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.C.T @ x == loads
-    inside = in_cone(problem.F @ x + problem.g - t * problem.cones.identity, problem.cones)
+    lowered = problem.cones.identity * _own_loads(problem)[problem.row_interface]
+    inside = in_cone(problem.F @ x + problem.g - t * lowered, problem.cones)
     return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *inside]), (t, x))
 
 
+def _own_loads(problem: LimitProblem) -> Array:
+    """Largest dead load of the blocks that an interface is tied to, in its unit of force, shape (m,)."""
+    force = problem.units.block_force
+    loads = np.linalg.norm(problem.dead.reshape(-1, 2, 3), axis=2).sum(axis=1) * force
+    largest = np.zeros_like(force)
+    np.maximum.at(largest, problem.parts, loads)
+    own = largest[problem.parts][problem.ends.max(axis=1)]
+    return np.asarray(np.where(own > 0.0, own / problem.units.interface_force, 1.0))
+
+
+def _margin(problem: LimitProblem, x: Array) -> float:
+    """Least distance to yield over the largest dead load of the blocks tied to the interface."""
+    distance = problem.cones.margin(problem.F @ x + problem.g)
+    return float((distance / _own_loads(problem)[problem.member_interface]).min())
+
+
 def falls(problem: LimitProblem, loads: Array) -> tuple[str, ...]:
-    """Return the blocks that move in a mechanism which proves that the loads fall; none where none does.
-
-    Sought in the problem's units, and with every block measured by its own load.
-    """
-    own = np.abs(loads).reshape(-1, 6).max(axis=1)
-    light = problem.measured(np.where(own > 0.0, own, own.max()) * problem.units.block_force)
-    share = light.units.loads / problem.units.loads
-    for measured, acting in ((problem, loads), (light, loads / share)):
-        for solver in solvers(bool(problem.cones.second_order)):
-            u, y = solved(falling_program(measured, acting), solver).values
-            flow = np.abs(measured.C @ u + measured.F.T @ y).max()
-            surplus = acting @ u - measured.g @ y
-            moving = _moving(measured, u)
-            if flow < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
-                return moving
-    return ()
-
-
-def _moving(problem: LimitProblem, u: Array) -> tuple[str, ...]:
-    """Blocks whose power is more than MOVING of the largest."""
-    speed = np.abs(u).reshape(-1, 6).max(axis=1)
-    return tuple(np.array(problem.blocks)[speed > MOVING * speed.max()].tolist())
+    """Return the blocks that move in a mechanism which proves that the loads fall; none where none does."""
+    fall = falling(Flow(problem, ASSOCIATED), loads)
+    return fall.blocks if fall else ()

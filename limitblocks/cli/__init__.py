@@ -1,6 +1,7 @@
 """The command line: the verbs of the library on model files.
 
-Exit codes: 0 done, 1 a check failed, 2 the model (or the usage) is wrong, 3 no solution found.
+Exit codes: 0 done, 1 a check failed or the structure does not stand by itself, 2 the model (or the usage) is
+wrong, 3 no solution found.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from limitblocks.cli import analyses
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
@@ -25,16 +27,16 @@ from limitblocks.cli.options import (
     ReportFile,
     ResultFile,
     Tolerance,
+    Turns,
     Version,
     WithNonassociated,
     WithPath,
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged, UnlimitedLoad
+from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
-    from limitblocks.evidence.associated import Bounds
-    from limitblocks.evidence.results import LoadPath, Nonassociated
     from limitblocks.model import Model
 
 _SUFFIX = ".html"
@@ -68,6 +70,17 @@ def _start(version: Version = False) -> None:
 
 
 @app.command()
+def stability(
+    model: ModelFile, as_json: AsJson = False, output: ResultFile = None, force: Force = False
+) -> None:
+    """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
+    with clean_errors():
+        found = _answer(analyses.stability, model, as_json, output, force)
+    if not found.stands:
+        raise typer.Exit(1)
+
+
+@app.command()
 def bounds(
     model: ModelFile,
     as_json: AsJson = False,
@@ -77,13 +90,14 @@ def bounds(
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
-        _answer(_bounds, model, as_json, output, force, tolerance=tolerance)
+        _answer(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
 
 
 @app.command()
 def nonassociated(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -91,13 +105,15 @@ def nonassociated(
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        _answer(_nonassociated, model, as_json, output, force, dilatancy=dilatancy, tolerance=tolerance)
+        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
 @app.command()
 def path(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -105,7 +121,8 @@ def path(
 ) -> None:
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
-        _answer(_path, model, as_json, output, force, dilatancy=dilatancy, tolerance=tolerance)
+        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        _answer(analyses.path, model, as_json, output, force, **flow)
 
 
 @app.command()
@@ -150,6 +167,7 @@ def report(
     force: Force = False,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
     with_nonassociated: WithNonassociated = False,
     with_path: WithPath = False,
 ) -> None:
@@ -162,10 +180,10 @@ def report(
         refuse_existing(file, force, model)
         files.suffix(file)  # before the analysis, not after it
         structure = read(model)
-        flow = {"dilatancy": dilatancy, "tolerance": tolerance}
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         results = _bounds_if_any(structure, tolerance, needed=not (with_nonassociated or with_path))
-        results += [_nonassociated(structure, **flow)] if with_nonassociated else []
-        results += [_path(structure, **flow)] if with_path else []
+        results += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
+        results += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
 
 
@@ -180,34 +198,10 @@ def schema() -> None:
     typer.echo(json.dumps(model_schema(), indent=1))
 
 
-def _bounds(model: Model, **settings: float) -> Bounds:
-    from limitblocks.analysis.bounds import bounds
-    from limitblocks.report.terminal import shown_progress
-
-    with shown_progress():
-        return bounds(model, **settings)
-
-
-def _nonassociated(model: Model, *, dilatancy: float, tolerance: float) -> Nonassociated:
-    from limitblocks.analysis.nonassociated.loop import nonassociated
-    from limitblocks.report.terminal import shown_progress
-
-    with shown_progress() as show:
-        return nonassociated(model, dilatancy=dilatancy, tolerance=tolerance, progress=show)
-
-
-def _path(model: Model, *, dilatancy: float, tolerance: float) -> LoadPath:
-    from limitblocks.analysis.nonassociated.load_path import load_path
-    from limitblocks.report.terminal import shown_progress
-
-    with shown_progress() as show:
-        return load_path(model, dilatancy=dilatancy, tolerance=tolerance, progress=show)
-
-
 def _bounds_if_any(model: Model, tolerance: float, needed: bool) -> list[Any]:
     """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
     try:
-        return [_bounds(model, tolerance=tolerance)]
+        return [analyses.bounds(model, tolerance=tolerance)]
     except UnlimitedLoad as error:
         if needed:
             raise
@@ -221,8 +215,8 @@ def _answer(
     as_json: bool,
     output: Path | None,
     force: bool,
-    **settings: float,
-) -> None:
+    **settings: Any,
+) -> Any:
     """Solve the model in `file`, write and print the result; write the best state where it stopped early."""
     from limitblocks.io import read, write_result
 
@@ -238,6 +232,7 @@ def _answer(
     if output:
         write_result(result, output, overwrite=force)
     _print(model, result, as_json)
+    return result
 
 
 def _print(model: Model, result: Any, as_json: bool) -> None:

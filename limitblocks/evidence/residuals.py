@@ -101,8 +101,8 @@ class Measure:
         p = self.problem
         loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
         own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
-        together = np.bincount(p.tied, weights=own)
-        together = np.where(together > 0.0, together, together.max())[p.tied]
+        together = np.bincount(p.parts, weights=own)
+        together = np.where(together > 0.0, together, together.max())[p.parts]
         return np.minimum(self.block, together / p.units.block_force)
 
     @cached_property

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Discriminator, Field, Tag
 
 from limitblocks.io.documents import Document, Number
+from limitblocks.problem import ASSOCIATED, Turning
 
 Six = tuple[Number, Number, Number, Number, Number, Number]
 
@@ -38,18 +39,60 @@ class ResultDocument(Document):
     """(du, dv, dw, dwX, dwY, dwZ) of each block."""
     flow_multipliers: list[Number] | None = None
     """Of each row of the limit problem."""
+    dead_load_stresses: list[Number] | None = None
+    """Generalised stresses that carry the dead loads alone."""
     dilatancy: Annotated[float, Field(ge=0.0, lt=1e30)] = 0.0
     """Tangent of the dilatancy angle."""
+    turning: Literal["centroid", "centre of pressure"] = "centroid"
+    """What twisting under bending turns about."""
     # kept for the reader; no check believes a word of it
     frictionless: Any = None
     associated: Any = None
     status: Any = None
+    remarks: Any = None
     residuals: Any = None
     tolerance: Any = None
     how: Any = None
     history: Any = None
     remarks: Any = None
     versions: Any = None
+
+
+class BoundsDocument(Document):
+    """Bounds: the stress state of the lower one and the mechanism of the upper one, associated flow."""
+
+    schema_version: Literal[1] = 1
+    analysis: Literal["bounds"]
+    model_digest: str = ""
+    lower: Number
+    """Static load factor, which the check judges."""
+    stress_resultants: Rows
+    generalised_stresses: list[Number] | None = None
+    displacement_rates: Rows | None = None
+    flow_multipliers: list[Number] | None = None
+    dead_load_stresses: list[Number] | None = None
+    upper: Any = None
+    gap: Any = None
+    worth: Any = None
+    residuals: Any = None
+    tolerance: Any = None
+    solvers: Any = None
+    versions: Any = None
+
+    @property
+    def load_factor(self) -> float:
+        """The lower bound."""
+        return self.lower
+
+    @property
+    def dilatancy(self) -> float:
+        """Infinite: the flow is associated at every interface."""
+        return ASSOCIATED
+
+    @property
+    def turning(self) -> str:
+        """Of no account where the flow is associated."""
+        return Turning.CENTROID.value
 
 
 class PathDocument(Document):

@@ -13,18 +13,20 @@ from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.evidence.claim import Claim
 from limitblocks.io import faults, strict_json
 from limitblocks.model import Model
+from limitblocks.problem import turning_of
 
 if TYPE_CHECKING:
-    from limitblocks.io.result_documents import ResultDocument
+    from limitblocks.io.result_documents import BoundsDocument, ResultDocument
 
 RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
-    "bounds": "holds bounds, two load factors that prove themselves by their gap; expected the result "
-    "of nonassociated or path",
-    "study": "holds a study, the load factors of many models; expected the result of nonassociated or path",
-    "check": "holds a check, not a result; expected the result of nonassociated or path",
+    "study": "holds a study, the load factors of many models; expected the result of bounds, "
+    "nonassociated or path",
+    "stability": "holds the answer whether the dead loads stand, no load factor; expected the result of "
+    "bounds, nonassociated or path",
+    "check": "holds a check, not a result; expected the result of bounds, nonassociated or path",
 }
 
 
@@ -88,8 +90,8 @@ def versions() -> dict[str, str]:
     return {name: metadata.version(name) for name in _STATED}
 
 
-def _document(text: str) -> ResultDocument:
-    from limitblocks.io.result_documents import PathDocument, ResultDocument
+def _document(text: str) -> ResultDocument | BoundsDocument:
+    from limitblocks.io.result_documents import BoundsDocument, PathDocument, ResultDocument
 
     data = strict_json.parse(text)
     kind = data.get("analysis") if isinstance(data, dict) else None
@@ -97,10 +99,12 @@ def _document(text: str) -> ResultDocument:
         raise ModelError(_NO_CLAIM[kind])
     if kind == "path":
         return faults.validated(PathDocument, text, data).collapse
+    if kind == "bounds":
+        return faults.validated(BoundsDocument, text, data)
     return faults.validated(ResultDocument, text, data)
 
 
-def _claim(document: ResultDocument, model: Model | None) -> Claim:
+def _claim(document: ResultDocument | BoundsDocument, model: Model | None) -> Claim:
     digest = document.model_digest
     if model and digest and digest != model.digest:
         raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
@@ -118,7 +122,9 @@ def _claim(document: ResultDocument, model: Model | None) -> Claim:
         displacement_rates=rates,
         flow_multipliers=_array(document.flow_multipliers),
         generalised_stresses=_array(document.generalised_stresses),
+        dead_load_stresses=_array(document.dead_load_stresses),
         dilatancy=document.dilatancy,
+        turning=turning_of(document.turning),
         digest=digest,
     )
 

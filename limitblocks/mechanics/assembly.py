@@ -15,7 +15,7 @@ from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
-from limitblocks.problem import Cones, LimitProblem, Mode, Units, power_of_two
+from limitblocks.problem import Cones, LimitProblem, Mode, Units, power_of_two, tied
 
 
 @dataclass(frozen=True)
@@ -129,11 +129,8 @@ def carried(own: Array, ends: Indices) -> Array:
     can tell; too large a unit of force loses digits that a second solution in its own units finds, too
     small a one loses all.
     """
-    i, j = ends[(ends >= 0).all(axis=1)].T
-    n = len(own)
-    graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(n, n)).tocsr()
-    count, part = sparse.csgraph.connected_components(graph, directed=False)
-    largest = np.zeros(count)
+    part = tied(ends, len(own))
+    largest = np.zeros(len(own))
     np.maximum.at(largest, part, own)
     return np.asarray(np.where(largest > 0.0, largest, largest.max())[part])
 

@@ -2,7 +2,7 @@
 
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.flow import ASSOCIATED, Flow, Turning, checked_dilatancy, turning_of
-from limitblocks.problem.limit_problem import LimitProblem, State, Units, power_of_two
+from limitblocks.problem.limit_problem import LimitProblem, State, Units, power_of_two, tied
 from limitblocks.problem.modes import Mode
 
 __all__ = [
@@ -16,5 +16,6 @@ __all__ = [
     "Units",
     "checked_dilatancy",
     "power_of_two",
+    "tied",
     "turning_of",
 ]

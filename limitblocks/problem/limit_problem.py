@@ -49,6 +49,16 @@ def power_of_two(values: Array) -> Array:
     return np.asarray(np.exp2(np.round(np.log2(values))))
 
 
+def tied(ends: Indices, count: int) -> Indices:
+    """Number the parts of `count` blocks that chains of interfaces tie together, shape (count,).
+
+    `ends` (m, 2) holds the blocks of each interface, -1 for a support; supports tie nothing.
+    """
+    i, j = ends[(ends >= 0).all(axis=1)].T
+    graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(count, count)).tocsr()
+    return np.asarray(sparse.csgraph.connected_components(graph, directed=False)[1])
+
+
 @dataclass(frozen=True, eq=False)
 class State:
     """Load factor, generalised stresses x (s,), displacement rates u (6 n,) and multipliers y (R,).
@@ -132,11 +142,9 @@ class LimitProblem:
         return interface
 
     @cached_property
-    def tied(self) -> Indices:
-        """Number of the group of each free block: groups hang together by interfaces without supports."""
-        i, j = self.ends[(self.ends >= 0).all(axis=1)].T
-        graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(self.blocks),) * 2).tocsr()
-        return np.asarray(sparse.csgraph.connected_components(graph, directed=False)[1])
+    def parts(self) -> Indices:
+        """Number of the part each free block belongs to, shape (n,); interfaces tie the blocks of a part."""
+        return tied(self.ends, len(self.blocks))
 
     @cached_property
     def member_interface(self) -> Indices:

@@ -10,7 +10,7 @@ from limitblocks.report.comparison import NOT_UNIQUE, comparison
 from limitblocks.report.facts import assumptions, fact_rows, facts
 from limitblocks.report.interfaces import active_interfaces
 from limitblocks.report.picture import Picture
-from limitblocks.report.sections import Section, Table
+from limitblocks.report.section import Section, Table
 
 if TYPE_CHECKING:
     from limitblocks.report.report import Report

@@ -8,7 +8,7 @@ from functools import singledispatch
 from itertools import chain
 
 from limitblocks.report.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.report.sections import Table
+from limitblocks.report.section import Table
 
 MARK = "<!-- limitblocks report -->"
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$&])")

@@ -12,7 +12,7 @@ from xml.sax.saxutils import escape
 from limitblocks.errors import MissingDependency
 from limitblocks.report.content import Bullets, Figure, Heading, Headline, Part
 from limitblocks.report.picture import WIDTH, Drawn, Picture
-from limitblocks.report.sections import Table
+from limitblocks.report.section import Table
 
 CREATOR = "limitblocks report"
 _MARGIN = 51.0  # points

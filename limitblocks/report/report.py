@@ -22,7 +22,8 @@ from limitblocks.report.interfaces import interface_rows
 from limitblocks.report.markdown import markdown
 from limitblocks.report.page import page
 from limitblocks.report.picture import Picture, mechanism_picture
-from limitblocks.report.sections import Section, section
+from limitblocks.report.section import Section
+from limitblocks.report.sections import section
 
 REPORT_SCHEMA_VERSION = 1
 _DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough

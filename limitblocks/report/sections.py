@@ -3,76 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import Any
 
-from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
+from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
+from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
-from limitblocks.report.curve import Curve, convergence_curve, path_curve
+from limitblocks.report.curve import convergence_curve, path_curve
+from limitblocks.report.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
-
-
-class Check(NamedTuple):
-    """A recomputed residual and whether it is within the tolerance."""
-
-    name: str
-    value: float
-    meaning: str
-    passed: bool
-
-
-class Table(NamedTuple):
-    """Rows of text under a caption."""
-
-    caption: str
-    heads: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Section:
-    """A result as a report shows it.
-
-    Attributes
-    ----------
-    title, meaning : str
-        Kind of result, and what it says, in a sentence.
-    headline, quantity : str
-        What counts, large, and what it is; mostly the load factor.
-    values : tuple of (str, str, str)
-        Quantity, value, and where it comes from.
-    checks : tuple of Check
-        Residuals.
-    tolerance : float
-        Largest residual accepted.
-    rates : Array, shape (n, 6), optional
-        Displacement rates of the mechanism to draw.
-    warnings : tuple of str
-        What is no error but may not be meant.
-    steps : Table, optional
-        One row a step.
-    curve : Curve, optional
-        A plot to draw.
-    """
-
-    title: str
-    meaning: str
-    headline: str
-    values: tuple[tuple[str, str, str], ...]
-    checks: tuple[Check, ...]
-    tolerance: float
-    rates: Array | None = None
-    warnings: tuple[str, ...] = ()
-    quantity: str = "load factor α"
-    steps: Table | None = None
-    curve: Curve | None = None
 
 
 def section(model: Model, result: Any) -> Section:
@@ -214,6 +159,28 @@ def _check(_model: Model, check: mcp.Check) -> Section:
     )
 
 
+def _stability(_model: Model, found: Stability) -> Section:
+    return Section(
+        title="Stability under the dead loads",
+        meaning=(
+            "The dead loads alone. Stresses within the yield surface that carry them are necessary for the "
+            "structure to stand, and not sufficient: friction can hold what is wedged, and nothing may wedge "
+            "it. It stands by itself where such stresses arise on unstressed blocks with slightly compliant "
+            "joints that slide without lifting."
+        ),
+        headline=found.kind.value.split(":")[0],
+        quantity=f"margin {found.margin:.3g} of the weight",
+        values=(
+            ("Answer", found.kind.value.split(": ")[1], ""),
+            ("Margin", f"{found.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
+            ("Blocks that move", _some(list(found.blocks)) or "none", ""),
+        ),
+        checks=_checks(found.residuals, ARISEN),
+        tolerance=ARISEN,
+        rates=found.displacement_rates,
+    )
+
+
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     entries = residuals.entries
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
@@ -234,4 +201,5 @@ _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
     Nonassociated: _nonassociated,
     LoadPath: _path,
     mcp.Check: _check,
+    Stability: _stability,
 }

@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 import limitblocks as lb
 from limitblocks.cli import app
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.problem import Turning
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
 PORTAL = {
@@ -32,13 +33,16 @@ def run(*arguments):
     return CliRunner().invoke(app, [str(argument) for argument in arguments])
 
 
-def solved(model, *, dilatancy=0.2, tolerance=1e-6, progress=None, status=Status.CONVERGED):
+def solved(
+    model, *, dilatancy=0.2, turning="centroid", tolerance=1e-6, progress=None, status=Status.CONVERGED
+):
     """The associated solution: it satisfies Eqs (54)-(59) where the dilatancy is the friction."""
     bounds = lb.bounds(model)
     iteration = Iteration(bounds.lower, "step", 0.0, {"flow": 1e-9}, 1, 0)
     if progress:
         progress(iteration)
     names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+    names += ("dead_load_stresses",)
     return Nonassociated(
         load_factor=bounds.upper,
         frictionless=np.nan,
@@ -47,6 +51,8 @@ def solved(model, *, dilatancy=0.2, tolerance=1e-6, progress=None, status=Status
         status=status,
         history=(iteration,),
         dilatancy=dilatancy,
+        turning=Turning(turning),
+        remarks=(),
         tolerance=tolerance,
         digest=model.digest,
         **{name: getattr(bounds, name) for name in names},
@@ -72,9 +78,10 @@ def solver(monkeypatch):
     """Puts analyses of known outcome in place of the real ones."""
 
     def put(nonassociated=solved, load_path=walked):
-        fakes = {"nonassociated": nonassociated, "load_path": load_path}
+        fakes = {"loop": {"nonassociated": nonassociated}, "load_path": {"load_path": load_path}}
         for name, fake in fakes.items():
-            monkeypatch.setitem(sys.modules, f"limitblocks.analysis.{name}", SimpleNamespace(**{name: fake}))
+            module = f"limitblocks.analysis.nonassociated.{name}"
+            monkeypatch.setitem(sys.modules, module, SimpleNamespace(**fake))
 
     put()
     return put
@@ -122,6 +129,68 @@ def test_path_prints_its_steps(file, tmp_path):
         assert part in done.stdout
     assert run("check", file, output).exit_code == 0
     assert len(json.loads(run("path", file, "--json").stdout)["steps"]) == 2
+
+
+@pytest.mark.usefixtures("solver")
+@pytest.mark.parametrize("verb", ["nonassociated", "path"])
+def test_turning_is_an_option_and_is_kept_in_the_file(verb, file, tmp_path):
+    output = tmp_path / "out.json"
+    done = run(verb, file, "--dilatancy", 0.2, "--turning", "centre of pressure", "-o", output)
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert lb.read_result(output).turning is Turning.PRESSURE
+    assert run("check", file, output).exit_code == 0
+    refused = run(verb, file, "--turning", "table 5")
+    assert refused.exit_code == 2
+    assert "centre of pressure" in refused.stderr
+
+
+def test_bounds_are_checked_with_associated_flow(file, tmp_path):
+    output = tmp_path / "bounds.json"
+    assert run("bounds", file, "-o", output).exit_code == 0
+    done = run("check", file, output)
+    assert (done.exit_code, done.stderr) == (0, "")
+    changed(output, lower=lambda lower: 1.001 * lower)
+    assert run("check", file, output).exit_code == 1
+
+
+def between_walls(stone, joint):
+    """A cube of 1 m between two walls; above a floor, or above nothing."""
+    return {
+        "schema_version": 1,
+        "blocks": [
+            {"name": "left", "box": {"size": [1.0, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}},
+            {"name": "right", "box": {"size": [1.0, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}},
+            {"name": "floor", "box": {"size": [3.0, 1.0, 1.0], "at": [0.0, 0.0, -0.5]}},
+            {"name": "stone", "box": {"size": [1.0, 1.0, 1.0], "at": [0.0, 0.0, stone]}, "unit_weight": 20e3},
+        ],
+        "supports": ["left", "right", "floor"],
+        "joints": {"dry": {"type": "OrdunaLourenco", "friction": joint}},
+        "interfaces": {"find": {"joint": "dry"}},
+        "live": [{"type": "MassProportional", "direction": [0, 1, 0]}],
+    }
+
+
+@pytest.mark.parametrize(
+    ("document", "code", "kind"),
+    [
+        (between_walls(0.5, 0.6), 0, "stands"),
+        (between_walls(1.0, 0.6), 1, "self-stress"),
+        (between_walls(1.0, 0.0), 1, "falls"),
+    ],
+)
+def test_stability_is_code_0_only_for_what_stands_by_itself(document, code, kind, tmp_path):
+    file, output = tmp_path / "model.json", tmp_path / "stability.json"
+    file.write_text(json.dumps(document))
+    done = run("stability", file, "-o", output)
+    assert (done.exit_code, done.stderr) == (code, "")
+    assert kind in done.stdout
+    assert ("stone" in done.stdout) is bool(code)
+    found = json.loads(run("stability", file, "--json").stdout)
+    assert (found["kind"], found["stands"]) == (kind, code == 0)
+    assert found == json.loads(output.read_text())
+    refused = run("check", file, output)
+    assert refused.exit_code == 2
+    assert "no load factor" in refused.stderr
 
 
 def test_stopping_early_is_code_3_and_the_best_state_is_kept(solver, file, tmp_path):

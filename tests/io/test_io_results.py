@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 import limitblocks as lb
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.io import strict_json
+from limitblocks.problem import Turning
 
 PAGE = Path(__file__).parents[2] / "docs" / "result-file.md"
 
@@ -27,7 +28,7 @@ def portal(joint, name="lintel"):
     return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
 
 
-def associated(model, dilatancy):
+def associated(model, dilatancy, turning=Turning.CENTROID):
     """The associated solution as what it is too: a solution at dilatancy = friction."""
     bounds = lb.bounds(model)
     state = {key: getattr(bounds, key) for key in STATE}
@@ -40,6 +41,8 @@ def associated(model, dilatancy):
         status=Status.CONVERGED,
         history=history,
         dilatancy=dilatancy,
+        turning=turning,
+        remarks=(),
         tolerance=1e-6,
         digest=model.digest,
         **state,
@@ -53,7 +56,13 @@ def load_path(result):
     return LoadPath((first, last), result)
 
 
-STATE = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+STATE = (
+    "stress_resultants",
+    "generalised_stresses",
+    "displacement_rates",
+    "flow_multipliers",
+    "dead_load_stresses",
+)
 MODELS = {"rows": portal(lb.OrdunaLourenco(0.2)), "points": portal(lb.PointContact(0.2))}
 RESULTS = {key: associated(model, 0.2) for key, model in MODELS.items()}
 MODEL, RESULT = MODELS["points"], RESULTS["points"]
@@ -78,6 +87,28 @@ def test_what_is_written_is_read_bit_for_bit(key, wrapped, tmp_path):
             assert array.tobytes() == getattr(result, name).tobytes()
             assert not array.flags.writeable
         assert lb.check_mcp(model, claim).passed
+
+
+@pytest.mark.parametrize("key", MODELS)
+def test_bounds_are_read_and_checked_with_associated_flow(key, tmp_path):
+    """The stresses of the lower bound and the mechanism of the upper one solve Eqs (54)-(59) with G = F."""
+    model = MODELS[key]
+    bounds = lb.bounds(model)
+    claim = lb.read_result(lb.write_result(bounds, tmp_path / "bounds.json"), model)
+    assert (claim.load_factor, claim.dilatancy, claim.digest) == (bounds.lower, np.inf, model.digest)
+    assert all(np.array_equal(getattr(claim, name), getattr(bounds, name)) for name in STATE)
+    check = lb.check_mcp(model, claim, tolerance=1e-6)
+    assert check.passed
+    assert not check.mechanism_found
+    assert not lb.check_mcp(model, replace(claim, dilatancy=0.0), tolerance=1e-6).passed  # V = mu N slides
+
+
+def test_turning_is_written_and_read(tmp_path):
+    result = associated(MODEL, 0.2, Turning.PRESSURE)
+    file = lb.write_result(result, tmp_path / "result.json")
+    assert json.loads(file.read_text(encoding="utf-8"))["turning"] == "centre of pressure"
+    assert lb.read_result(file).turning is Turning.PRESSURE
+    assert lb.read_result(written(file, MINIMAL)).turning is Turning.CENTROID
 
 
 def test_file_is_strict_json_and_says_where_it_comes_from(tmp_path):
@@ -163,7 +194,12 @@ FAULTS = {
     "future": (MINIMAL | {"schema_version": 2}, ["schema_version: expected 1, not 2"]),
     "kind": (MINIMAL | {"analysis": "modal"}, ["analysis: expected 'nonassociated'", "'modal'"]),
     "kind of kind": (MINIMAL | {"analysis": [1]}, ["analysis: expected 'nonassociated'"]),
-    "bounds": (lb.bounds(MODEL).to_dict(), ["holds bounds", "expected the result of nonassociated or path"]),
+    "stability": (
+        lb.stability(MODEL).to_dict(),
+        ["no load factor", "result of bounds, nonassociated or path"],
+    ),
+    "bounds without a lower one": ({"analysis": "bounds", "upper": 1.0}, ["lower: is missing"]),
+    "turning": (MINIMAL | {"turning": "table 5"}, ["turning: expected 'centroid' or 'centre of pressure'"]),
     "check": (lb.check_mcp(MODEL, RESULT).to_dict(), ["holds a check"]),
     "path without collapse": ({"analysis": "path", "steps": []}, ["collapse: is missing"]),
     "fault within a path": (

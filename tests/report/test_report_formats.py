@@ -10,7 +10,7 @@ from limitblocks.cli import app
 from limitblocks.report import pdf
 from limitblocks.report.content import Bullets, Heading, Headline
 from limitblocks.report.markdown import escaped, markdown
-from limitblocks.report.sections import Table
+from limitblocks.report.section import Table
 
 JOINT = lb.OrdunaLourenco(0.6)
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from limitblocks.analysis.bounds import resultants_of
+from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated.closing import evidence
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.loop import finished

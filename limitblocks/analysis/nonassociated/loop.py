@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from limitblocks.analysis.bounds import in_model_order, resultants_of
+from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
 from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.start import (

@@ -1,0 +1,59 @@
+"""Mechanisms that prove that loads fall: they do more work on them than the joints take up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.analysis.programs import falling_program, solved, solvers
+from limitblocks.arrays import Array
+from limitblocks.problem import Flow, State
+
+MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
+FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
+CERTIFIED = 1e-7  # largest residual of a mechanism that proves that a structure falls
+
+
+@dataclass(frozen=True, eq=False)
+class Fall:
+    """A mechanism on which the loads do more work than the joints take up, in the units of its problem."""
+
+    flow: Flow
+    loads: Array
+    state: State
+
+    @property
+    def blocks(self) -> tuple[str, ...]:
+        """Blocks whose power is more than MOVING of the largest."""
+        speed = np.abs(self.state.u).reshape(-1, 6).max(axis=1)
+        return tuple(np.array(self.flow.problem.blocks)[speed > MOVING * speed.max()].tolist())
+
+    @property
+    def rates(self) -> Array:
+        """Displacement rates, m and rad, (6 n,); the largest 1 m, rotations by half the size of the block."""
+        units = self.flow.problem.units
+        u = self.state.u / units.loads
+        arms = np.stack([np.ones_like(units.block_length)] * 3 + [units.block_length] * 3, axis=1)
+        return np.asarray(u / np.abs(u.reshape(-1, 6) * arms).max())
+
+
+def falling(flow: Flow, loads: Array) -> Fall | None:
+    """Return a mechanism of a flow rule that proves that the loads fall, sought in two sets of units.
+
+    Those of the problem, and with every block measured by its own load.
+    """
+    problem = flow.problem
+    own = np.abs(loads).reshape(-1, 6).max(axis=1)
+    light = problem.measured(np.where(own > 0.0, own, own.max()) * problem.units.block_force)
+    share = light.units.loads / problem.units.loads
+    for measured, acting in ((problem, loads), (light, loads / share)):
+        known = replace(flow, problem=measured)
+        G = known.matrix(np.zeros(measured.C.shape[0]))
+        for solver in solvers(bool(problem.cones.second_order)):
+            u, y = solved(falling_program(replace(measured, F=G), acting), solver).values
+            strains = np.abs(measured.C @ u + G.T @ y).max()
+            surplus = acting @ u - measured.g @ y
+            if strains < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
+                return Fall(known, acting, State(0.0, np.zeros(measured.C.shape[0]), u, y))
+    return None

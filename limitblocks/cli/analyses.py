@@ -1,0 +1,47 @@
+"""The analyses, imported when they are asked for, and their progress on a terminal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from limitblocks.evidence.associated import Bounds
+    from limitblocks.evidence.results import LoadPath, Nonassociated
+    from limitblocks.evidence.stability_result import Stability
+    from limitblocks.model import Model
+
+
+def stability(model: Model) -> Stability:
+    """Does it stand under its dead loads."""
+    from limitblocks.analysis.stability import stability as solve
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress():
+        return solve(model)
+
+
+def bounds(model: Model, **settings: float) -> Bounds:
+    """Associated bounds."""
+    from limitblocks.analysis.bounds import bounds as solve
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress():
+        return solve(model, **settings)
+
+
+def nonassociated(model: Model, **settings: Any) -> Nonassociated:
+    """Solution without dilatancy, or with little."""
+    from limitblocks.analysis.nonassociated.loop import nonassociated as solve
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress() as show:
+        return solve(model, **settings, progress=show)
+
+
+def path(model: Model, **settings: Any) -> LoadPath:
+    """States from the permanent loads to collapse."""
+    from limitblocks.analysis.nonassociated.load_path import load_path as solve
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress() as show:
+        return solve(model, **settings, progress=show)

@@ -1,0 +1,190 @@
+"""Does it stand under its dead loads: blocks of which one can say so by hand."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.structures.convex import hull
+
+GAMMA = 20e3
+JOINTS = [lb.OrdunaLourenco, lb.PointContact]
+
+
+def model(blocks, supports, joint, live=(1, 0, 0)):
+    interfaces = lb.find_interfaces(blocks, joint)
+    return lb.Model(blocks, supports, interfaces, lb.self_weight(), lb.mass_proportional(live))
+
+
+def prism(name, section, unit_weight=None, move=lambda corners: corners):
+    """A body of depth 1 along y above a polygon in x and z."""
+    return hull(name, move(np.array([(x, y, z) for y in (-0.5, 0.5) for x, z in section])), unit_weight)
+
+
+def on_a_slope(joint, tangent, unit_weight=GAMMA, move=lambda corners: corners):
+    along, normal = np.array([(1, tangent), (-tangent, 1)]) / np.hypot(1, tangent)
+
+    def rectangle(length, low, high):
+        corners = (-length, low), (length, low), (length, high), (-length, high)
+        return [x * along + z * normal for x, z in corners]
+
+    stone = prism("stone", rectangle(1, 0.0, 0.3), unit_weight, move)
+    return model([prism("plane", rectangle(3, -1.0, 0.0), None, move), stone], ["plane"], joint)
+
+
+def between_walls(joint, degrees, unit_weight=GAMMA, move=lambda corners: corners):
+    """A wedge of this half angle between walls; narrowing downwards, or upwards where it is negative."""
+    low, high, out = 2.0, 2.0 + np.tan(np.radians(degrees)), 5.0
+    blocks = [
+        prism("left", [(-out, 0), (-low, 0), (-high, 1), (-out, 1)], None, move),
+        prism("right", [(out, 0), (low, 0), (high, 1), (out, 1)], None, move),
+        prism("stone", [(-low, 0), (low, 0), (high, 1), (-high, 1)], unit_weight, move),
+    ]
+    return model(blocks, ["left", "right"], joint)
+
+
+def test_block_on_a_slope_stands_where_friction_exceeds_the_slope():
+    """V <= mu N with V = W sin a and N = W cos a: the margin in weights is mu cos a - sin a."""
+    mu = 0.5
+    for tangent in (0.4, 0.49, 0.499, 0.501, 0.51, 0.7):
+        found = lb.stability(on_a_slope(lb.OrdunaLourenco(mu), tangent))
+        assert found.stands is (tangent < mu)
+        assert found.kind is (lb.Standing.STANDS if tangent < mu else lb.Standing.FALLS)
+        assert found.margin == pytest.approx((mu - tangent) / np.hypot(1, tangent), rel=1e-6)
+        assert found.blocks == (() if tangent < mu else ("stone",))
+        assert found.residuals.worst.value <= 1e-8
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_block_between_vertical_walls_stands_only_where_it_is_wedged(joint):
+    """2 V = W, V <= mu N holds for a large N, which nothing brings about: the walls are parallel."""
+    for mu in (0.0, 0.05, 0.5, 3.0):
+        found = lb.stability(between_walls(joint(mu), 0.0))
+        assert found.kind is (lb.Standing.SELF_STRESS if mu else lb.Standing.FALLS)
+        assert not found.stands
+        assert found.blocks == ("stone",)
+        down = found.displacement_rates[2]
+        assert down == pytest.approx([0, 0, -1, 0, 0, 0], abs=1e-6)  # the largest rate is 1 m
+        assert (found.displacement_rates[:2] == 0.0).all()
+        if mu:
+            assert (2 * mu * -found.stress_resultants[:, 2] >= GAMMA * 4.0).all()  # N of what wedges it
+            assert found.arising is None
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+@pytest.mark.parametrize("mu", [0.0, 0.1, 0.6, 2.0])
+@pytest.mark.parametrize("degrees", [5, 20, 50])
+def test_wedge_that_narrows_downwards_stands_for_any_friction(joint, mu, degrees):
+    """Both walls turn its weight into N >= W / 2 / (sin w + mu cos w), the shear being at most mu N."""
+    structure = between_walls(joint(mu), degrees)
+    found = lb.stability(structure)
+    assert found.stands
+    w, weight = np.radians(degrees), GAMMA * (4.0 + np.tan(np.radians(degrees)))
+    N = -found.arising[:, 2]
+    V = np.hypot(*found.arising[:, :2].T)
+    assert (mu * N - V >= -1e-6 * weight).all()
+    assert N * np.sin(w) + V * np.cos(w) == pytest.approx([weight / 2] * 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+@pytest.mark.parametrize("mu", [0.1, 0.6, 1.5])
+@pytest.mark.parametrize("degrees", [5, 20, 50])
+def test_wedge_that_narrows_upwards_never_stands_by_itself(joint, mu, degrees):
+    """2 (V cos w - N sin w) = W and V <= mu N: stresses exist where tan w < mu, and do not arise."""
+    found = lb.stability(between_walls(joint(mu), -degrees))
+    wedged = np.tan(np.radians(degrees)) < mu
+    assert found.kind is (lb.Standing.SELF_STRESS if wedged else lb.Standing.FALLS)
+    assert (found.margin > 0.0) is bool(wedged)
+    assert found.blocks == ("stone",)
+    assert found.residuals.worst.value <= 1e-8
+
+
+def test_arches_stand_down_to_their_least_thickness():
+    """Thickness over radius 0.1075 for radial joints (Milankovitch 1907); 27 voussoirs need little less."""
+    for thickness, stands in ((1.5, True), (1.1, True), (1.05, False)):
+        arch = lb.structures.arch(lb.PointContact(0.7), radius=10.0, thickness=thickness, voussoirs=27)
+        found = lb.stability(arch)
+        assert found.stands is stands
+        assert (found.margin > 0.0) is stands
+        assert bool(found.blocks) is not stands
+
+
+def stack(offsets, light=1.0, joint=None):
+    """Boxes of 1 m on one another, each moved by its offset; the last is `light` times as heavy."""
+    weights = [GAMMA] * (len(offsets) - 1) + [GAMMA * light]
+    blocks = [lb.Block.box("ground", (20, 20, 1), (0, 0, -0.5))]
+    blocks += [
+        lb.Block.box(f"box {k + 1}", (1, 1, 1), (x, 0, k + 0.5), weight)
+        for k, (x, weight) in enumerate(zip(offsets, weights, strict=True))
+    ]
+    return model(blocks, ["ground"], joint or lb.OrdunaLourenco(0.6))
+
+
+@pytest.mark.parametrize("light", [1.0, 1e-3, 1e-6])
+def test_overhang_falls_beyond_half_a_length_and_is_named(light):
+    for offset, stands in ((0.49, True), (0.51, False)):
+        found = lb.stability(stack([0.0, 0.0, offset], light))
+        assert found.stands is stands
+        assert found.blocks == (() if stands else ("box 3",))
+
+
+def test_what_hangs_from_nothing_falls():
+    """Joints carry no tension: the face above holds nothing."""
+    ceiling = lb.Block.box("ceiling", (4, 4, 1), (0, 0, 1.5))
+    blocks = [ceiling, lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), GAMMA)]
+    found = lb.stability(model(blocks, ["ceiling"], lb.OrdunaLourenco(0.6)))
+    assert (found.kind, found.blocks) == (lb.Standing.FALLS, ("stone",))
+    assert (found.stress_resultants, found.arising) == (None, None)
+
+
+def test_cohesion_holds_the_block_between_walls():
+    """c A on each of two walls of 1 m2 against the weight: no homogeneity, so the loads themselves act."""
+    weight = GAMMA * 4.0
+    for share, stands in ((1.2, True), (0.8, False)):
+        joint = lb.OrdunaLourenco(0.5, cohesion=share * weight / 2)
+        assert lb.stability(between_walls(joint, 0.0)).stands is stands
+
+
+@pytest.mark.parametrize("light", [1.0, 1e-3, 1e-6])
+def test_light_stone_that_only_wedging_holds_is_named_beside_heavy_ones(light):
+    blocks = [
+        lb.Block.box("ground", (20, 20, 1), (0, 0, -0.5)),
+        lb.Block.box("heavy", (2, 2, 2), (0, 0, 1), GAMMA),
+        lb.Block.box("wall 1", (1, 2, 3), (4.5, 0, 1.5)),
+        lb.Block.box("wall 2", (1, 2, 3), (6.0, 0, 1.5)),
+        lb.Block.box("light", (0.5, 0.5, 0.5), (5.25, 0, 1.0), GAMMA * light),
+    ]
+    found = lb.stability(model(blocks, ["ground", "wall 1", "wall 2"], lb.OrdunaLourenco(0.6)))
+    assert (found.kind, found.blocks) == (lb.Standing.SELF_STRESS, ("light",))
+
+
+def turned(corners):
+    """Turned about the vertical axis by 1 rad and moved."""
+    turn = np.array([(np.cos(1), -np.sin(1), 0), (np.sin(1), np.cos(1), 0), (0, 0, 1)])
+    return corners @ turn.T + (30.0, -20.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda **changes: on_a_slope(lb.OrdunaLourenco(0.5), 0.4, **changes),
+        lambda **changes: on_a_slope(lb.PointContact(0.5), 0.6, **changes),
+        lambda **changes: between_walls(lb.OrdunaLourenco(0.5), 20.0, **changes),
+        lambda **changes: between_walls(lb.OrdunaLourenco(0.5), -20.0, **changes),
+    ],
+)
+def test_answer_is_the_same_in_other_units_of_force_and_elsewhere(make):
+    found = lb.stability(make())
+    for other in (lb.stability(make(unit_weight=1e9 * GAMMA)), lb.stability(make(move=turned))):
+        assert (other.kind, other.blocks) == (found.kind, found.blocks)
+        assert other.margin == pytest.approx(found.margin, rel=1e-6)
+
+
+def test_result_is_one_line_and_plain_data():
+    found = lb.stability(between_walls(lb.OrdunaLourenco(0.5), 0.0))
+    assert "\n" not in str(found)
+    assert all(part in str(found) for part in ("only by self-stress", "stone would move", "margin"))
+    written = found.to_dict()
+    assert (written["analysis"], written["kind"], written["stands"]) == ("stability", "self-stress", False)
+    assert written["arising"] is None
+    assert written["blocks"] == ["stone"]
+    assert np.array(written["displacement_rates"]).shape == (3, 6)
