@@ -54,7 +54,6 @@ class ResultDocument(Document):
     tolerance: Any = None
     how: Any = None
     history: Any = None
-    remarks: Any = None
     versions: Any = None
 
 
