@@ -214,3 +214,9 @@ def test_the_state_of_a_claim_is_what_it_was_made_of():
     si = model.problem.in_si(state)
     np.testing.assert_allclose(si.x, claim.generalised_stresses, rtol=1e-15)
     assert si.load_factor == pytest.approx(claim.load_factor, rel=1e-15)
+
+
+def test_bounds_without_any_dead_load():
+    """What acts on nothing is measured by its own unit: rounding of it is no imbalance."""
+    model, claim = true("glued")
+    assert lb.bounds(model).lower == pytest.approx(claim.load_factor, rel=1e-9)
