@@ -10,6 +10,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.geometry import painter
+from limitblocks.problem import Turning
 from limitblocks.report import picture
 from limitblocks.report.facts import facts
 
@@ -44,6 +45,7 @@ def grid(across, up, slide):
 
 def nonassociated(bounds):
     names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+    names += ("dead_load_stresses",)
     state = {name: getattr(bounds, name) for name in (*names, "residuals", "digest")}
     return lb.Nonassociated(
         load_factor=0.2,
@@ -52,6 +54,8 @@ def nonassociated(bounds):
         status=lb.Status.CONVERGED,
         history=(),
         dilatancy=0.0,
+        turning=Turning.CENTROID,
+        remarks=(),
         tolerance=1e-6,
         **state,
     )
