@@ -52,6 +52,7 @@ def nonassociated(bounds):
         frictionless=0.1,
         associated=0.3,
         status=lb.Status.CONVERGED,
+        how="tracked path",
         history=(),
         dilatancy=0.0,
         turning=Turning.CENTROID,

@@ -32,6 +32,7 @@ RESULT = Nonassociated(
     frictionless=0.125,
     associated=0.25,
     status=Status.CONVERGED,
+    how="tracked path",
     history=(Iteration(0.25, "step", 1.0, {"flow": 1e-9}, 1, 0),),
     dilatancy=0.0,
     turning=Turning.CENTROID,
