@@ -97,7 +97,7 @@ class Measure:
 
     @cached_property
     def loaded(self) -> Array:
-        """What acts on each block, at most all loads of the blocks it is tied to; its unit without any, (n,)."""
+        """What acts on each block, at most all loads of its group; one where there are none, shape (n,)."""
         p = self.problem
         loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
         own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
