@@ -112,6 +112,17 @@ class Measure:
         return np.asarray(least / p.units.interface_force)
 
     @cached_property
+    def pressed(self) -> Array:
+        """The most that acts on a block tied to those of each interface, in its unit of force, (m,).
+
+        A light stone between heavy ones stops them: moving into it is no small error of the mechanism.
+        """
+        p, force = self.problem, self.loaded * self.problem.units.block_force
+        most = np.zeros(p.tied.max() + 1)
+        np.maximum.at(most, p.tied, force)
+        return np.asarray(most[p.tied[p.ends.max(axis=1)]] / p.units.interface_force)
+
+    @cached_property
     def everything(self) -> float:
         """Power of all forces on the mechanism."""
         rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
@@ -161,8 +172,8 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
     )
 
 
-def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
-    """Residuals of the mechanism, Eqs (54), (55) and (58), measured by the power of the state's forces."""
+def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residual, ...]:
+    """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
     p, measure = flow.problem, Measure(flow.problem, state)
     strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
     k = p.member_interface
@@ -170,7 +181,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
     return (
         residual(
             "flow",
-            largest_of(p, strain_rates) * measure.interface,
+            largest_of(p, strain_rates) * force,
             f"compatibility and flow rule, Eq. (54), {POWER}",
             measure.power,
             p.interfaces,
@@ -178,7 +189,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
         residual("normalisation", p.live @ state.u - 1.0, "work of the live load less one, Eq. (55)"),
         residual(
             "multipliers",
-            negative * measure.interface[k],
+            negative * force[k],
             f"negative flow multiplier, Eq. (58), {POWER}",
             measure.power,
             [p.interfaces[i] for i in k],
@@ -199,7 +210,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.pressed),
             residual(
                 "complementarity",
                 product,
@@ -225,7 +236,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.interface),
             residual(
                 "power",
                 power - upper,
