@@ -54,6 +54,17 @@ class Measure:
         return np.asarray(least / p.units.interface_force)
 
     @cached_property
+    def pressed(self) -> Array:
+        """The most that acts on a block tied to those of each interface, in its unit of force, (m,).
+
+        A light stone between heavy ones stops them: moving into it is no small error of the mechanism.
+        """
+        p, force = self.problem, self.loaded * self.problem.units.block_force
+        most = np.zeros(p.parts.max() + 1)
+        np.maximum.at(most, p.parts, force)
+        return np.asarray(most[p.parts[p.ends.max(axis=1)]] / p.units.interface_force)
+
+    @cached_property
     def everything(self) -> float:
         """Power of all forces on the mechanism."""
         rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)

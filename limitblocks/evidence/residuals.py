@@ -106,8 +106,8 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
     )
 
 
-def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
-    """Residuals of the mechanism, Eqs (54), (55) and (58), measured by the power of the state's forces."""
+def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residual, ...]:
+    """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
     p, measure = flow.problem, Measure(flow.problem, state)
     strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
     k = p.member_interface
@@ -115,7 +115,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
     return (
         residual(
             "flow",
-            largest_of(p, strain_rates) * measure.interface,
+            largest_of(p, strain_rates) * force,
             f"compatibility and flow rule, Eq. (54), {POWER}",
             measure.power,
             p.interfaces,
@@ -123,7 +123,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
         residual("normalisation", p.live @ state.u - 1.0, "work of the live load less one, Eq. (55)"),
         residual(
             "multipliers",
-            negative * measure.interface[k],
+            negative * force[k],
             f"negative flow multiplier, Eq. (58), {POWER}",
             measure.power,
             [p.interfaces[i] for i in k],
@@ -144,7 +144,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.pressed),
             residual(
                 "complementarity",
                 product,
@@ -170,7 +170,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.interface),
             residual(
                 "power",
                 power - upper,
