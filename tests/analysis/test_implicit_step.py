@@ -84,7 +84,7 @@ def test_an_associated_step_is_a_quadratic_program(problem, x0):
     balance = problem.C.T @ x == problem.dead + load_factor * problem.live
     inside = [row >= 0 for row in linear_rows(problem, x)]
     cp.Problem(cp.Minimize(energy - load_factor), [balance, *inside]).solve(solver=cp.CLARABEL)
-    assert z.load_factor == pytest.approx(float(load_factor.value), abs=1e-6)
+    assert z.load_factor == pytest.approx(float(load_factor.value), rel=1e-6)
     np.testing.assert_allclose(z.x, x.value, atol=1e-4)
 
 

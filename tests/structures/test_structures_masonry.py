@@ -139,7 +139,8 @@ def test_without_dilatancy_a_wall_leaves_its_loose_buttress_at_b_over_h():
         JOINT, length=2.0, courses=6, buttress_length=0.8, bonded=False, direction=(0.0, -1.0, 0.0)
     )
     assert load_factor(model) > 1.05 * 0.4 / 2.4  # associated flow opens the joint that slides
-    assert lb.nonassociated(model).load_factor == pytest.approx(0.4 / 2.4, rel=1e-4)
+    # the joint may press the least bit: b / h is the lower end of an interval of solutions
+    assert 0.4 / 2.4 * (1 - 1e-8) <= lb.nonassociated(model).load_factor <= 0.4 / 2.4 * 1.005
 
 
 @pytest.mark.parametrize("overlap", [0.0, 0.04])

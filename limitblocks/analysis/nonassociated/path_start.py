@@ -25,7 +25,7 @@ EXACT = 1e-9  # of the linear equations and the flow at the start
 ITERATIONS = 60
 
 
-def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int, power: float) -> Path:
+def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int, power: float = 1.0) -> Path:
     """Return the path from stresses x0; rho0 makes it start with a load factor of `power` on elastic joints.
 
     Parameters
