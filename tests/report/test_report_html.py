@@ -44,15 +44,17 @@ def grid(across, up, slide):
 
 def nonassociated(bounds):
     names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
-    state = {name: getattr(bounds, name) for name in (*names, "residuals", "digest")}
+    state = {name: getattr(bounds, name) for name in (*names, "dead_load_stresses", "residuals", "turning", "digest")}
     return lb.Nonassociated(
         load_factor=0.2,
         frictionless=0.1,
         associated=0.3,
         status=lb.Status.CONVERGED,
+        how="tracked path, small barrier",
         history=(),
         dilatancy=0.0,
-        tolerance=1e-6,
+        remarks=(),
+        tolerance=1e-8,
         **state,
     )
 

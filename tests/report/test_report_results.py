@@ -25,14 +25,17 @@ def portal(name="lintel"):
 MODEL = portal()
 BOUNDS = lb.bounds(MODEL)
 STATE = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers", "residuals")
+STATE += ("dead_load_stresses", "turning")
 RESULT = Nonassociated(
     load_factor=0.2412345678,
     frictionless=0.125,
     associated=0.25,
     status=Status.CONVERGED,
+    how="tracked path, small barrier",
     history=(Iteration(0.25, "step", 1.0, {"flow": 1e-9}, 1, 0),),
     dilatancy=0.0,
-    tolerance=1e-6,
+    remarks=(),
+    tolerance=1e-8,
     digest=MODEL.digest,
     **{name: getattr(BOUNDS, name) for name in STATE},
 )
