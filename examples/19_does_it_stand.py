@@ -16,8 +16,8 @@ pressed into them. Symmetry leaves the stone one way to move, down by d, and joi
 lifting close by d sin w. In the H and the A nothing closes, so N = 0 and the stone falls through, unless
 somebody wedges it: it stands only by self-stress.
 
-A stone on a slope of angle a is pressed on by its own weight and stands where tan a < mu, with the margin
-mu cos a - sin a in weights.
+A flat stone on a slope of angle a is pressed on by its own weight and stands where tan a < mu; near that,
+with the margin mu cos a - sin a in weights.
 
 Source: Kao et al. (2022), Coupled rigid-block analysis, Computer-Aided Design 146; Drucker (1954) on
 friction and the limit theorems.
@@ -31,7 +31,7 @@ import limitblocks as lb
 
 FRICTION = 0.6
 DEGREES = (-40, -20, 0, 20, 40)
-SLOPES = (0.3, 0.5, 0.7)
+SLOPES = (0.5, 0.55, 0.7)
 UNIT_WEIGHT = 20e3
 COLOURS = {"STANDS": "tab:green", "SELF_STRESS": "tab:orange", "FALLS": "tab:red"}
 
@@ -104,7 +104,7 @@ def lift(model, answer):
 def picture(folder, wedges, found):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(wedges), figsize=(15, 2.6), layout="constrained", sharey=True)
+    figure, axes = plt.subplots(1, len(wedges), figsize=(15, 3.5), layout="constrained", sharey=True)
     for axis, (w, model) in zip(axes, wedges.items(), strict=True):
         for block in model.blocks:
             section = block.vertices[:4, [0, 2]]

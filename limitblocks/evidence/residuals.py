@@ -97,13 +97,12 @@ class Measure:
 
     @cached_property
     def loaded(self) -> Array:
-        """What acts on each block, at most all loads of the blocks that it is tied to, (n,)."""
+        """What acts on each block, at most the loads of all it is tied to; its unit without any, (n,)."""
         p = self.problem
         loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
         own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
-        together = np.bincount(p.parts, weights=own)
-        together = np.where(together > 0.0, together, together.max())[p.parts]
-        return np.minimum(self.block, together / p.units.block_force)
+        together = np.bincount(p.parts, weights=own)[p.parts] / p.units.block_force
+        return np.where(together == 0.0, 1.0, np.minimum(self.block, together))
 
     @cached_property
     def interface(self) -> Array:

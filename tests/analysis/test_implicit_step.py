@@ -9,7 +9,7 @@ import limitblocks as lb
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
 from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
-from limitblocks.problem.flow import plastic_potential
+from limitblocks.problem import Flow
 
 MU = 0.6
 JOINTS = [lb.OrdunaLourenco(MU), lb.OrdunaLourenco(MU, compressive_strength=1e6), lb.PointContact(MU)]
@@ -28,7 +28,7 @@ def x0(problem):
 
 def loading_of(problem, x0, damping=0.0, dilatancy=0.0):
     blocks, y0 = InterfaceBlocks(problem), np.full(len(problem.g), 0.0)
-    return Loading(problem, blocks, problem.compliance, x0, y0, RHO, damping, dilatancy)
+    return Loading(Flow(problem, dilatancy), blocks, problem.compliance, x0, y0, RHO, damping)
 
 
 def test_the_permanent_state_carries_the_dead_load_with_the_least_norm(problem, x0):
@@ -50,9 +50,9 @@ def test_the_permanent_state_carries_the_dead_load_with_the_least_norm(problem, 
 def linear_rows(problem, x):
     """Yield rows as expressions that must not be negative."""
     rows, found = problem.F @ x + problem.g, [(problem.F @ x + problem.g)[: problem.cones.linear]]
-    for first, count, size in problem.cones.blocks:
-        for k in range(count):
-            cone = rows[first + k * size : first + (k + 1) * size]
+    for group in problem.cones.groups:
+        for places in group:
+            cone = rows[places]
             found.append(cone[0] - cp.norm(cone[1:]))
     return found
 
@@ -63,7 +63,7 @@ def test_a_step_satisfies_its_equations(problem, x0, damping, dilatancy):
     result = implicit_step(loading_of(problem, x0, damping, dilatancy), 100)
     assert result.accepted
     z = result.point
-    G = plastic_potential(problem, z.x, dilatancy)
+    G = Flow(problem, dilatancy).matrix(z.x)
     elastic = RHO * problem.compliance * (z.x - x0)
     assert np.abs(elastic - problem.C @ z.u - G.T @ z.y).max() <= 1e-7
     assert np.abs(problem.dead + z.load_factor * problem.live - problem.C.T @ z.x).max() <= 1e-7

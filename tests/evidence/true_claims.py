@@ -151,6 +151,15 @@ def associated(joint):
     return model, claim_of(model, lb.bounds(model, tolerance=1e-8))
 
 
+def glued():
+    """Without any dead load, cohesion c holds a block of height h up to c / (unit weight h)."""
+    joint = lb.OrdunaLourenco(MU, cohesion=1e4, tensile_strength=1e4)
+    model = lb.structures.block(joint, width=B, height=H, depth=DEPTH, unit_weight=UNIT_WEIGHT)
+    model = replace(model, dead=lb.Load())
+    u = moving(model, block_1=np.array([1.0, 0, 0, 0, 0, 0]))
+    return model, determinate(model, 1e4 / (UNIT_WEIGHT * H), u)
+
+
 def keyed():
     """A block between two frictionless walls and on a floor of friction MU, pushed along the walls."""
     block = lb.Block.box("key", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), UNIT_WEIGHT)
@@ -227,6 +236,7 @@ TRUE = {
     "round tower": lambda: tower(lb.OrdunaLourenco(MU)),
     "pushed": pushed,
     "slippery": slippery,
+    "glued": glued,
     "keyed": keyed,
     "drifting": drifting,
     "wall": lambda: wall(lb.OrdunaLourenco(0.6)),

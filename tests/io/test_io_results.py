@@ -39,6 +39,7 @@ def associated(model, dilatancy, turning=Turning.CENTROID):
         associated=np.inf,
         residuals=bounds.residuals,
         status=Status.CONVERGED,
+        how="tracked path",
         history=history,
         dilatancy=dilatancy,
         turning=turning,

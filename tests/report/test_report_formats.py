@@ -23,7 +23,8 @@ def model():
 @pytest.fixture(scope="module")
 def report(model):
     path = lb.load_path(model)
-    return lb.report(model, lb.bounds(model), path.collapse, path, lb.check_mcp(model, path.collapse))
+    check = lb.check_mcp(model, path.collapse)
+    return lb.report(model, lb.bounds(model), path.collapse, path, check, lb.stability(model))
 
 
 def test_schema_describes_the_json_of_every_result(report):
@@ -32,8 +33,9 @@ def test_schema_describes_the_json_of_every_result(report):
     content = json.loads(report.json, parse_constant=pytest.fail)
     jsonschema.validate(content, schema)
     assert content["schema_version"] == 1
-    assert [one["analysis"] for one in content["results"]] == ["bounds", "nonassociated", "path", "check"]
-    assert [len(one) for one in content["interfaces"]] == [10, 10, 10, 0]
+    kinds = ["bounds", "nonassociated", "path", "check", "stability"]
+    assert [one["analysis"] for one in content["results"]] == kinds
+    assert [len(one) for one in content["interfaces"]] == [10, 10, 10, 0, 0]
     for broken in ({"schema_version": 2}, {"results": [{}]}, {"extra": 1}, {"format": "another"}):
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(content | broken, schema)

@@ -10,6 +10,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.geometry import painter
+from limitblocks.problem import Turning
 from limitblocks.report import picture
 from limitblocks.report.facts import facts
 
@@ -44,15 +45,17 @@ def grid(across, up, slide):
 
 def nonassociated(bounds):
     names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
-    state = {name: getattr(bounds, name) for name in (*names, "dead_load_stresses", "residuals", "turning", "digest")}
+    names += ("dead_load_stresses",)
+    state = {name: getattr(bounds, name) for name in (*names, "residuals", "digest")}
     return lb.Nonassociated(
         load_factor=0.2,
         frictionless=0.1,
         associated=0.3,
         status=lb.Status.CONVERGED,
-        how="tracked path, small barrier",
+        how="tracked path",
         history=(),
         dilatancy=0.0,
+        turning=Turning.CENTROID,
         remarks=(),
         tolerance=1e-8,
         **state,

@@ -7,6 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.problem import Turning
 from limitblocks.report import curve
 from limitblocks.report.comparison import comparison
 
@@ -25,15 +26,16 @@ def portal(name="lintel"):
 MODEL = portal()
 BOUNDS = lb.bounds(MODEL)
 STATE = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers", "residuals")
-STATE += ("dead_load_stresses", "turning")
+STATE += ("dead_load_stresses",)
 RESULT = Nonassociated(
     load_factor=0.2412345678,
     frictionless=0.125,
     associated=0.25,
     status=Status.CONVERGED,
-    how="tracked path, small barrier",
+    how="tracked path",
     history=(Iteration(0.25, "step", 1.0, {"flow": 1e-9}, 1, 0),),
     dilatancy=0.0,
+    turning=Turning.CENTROID,
     remarks=(),
     tolerance=1e-8,
     digest=MODEL.digest,
