@@ -128,7 +128,9 @@ def test_any_positive_number_is_a_tolerance(tolerance):
     assert lb.check_mcp(*true("sliding, circle"), tolerance=tolerance).tolerance == float(tolerance)
 
 
-@pytest.mark.parametrize("thing", [None, 1, "claim", {}, np.zeros(6), lb.bounds, lb.Claim], ids=lambda thing: type(thing).__name__)
+@pytest.mark.parametrize(
+    "thing", [None, 1, "claim", {}, np.zeros(6), lb.bounds, lb.Claim], ids=lambda thing: type(thing).__name__
+)
 def test_what_is_no_result_is_refused(thing):
     model, _ = true("sliding, circle")
     with pytest.raises(lb.ModelError, match="has no load_factor and no stress_resultants; expected a Claim"):
