@@ -237,7 +237,7 @@ def test_check_names_the_residual_of_every_mutilation(changes, residual, file, r
     done = run("check", file, result)
     assert done.exit_code == 1
     (line,) = done.stderr.splitlines()
-    assert line.startswith("error: above 1e-06:")
+    assert line.startswith("error: above 1e-08:")
     assert f"{residual} " in line
     found = run("check", file, result, "--json")
     assert found.exit_code == 1
