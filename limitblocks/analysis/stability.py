@@ -68,18 +68,24 @@ def stability(model: Model) -> Stability:
     entries = arising_residuals(flow, weights, own)
     if found.accepted and Residuals(entries).worst.value <= ARISEN:
         return _answer(model, Standing.STANDS, margin, x, own.x, entries)
+    fall = _slides_through(problem, weights, Residuals(entries).worst)
+    return _answer(model, Standing.SELF_STRESS, margin, x, fall=fall)
+
+
+def _slides_through(problem: LimitProblem, weights: Array, worst: Residual) -> Fall:
+    """Mechanism of the blocks that friction does not hold where nobody wedges them; SolverFailure if none."""
     moving = not_held(problem, weights)
     if moving is None or not moving.any():
         raise SolverFailure(
             "stresses that carry the dead loads exist, but whether they arise by themselves is undecided: "
-            + str(Residuals(entries).worst)
+            f"{worst}"
         )
     free = sparse.diags_array(np.repeat(1.0 * moving, 6))
     alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))
     fall = falling(Flow(alone), alone.dead)
     if fall is None:
         raise SolverFailure("blocks that nobody wedges move, but no mechanism of them was found")
-    return _answer(model, Standing.SELF_STRESS, margin, x, fall=fall)
+    return fall
 
 
 def _answer(

@@ -37,9 +37,8 @@ class Threshold:
     load_factor : float
         Of the live load that acts beside the dead loads.
     trials : tuple of (float, float)
-        Every value tried with its margin in mean block weights, see
-        :func:`limitblocks.analysis.stability.standing_margin`; down to -1e-6, the tolerance of all residuals,
-        it counts as standing.
+        Every value tried with its margin, see :func:`limitblocks.analysis.stability.standing_margin`; down to
+        -1e-8, the tolerance of all residuals, it counts as standing.
     """
 
     parameter: str

@@ -1,9 +1,16 @@
 """Does it stand under its dead loads: blocks of which one can say so by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis.falling import falling
+from limitblocks.analysis.unstressed import arising, joint_compliance
+from limitblocks.evidence.residuals import Residuals
+from limitblocks.evidence.stability_result import arising_residuals, mechanism_residuals
+from limitblocks.problem import ASSOCIATED, Flow, State
 from limitblocks.structures.convex import hull
 
 GAMMA = 20e3
@@ -108,6 +115,13 @@ def test_arches_stand_down_to_their_least_thickness():
         assert bool(found.blocks) is not stands
 
 
+@pytest.mark.parametrize("name", lb.structures.EXAMPLES)
+def test_structures_of_the_library_stand_by_themselves(name):
+    """But for the arch with vertical joints: its middle is a block between parallel walls."""
+    found = lb.stability(lb.structures.EXAMPLES[name](lb.OrdunaLourenco(0.7)))
+    assert found.stands is (name != "arch, vertical joints")
+
+
 def stack(offsets, light=1.0, joint=None):
     """Boxes of 1 m on one another, each moved by its offset; the last is `light` times as heavy."""
     weights = [GAMMA] * (len(offsets) - 1) + [GAMMA * light]
@@ -155,6 +169,37 @@ def test_light_stone_that_only_wedging_holds_is_named_beside_heavy_ones(light):
     ]
     found = lb.stability(model(blocks, ["ground", "wall 1", "wall 2"], lb.OrdunaLourenco(0.6)))
     assert (found.kind, found.blocks) == (lb.Standing.SELF_STRESS, ("light",))
+
+
+FALSE = {
+    "equilibrium": lambda z: replace(z, x=1.001 * z.x),
+    "yield": lambda z: replace(z, x=-z.x),
+    "flow": lambda z: replace(z, u=1.001 * z.u),
+    "multipliers": lambda z: replace(z, y=z.y - 1e-3),
+    "complementarity": lambda z: replace(z, y=z.y + 1e-3),
+}
+
+
+@pytest.mark.parametrize("name", FALSE)
+def test_false_states_that_do_not_arise_are_refused_by_the_residual_that_names_it(name):
+    problem = between_walls(lb.OrdunaLourenco(0.3), 20.0).problem
+    weights = joint_compliance(problem)
+    z = arising(problem, weights).point
+    state = State(0.0, z.x, z.u, z.y)
+    flow = Flow(problem)
+    assert Residuals(arising_residuals(flow, weights, state)).worst.value < 1e-8
+    assert Residuals(arising_residuals(flow, weights, FALSE[name](state)))[f"arising {name}"] > 1e-5
+
+
+@pytest.mark.parametrize("part", ["u", "y"])
+def test_false_mechanism_is_refused(part):
+    problem = on_a_slope(lb.OrdunaLourenco(0.5), 0.6).problem
+    fall = falling(Flow(problem, ASSOCIATED), problem.dead)
+    assert Residuals(mechanism_residuals(fall.flow, fall.loads, fall.state)).worst.value < 1e-8
+    false = replace(fall.state, **{part: 1.001 * getattr(fall.state, part)})
+    assert Residuals(mechanism_residuals(fall.flow, fall.loads, false))["mechanism flow"] > 1e-5
+    upwards = replace(fall.state, u=-fall.state.u, y=-fall.state.y)  # the loads do negative work
+    assert Residuals(mechanism_residuals(fall.flow, fall.loads, upwards)).worst.value == np.inf
 
 
 def turned(corners):
