@@ -80,7 +80,7 @@ class Nonassociated:
     how : str
         Which path led there, in words.
     history : tuple of Iteration
-        Points of the tracked path, or steps of the load path; then the end.
+        Points of the tracked path and its end, or steps of the load path.
     dead_load_stresses : Array, shape (s,)
         Generalised stresses, N and N m, that carry the dead loads alone.
     dilatancy : float
