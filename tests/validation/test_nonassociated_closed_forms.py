@@ -128,7 +128,7 @@ def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):
     """It would have to lift as it slides: no solution exists, and none is claimed."""
     model = jammed(joint_type(0.3))
     with pytest.raises(lb.NotConverged, match="no solution within") as caught:
-        lb.nonassociated(model, dilatancy=0.15, settings=lb.Settings(budget=40))
+        lb.nonassociated(model, dilatancy=0.15, means=[lb.Means(lb.Barrier(), seed=0, budget=40)])
     assert caught.value.result.residuals["flow"] > 1e-3
     assert caught.value.result.associated == np.inf
 
