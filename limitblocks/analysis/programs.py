@@ -10,7 +10,7 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import Measure
+from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Cones, LimitProblem, State
 
 log = logging.getLogger(__name__)

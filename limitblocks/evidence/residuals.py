@@ -1,29 +1,21 @@
 """Residuals of a claimed state, recomputed from the limit problem with numpy alone.
 
-Nothing is measured by a mean. What acts on a block is the sum of the sizes of its loads and of its
-interfaces' forces, as far as loads can be behind them: a block wedged between others may be under any
-self-stress, and an imbalance must not hide behind it. An interface is measured by what acts on the lesser of
-its blocks; a rate by the power that this force does on it, over the power of the live load: by what it is
-worth in the load factor. Nor may a drift that costs nothing make that power large.
+What they are measured by is in :mod:`limitblocks.evidence.measure`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
 
 TOLERANCE = 1e-8  # largest residual of an answer
-# Of the power of all forces on the mechanism: smaller load factors are known to it times the tolerance.
-SMALL_POWER = 1e-7
-FASTEST = 1e3  # rate of a block over that at which the live loads do their work: more counts as this
-ROUNDING = 1e-9  # of that power over the tolerance: load factors smaller than rounding errors
 
 POWER = "the power of the interface's own force on it over that of the live load"
 
@@ -81,53 +73,6 @@ def residual(
     return Residual(name, float(shares[k]), meaning, where[k] if len(where) else "")
 
 
-@dataclass(frozen=True, eq=False)
-class Measure:
-    """What a state is measured by; see the module."""
-
-    problem: LimitProblem
-    state: State
-
-    @cached_property
-    def block(self) -> Array:
-        """What acts on each block, in its unit of force, shape (n,)."""
-        p, z = self.problem, self.state
-        acting = abs(p.C).T @ np.abs(z.x) + np.abs(p.dead) + np.abs(z.load_factor * p.live)
-        return np.asarray(acting.reshape(-1, 6).max(axis=1))
-
-    @cached_property
-    def loaded(self) -> Array:
-        """What acts on each block, at most the loads of all it is tied to; its unit without any, (n,)."""
-        p = self.problem
-        loads = np.abs(p.dead) + np.abs(self.state.load_factor * p.live)
-        own = loads.reshape(-1, 6).sum(axis=1) * p.units.block_force
-        together = np.bincount(p.parts, weights=own)[p.parts] / p.units.block_force
-        return np.where(together == 0.0, 1.0, np.minimum(self.block, together))
-
-    @cached_property
-    def interface(self) -> Array:
-        """What acts on the lesser of the free blocks of each interface, in its unit of force, (m,)."""
-        p, force = self.problem, self.loaded * self.problem.units.block_force
-        least = np.where(p.ends >= 0, force[p.ends], np.inf).min(axis=1)
-        return np.asarray(least / p.units.interface_force)
-
-    @cached_property
-    def everything(self) -> float:
-        """Power of all forces on the mechanism."""
-        rates = np.abs(self.state.u.reshape(-1, 6)).max(axis=1)
-        return float(self.loaded @ np.minimum(rates, FASTEST))
-
-    @cached_property
-    def power(self) -> float:
-        """Power of the live load, or SMALL_POWER of that of all forces where it is less."""
-        return max(abs(self.state.load_factor), SMALL_POWER * self.everything)
-
-    @property
-    def load_factor(self) -> float:
-        """Size of the load factor, or rounding errors of the power of all forces where it is less."""
-        return max(abs(self.state.load_factor), ROUNDING * self.everything)
-
-
 def largest_of(problem: LimitProblem, values: Array) -> Array:
     """Largest size of values of generalised stresses (s,) at each interface, shape (m,)."""
     found = np.zeros(len(problem.interfaces))
@@ -161,8 +106,8 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
     )
 
 
-def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
-    """Residuals of the mechanism, Eqs (54), (55) and (58), measured by the power of the state's forces."""
+def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residual, ...]:
+    """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
     p, measure = flow.problem, Measure(flow.problem, state)
     strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
     k = p.member_interface
@@ -170,7 +115,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
     return (
         residual(
             "flow",
-            largest_of(p, strain_rates) * measure.interface,
+            largest_of(p, strain_rates) * force,
             f"compatibility and flow rule, Eq. (54), {POWER}",
             measure.power,
             p.interfaces,
@@ -178,7 +123,7 @@ def kinematic_residuals(flow: Flow, state: State) -> tuple[Residual, ...]:
         residual("normalisation", p.live @ state.u - 1.0, "work of the live load less one, Eq. (55)"),
         residual(
             "multipliers",
-            negative * measure.interface[k],
+            negative * force[k],
             f"negative flow multiplier, Eq. (58), {POWER}",
             measure.power,
             [p.interfaces[i] for i in k],
@@ -199,7 +144,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.pressed),
             residual(
                 "complementarity",
                 product,
@@ -225,7 +170,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state),
+            *kinematic_residuals(flow, state, measure.interface),
             residual(
                 "power",
                 power - upper,

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import (
-    Measure,
     Residual,
     Residuals,
     largest_of,

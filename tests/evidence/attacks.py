@@ -3,7 +3,21 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from true_claims import DEPTH, MU, UNIT_WEIGHT, B, H, changed, claimed, moving, state_of, true, twisted
+from true_claims import (
+    DEPTH,
+    FLOOR,
+    MU,
+    UNIT_WEIGHT,
+    B,
+    H,
+    changed,
+    claimed,
+    determinate,
+    moving,
+    state_of,
+    true,
+    twisted,
+)
 
 import limitblocks as lb
 from limitblocks.evidence.mechanism import find_mechanism
@@ -200,6 +214,19 @@ def self_stress_beyond_the_strength():
     return model, changed(model, claim, x=state.x + more)
 
 
+@attack("yield")
+def the_top_of_the_tower_beside_would_have_slid():
+    """Its top cube, pushed by twice its weight, slides at half of the load factor."""
+    model, claim = true("tower")
+    top = model.free_blocks[-1]
+    pushed = replace(
+        model, live=model.live + lb.force(top.name, (2.0 * top.weight, 0.0, 0.0), at=top.centroid)
+    )
+    p, u = pushed.problem, state_of(model, claim).u
+    u = u / (p.live @ u)
+    return pushed, determinate(pushed, MU, u)
+
+
 # -------------------------------------------------------------------------------------------- flow
 
 
@@ -341,7 +368,7 @@ def separate(model, load_factor, toward):
     p, names = model.problem, model.problem.interfaces
     between, below = names.index("a|b"), names.index("floor|a")
     a = load_factor * p.units.live
-    own = p.stress_interface != between
+    own = np.isin(p.stress_interface, [k for k, name in enumerate(names) if name.startswith("floor|")])
     x = np.zeros(len(own))
     x[own] = np.linalg.solve(p.C.T.toarray()[:, own], p.dead + a * p.live)
     u = moving(model, a=np.array([toward, 0.0, 0, 0, 0, 0]))
@@ -357,6 +384,22 @@ def separate(model, load_factor, toward):
 def one_block_slides_into_the_other():
     """.3 moves block a alone, if block b lets it in: the joint closes, by negative multipliers."""
     model, _ = true("pushed")
+    return model, separate(model, 0.3, 1.0)
+
+
+@attack("multipliers", **{"1": (1.0,), "1e-9": (1e-9,), "1e-12": (1e-12,)})
+def slides_into_a_stone_that_leans_on_a_wall(light):
+    """Nothing can move: no load factor of .3. However light the stone is."""
+    joint = lb.OrdunaLourenco(0.3)
+    a, b = (
+        lb.Block.box(n, (1, 1, 0.5), (x, 0, 0.25), w * UNIT_WEIGHT)
+        for n, x, w in (("a", 0.0, 1.0), ("b", 1.0, light))
+    )
+    stop = lb.Block.box("stop", (1.0, 4.0, 1.0), (2.0, 0.0, 0.5))
+    found = [lb.find_interfaces([*pair], joint) for pair in ((FLOOR, a), (FLOOR, b), (a, b), (b, stop))]
+    live = lb.force("a", (a.weight, 0.0, 0.0), at=a.centroid)
+    blocks, supports = [FLOOR, stop, a, b], ["floor", "stop"]
+    model = lb.Model(blocks, supports, [each for one in found for each in one], lb.self_weight(), live)
     return model, separate(model, 0.3, 1.0)
 
 

@@ -16,10 +16,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path_cones import relative, spread
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.arrays import Array
 from limitblocks.problem import Cones, Flow
+from limitblocks.problem.barrier import relative, spread
 
 WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
 FLOW = 0.05  # of theta: how far off the flow may be

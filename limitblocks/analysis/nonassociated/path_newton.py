@@ -6,9 +6,9 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.nonassociated.path_cones import quotient, slope
 from limitblocks.analysis.nonassociated.path_equations import Equations, Path, Point
 from limitblocks.arrays import Array, Indices
+from limitblocks.problem.barrier import quotient, slope
 
 
 class Newton:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from scipy.sparse import linalg
 
-from limitblocks.analysis.nonassociated.path_cones import inverse, spread
 from limitblocks.analysis.nonassociated.path_equations import (
     WIDE,
     Barrier,
@@ -18,6 +17,7 @@ from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow
+from limitblocks.problem.barrier import inverse, spread
 
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary

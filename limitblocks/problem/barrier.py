@@ -1,4 +1,4 @@
-"""Geometry of the cones along a path: quotients, the metric of the barrier, and the spread of products.
+"""Geometry of the barrier of cones: quotients, its metric, and the spread of products.
 
 Source: Alizadeh & Goldfarb (2003), Second-order cone programming, Mathematical Programming 95, Section 4.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.problem import Cones
+from limitblocks.problem.cones import Cones
 
 
 def minkowski(a: Array, b: Array) -> Array:
