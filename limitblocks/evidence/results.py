@@ -54,8 +54,8 @@ class Nonassociated:
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
-    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at least
-    `frictionless`.
+    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at
+    least `frictionless`.
 
     Attributes
     ----------
