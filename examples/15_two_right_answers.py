@@ -12,10 +12,11 @@ could not slide at all, and the associated load factor is unlimited. So the brac
 friction, 0, to the associated one, says that no number of this structure is its strength; only mu is on the
 safe side.
 
-What decides in reality is how tightly the block was fitted. `nonassociated` decides by its starting state:
-`start=` another one, and the answer is another. From P = 0 the block tips a little before it slides and
-presses against the ceiling by what the compliance of the joints makes of that, so that the answer is a
-third one; it lies on the same line.
+What decides in reality is how tightly the block was fitted. `load_path` decides by its starting state:
+`start=` another one, and the answer is another. From P = W the block slides before it tips, and P stays. From
+P = 0 it tips a little and presses against the ceiling by what the compliance of the joints makes of that, so
+that the answer is a third one; it lies on the same line. So does that of `nonassociated`, whose path has a
+barrier that adds a little to P.
 
 Source: Drucker (1954), J. Appl. Mech. 21, 71-74; the complementarity problem and its many solutions: Orduña
 & Lourenço (2005), Part I, Section 5.
@@ -38,9 +39,13 @@ def main(folder="output"):
     for press, one, check in zip(PRESSES, claims, checks, strict=True):
         print(f"P = {press:g} W: load factor {one.load_factor:.2f}, {check}")
         check.require()
-    started = [lb.nonassociated(model, start=at_rest(model, press)) for press in PRESSES]
+    started = [lb.load_path(model, start=at_rest(model, press)).collapse for press in PRESSES]
+    tracked = lb.nonassociated(model, start=at_rest(model, PRESSES[1]))
     for press, found in zip(PRESSES, started, strict=True):
         print(f"started from P = {press:g} W, ended at {pressing(model, found):.4f} W: {found}")
+    print(
+        f"by the tracked path from P = {PRESSES[1]:g} W, ended at {pressing(model, tracked):.4f} W: {tracked}"
+    )
     picture(Path(folder), model, claims, started)
     return {
         "claimed": [one.load_factor for one in claims],
@@ -49,7 +54,7 @@ def main(folder="output"):
         "frictionless": started[0].frictionless,
         "associated": started[0].associated,
         "found less the rule": [
-            found.load_factor - FRICTION * (1 + 2 * pressing(model, found)) for found in started
+            found.load_factor - FRICTION * (1 + 2 * pressing(model, found)) for found in (*started, tracked)
         ],
     }
 

@@ -68,7 +68,7 @@ class Mortar(Queries):
             g=g,
             G=G,
             pivot=np.zeros((m, 8 + n)),
-            reach=np.abs(polygons).max(axis=1),
+            half_sides=np.abs(polygons).max(axis=1),
             resultants=np.broadcast_to(np.eye(6), (m, 6, 6)),
             linear=8 + n,
             cones=(),

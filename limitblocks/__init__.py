@@ -8,6 +8,8 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
 from limitblocks.analysis.nonassociated.load_path import load_path
 from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.analysis.nonassociated.means import Means
+from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.stability import stability
 from limitblocks.errors import (
@@ -71,6 +73,7 @@ from limitblocks.report import Report, report, report_schema
 __version__ = "0.1.0"
 
 __all__ = [
+    "Barrier",
     "Block",
     "Bounds",
     "Check",
@@ -88,6 +91,7 @@ __all__ = [
     "LimitBlocksError",
     "Load",
     "LoadPath",
+    "Means",
     "MissingDependency",
     "Model",
     "ModelError",

@@ -94,12 +94,13 @@ EXPECTED = {
         "mortar, pushed off its middle": ((0.6 + 0.1) / (1 + 0.2 / mean_distance(0.5, 1)), 1e-5),
     },
     "17_check_somebody_elses_answer": {
-        "right": (0, 1e-9),
-        "1 % more load and forces: yield": (0.01 * 0.3, 1e-9),  # 1 % of mu W, in block weights
+        "right": (0, 1e-12),
+        # 1 % of mu W over all loads, (1 + 1.01 mu) W
+        "1 % more load and forces: yield": (0.01 * 0.3 / (1 + 1.01 * 0.3), 1e-9),
         "1 % more load and forces: equilibrium": (0, 1e-9),
-        "1 % more load, same forces: equilibrium": (0.01 * 0.3, 1e-9),
+        "1 % more load, same forces: equilibrium": (0.01 * 0.3 / (1 + 1.01 * 0.3), 1e-9),
         "1 % more load, same forces: yield": (0, 1e-9),
-        "rises as it slides: flow": (0.3, 1e-6),  # mu times the rate of sliding
+        "rises as it slides: flow": (1 + 0.3, 1e-6),  # (1 + mu) W rising by mu, over mu W sliding by 1
         "half the load: equilibrium": (0, 1e-9),
         "half the load: yield": (0, 1e-9),
     },

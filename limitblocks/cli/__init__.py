@@ -24,6 +24,7 @@ from limitblocks.cli.options import (
     Dilatancy,
     Force,
     ModelFile,
+    OwnTolerance,
     ReportFile,
     ResultFile,
     Tolerance,
@@ -52,7 +53,7 @@ app = typer.Typer(
 for _name, _group in {"study": studies, "new": new, "examples": examples}.items():
     app.add_typer(_group, name=_name)
 
-DEFAULT_TOLERANCE = 1e-6
+DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
 
 
 def main() -> None:
@@ -84,7 +85,7 @@ def stability(
 def bounds(
     model: ModelFile,
     as_json: AsJson = False,
-    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    tolerance: Tolerance = BOUNDS_TOLERANCE,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
@@ -165,7 +166,7 @@ def report(
     model: ModelFile,
     output: ReportFile = None,
     force: Force = False,
-    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    tolerance: OwnTolerance = None,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     with_nonassociated: WithNonassociated = False,
@@ -180,8 +181,9 @@ def report(
         refuse_existing(file, force, model)
         files.suffix(file)  # before the analysis, not after it
         structure = read(model)
-        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        results = _bounds_if_any(structure, tolerance, needed=not (with_nonassociated or with_path))
+        asked: Any = {} if tolerance is None else {"tolerance": tolerance}
+        flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
+        results = _bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         results += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         results += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
@@ -198,10 +200,10 @@ def schema() -> None:
     typer.echo(json.dumps(model_schema(), indent=1))
 
 
-def _bounds_if_any(model: Model, tolerance: float, needed: bool) -> list[Any]:
+def _bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
     """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
     try:
-        return [analyses.bounds(model, tolerance=tolerance)]
+        return [analyses.bounds(model, **asked)]
     except UnlimitedLoad as error:
         if needed:
             raise

@@ -10,6 +10,10 @@ from limitblocks.problem import Turning
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+OwnTolerance = Annotated[
+    float | None,
+    typer.Option(help="Largest gap and residual accepted [default: 1e-06 of bounds, else 1e-08].", min=0.0),
+]
 Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under bending turns about.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]

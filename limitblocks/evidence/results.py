@@ -17,12 +17,14 @@ class Status(Enum):
     """How an analysis ended; the text is for the user."""
 
     CONVERGED = "converged: every residual is within the tolerance"
-    OUT_OF_STEPS = "not converged: the steps were used up; the state shown is the best one reached"
+    OUT_OF_STEPS = (
+        "not converged: no state within the tolerance was found; the one shown is the best one reached"
+    )
 
 
 @dataclass(frozen=True)
 class Iteration:
-    """One point of the path, or one stage of the outer loop of the load path.
+    """One point of the tracked path, or one step of the load path.
 
     Attributes
     ----------
@@ -52,7 +54,8 @@ class Nonassociated:
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
-    permanent loads. Every solution lies between `frictionless` and `associated`.
+    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at
+    least `frictionless`.
 
     Attributes
     ----------
@@ -77,7 +80,7 @@ class Nonassociated:
     how : str
         Which path led there, in words.
     history : tuple of Iteration
-        Points of the path, or stages of the outer loop of the load path.
+        Points of the tracked path and its end, or steps of the load path.
     dead_load_stresses : Array, shape (s,)
         Generalised stresses, N and N m, that carry the dead loads alone.
     dilatancy : float

@@ -22,7 +22,7 @@ class YieldRows:
     x are the s generalised stresses of an interface and Q = `resultants` x its stress resultants; for
     the paper's model x = Q. Rows come as `linear` rows of the nonnegative orthant and then second-order
     cones (t, z), t >= ||z||, of the sizes `cones`. All rows are forces. The flow is
-    dx = -G(Q)^T y, y in K*, where the twisting part of G turns about the eccentricity (Table 5).
+    dx = -G(Q)^T y, y in K*, where the twisting part of G may turn about (e1, e2), where N acts (Table 5).
 
     Attributes
     ----------

@@ -26,12 +26,14 @@ from limitblocks.plots.style import (
 )
 
 COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
-KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*"}
+KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*", "polish": "*"}
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
 def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
-    """Draw the residuals of the outer loop on a logarithmic scale, and the load factor beside them.
+    """Draw the residuals of each step on a logarithmic scale, and the load factor beside them.
+
+    Of a tracked path: theta, what is left of compliance and barrier, and the residuals of its end.
 
     Parameters
     ----------
@@ -56,7 +58,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
         values = [max(one.residuals.get(name, np.nan), FLOOR) for one in history]
         ax.semilogy(steps, values, ".-", color=colour, linewidth=1.0, label=name)
     ax.axhline(found.tolerance, color=PALE, linestyle=":", label="tolerance")
-    ax.set(xlabel="stage of the outer loop (–)", ylabel="residual (–)")
+    ax.set(xlabel="stage (–)", ylabel="residual (–)")
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     right = ax.twinx()
     loads = [one.load_factor for one in history]
@@ -113,8 +115,8 @@ def load_path(
     ax.plot(x, loads, "-", color=BLUE, linewidth=1.4)
     for kind in dict.fromkeys(step.kind for step in path.steps):
         these = [step.kind == kind for step in path.steps]
-        size = 11.0 if kind == "fixed point" else 4.5
-        style = {"color": VERMILION if kind == "fixed point" else BLUE, "markersize": size}
+        size = 11.0 if kind == "polish" else 4.5
+        style = {"color": VERMILION if kind == "polish" else BLUE, "markersize": size}
         ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")

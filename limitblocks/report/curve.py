@@ -57,21 +57,34 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
 
 
 def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
-    """Return the largest residual of each stage of the outer loop, on a scale of decades."""
+    """Return theta of each point of a tracked path, or the largest residual of each step, by decades."""
+    tracked = any(stage.kind == "path" for stage in history)
     worst = [max(stage.residuals.values(), default=np.nan) for stage in history]
     found = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
     if len(found) < 2:
         return None
     x, y = np.array(found, dtype=float) + 1.0, np.log10([worst[k] for k in found])
-    said = [f"stage {k + 1}, {history[k].kind}: largest residual {worst[k]:.1e}" for k in found]
+    said = [f"stage {k + 1}, {history[k].kind}: {_what(history[k])} {worst[k]:.1e}" for k in found]
     low, high = float(np.floor(y.min())), float(np.ceil(y.max()))
     every = max(1, int(np.ceil((high - low) / 8)))
     decades = np.arange(low, max(high, low + 1.0) + 1.0, every)
     decades = decades if decades[-1] >= high else np.append(decades, decades[-1] + every)
     y_ticks = [(value, f"1e{value:.0f}") for value in decades.tolist()]
-    title = "Largest residual of each stage"
-    caption = f"{title} of the outer loop, from the permanent loads on, in mean block weights and lengths."
-    return _curve((title, caption, "stage", "residual"), (x, y), said, (_numbers(*_range(x), 1.0), y_ticks))
+    title = (
+        "Theta along the path, and the residual of its end" if tracked else "Largest residual of each step"
+    )
+    what = "Theta is what is left of compliance and barrier" if tracked else "The last one is the collapse"
+    words = (
+        title,
+        f"{title}, from the permanent loads on. {what}.",
+        "stage",
+        "theta" if tracked else "residual",
+    )
+    return _curve(words, (x, y), said, (_numbers(*_range(x), 1.0), y_ticks))
+
+
+def _what(stage: Iteration) -> str:
+    return "theta" if stage.kind == "path" else "largest residual"
 
 
 def _curve(

@@ -18,6 +18,7 @@ from limitblocks.report.curve import convergence_curve, path_curve
 from limitblocks.report.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
+USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
 
 
 def section(model: Model, result: Any) -> Section:
@@ -42,7 +43,7 @@ def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str,
     """Return name, value and meaning of the load factors that no solution is below and above."""
     lower, upper = result.frictionless, result.associated
     return (
-        ("Frictionless", f"{lower:#.7g}", "joints carry no shear: no solution is lower")
+        ("Frictionless", f"{lower:#.7g}", "joints carry no shear: no solution that only dissipates is lower")
         if isfinite(lower)
         else ("Frictionless", "none", "without friction the dead loads do not stand: nothing is known below"),
         ("Associated", f"{upper:#.7g}", "joints dilate by the friction angle: no solution is higher")
@@ -66,12 +67,12 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
         values=(
             ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
-            ("Gap", f"{bounds.gap:.1e}", "difference over the larger of the two"),
+            ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
         ),
         checks=_checks(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
-        warnings=_loose(bounds.tolerance),
+        warnings=_loose(bounds.tolerance, USUAL_OF_BOUNDS),
     )
 
 
@@ -89,16 +90,13 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, between the next two"),
             *limits(result),
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
-            (
-                "Outer iterations",
-                str(len(result.history)),
-                "stages from the permanent loads on: implicit steps, then a fixed point",
-            ),
+            ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
+            ("Way", result.how, "which path led to this solution"),
         ),
         checks=_checks(result.residuals, result.tolerance),
         tolerance=result.tolerance,
         rates=result.displacement_rates,
-        warnings=(() if result.converged else (result.status.value,)) + _loose(result.tolerance),
+        warnings=_remarks(result) + _loose(result.tolerance),
         curve=convergence_curve(result.history),
     )
 
@@ -117,7 +115,7 @@ def _path(model: Model, path: LoadPath) -> Section:
         values=(
             ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
             ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
-            *end.values[1:4],
+            *end.values[1:5],
         ),
         checks=end.checks,
         tolerance=end.tolerance,
@@ -155,7 +153,7 @@ def _check(_model: Model, check: mcp.Check) -> Section:
         values=(("Mechanism and multipliers", source, "by which the flow rule was checked"),),
         checks=_checks(check.residuals, check.tolerance),
         tolerance=check.tolerance,
-        warnings=_loose(check.tolerance),
+        warnings=check.remarks + _loose(check.tolerance),
     )
 
 
@@ -186,9 +184,13 @@ def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
 
 
-def _loose(tolerance: float) -> tuple[str, ...]:
-    said = f"the tolerance {tolerance:.1e} is looser than the usual {TOLERANCE:.1e}"
-    return (said,) if tolerance > TOLERANCE else ()
+def _remarks(result: Nonassociated) -> tuple[str, ...]:
+    return (() if result.converged else (result.status.value,)) + result.remarks
+
+
+def _loose(tolerance: float, usual: float = TOLERANCE) -> tuple[str, ...]:
+    said = f"the tolerance {tolerance:.1e} is looser than the usual {usual:.1e}"
+    return (said,) if tolerance > usual else ()
 
 
 def _some(words: list[str]) -> str:

@@ -57,7 +57,7 @@ def nonassociated(bounds):
         dilatancy=0.0,
         turning=Turning.CENTROID,
         remarks=(),
-        tolerance=1e-6,
+        tolerance=1e-8,
         **state,
     )
 

@@ -37,7 +37,7 @@ RESULT = Nonassociated(
     dilatancy=0.0,
     turning=Turning.CENTROID,
     remarks=(),
-    tolerance=1e-6,
+    tolerance=1e-8,
     digest=MODEL.digest,
     **{name: getattr(BOUNDS, name) for name in STATE},
 )
@@ -167,7 +167,12 @@ def test_convergence_is_drawn_by_decades():
     assert curve.convergence_curve(stages[:1]) is None
     assert curve.convergence_curve([replace(one, residuals={}) for one in stages]) is None
     report = lb.report(MODEL, replace(RESULT, history=tuple(stages)))
-    assert "Largest residual of each stage" in report.html
+    assert "Largest residual of each step" in report.html
+    points = [Iteration(0.2, "path", one, {"theta": one}, 1, 0) for one in worst]
+    tracked = curve.convergence_curve(points)
+    assert tracked.title.startswith("Theta along the path")
+    assert tracked.y_label == "theta"
+    assert tracked.dots[1][2] == "stage 2, path: theta 1.0e-02"
 
 
 def test_curve_falls_back_on_steps_and_needs_two():

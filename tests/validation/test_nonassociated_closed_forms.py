@@ -7,8 +7,6 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated.means import Means
-from limitblocks.analysis.nonassociated.path_equations import Barrier
 
 CLOSE = 1e-5  # residuals of 1e-6 allow the load factor an error a few times as large
 
@@ -130,7 +128,7 @@ def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):
     """It would have to lift as it slides: no solution exists, and none is claimed."""
     model = jammed(joint_type(0.3))
     with pytest.raises(lb.NotConverged, match="no solution within") as caught:
-        lb.nonassociated(model, dilatancy=0.15, means=[Means(Barrier(), 0, 40)])
+        lb.nonassociated(model, dilatancy=0.15, means=[lb.Means(lb.Barrier(), seed=0, budget=40)])
     assert caught.value.result.residuals["flow"] > 1e-3
     assert caught.value.result.associated == np.inf
 

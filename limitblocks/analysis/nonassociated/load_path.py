@@ -64,7 +64,7 @@ def load_path(
 
     Parameters
     ----------
-    model, dilatancy, turning, tolerance, settings, progress, throw
+    model, dilatancy, turning, tolerance, progress, throw
         As for :func:`limitblocks.nonassociated`.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads; as for
@@ -73,6 +73,8 @@ def load_path(
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
         only the displacements. Without it both are one mean block weight per block length cubed, and
         displacements are relative.
+    settings : Settings
+        Size of the steps, and what is tried where one fails.
 
     Raises
     ------

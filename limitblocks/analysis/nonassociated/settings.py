@@ -1,4 +1,4 @@
-"""Settings of the outer loop."""
+"""Settings of the implicit steps of the load path."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Settings:
-    """How the outer loop steps; all numbers are dimensionless.
+    """How the load path steps; all numbers are dimensionless.
 
     Attributes
     ----------
