@@ -190,7 +190,7 @@ def _standing_program(problem: LimitProblem, loads: Array) -> Program:
     """The largest margin t and its stresses. Variables: t, x."""
     t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.C.T @ x == loads
-    lowered = problem.cones.identity * _own_loads(problem)[problem.row_interface]
+    lowered = problem.cones.identity * _own_loads(problem)[problem.row_interface] / problem.units.row
     inside = in_cone(problem.F @ x + problem.g - t * lowered, problem.cones)
     return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *inside]), (t, x))
 
@@ -207,7 +207,7 @@ def _own_loads(problem: LimitProblem) -> Array:
 
 def _margin(problem: LimitProblem, x: Array) -> float:
     """Least distance to yield over the largest dead load of the blocks tied to the interface."""
-    distance = problem.cones.margin(problem.F @ x + problem.g)
+    distance = problem.cones.margin(problem.F @ x + problem.g) * problem.units.row[problem.cones.heads]
     return float((distance / _own_loads(problem)[problem.member_interface]).min())
 
 
