@@ -81,13 +81,19 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
 
 @pytest.mark.parametrize(
     ("name", "direction", "means"),
-    [("buttressed_wall", (0, 1, 0), 2), ("dome", (1, 0, 0), 3), ("groin_vault", (1, 1, 0), 4)],
+    [("cantilever_stair", (1, 0, 0), 2), ("dome", (1, 0, 0), 3), ("groin_vault", (1, 1, 0), 4)],
 )
 def test_each_means_closes_what_those_before_it_leave_open(name, direction, means):
     found = lb.nonassociated(pushed(name, lb.OrdunaLourenco(0.7), direction))
     assert found.residuals.worst.value <= 1e-8
     barrier, seed, _ = MEANS[means - 1]
     assert f"barrier {barrier.size:g}, power {barrier.power:g}, seed {seed}" in found.how
+
+
+def test_implicit_steps_close_a_wall_on_which_the_first_path_winds():
+    found = lb.nonassociated(pushed("buttressed_wall", lb.OrdunaLourenco(0.7), (0, 1, 0)))
+    assert found.residuals.worst.value <= 1e-8
+    assert found.how == "implicit steps"
 
 
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
 from limitblocks.analysis.nonassociated.path_record import Progress
+from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -19,7 +22,7 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
@@ -27,6 +30,9 @@ from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
+STEPS = Settings(
+    budget=300
+)  # the other way along the load path; it closes walls on which the first one winds
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
 
 
@@ -65,7 +71,8 @@ def nonassociated(
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution.
+        Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
+        of :func:`limitblocks.load_path` are tried.
     progress : callable, optional
         Called with each Iteration.
     throw : bool
@@ -99,20 +106,45 @@ def nonassociated(
     if state is not None and (flow.associated or mcp_residuals(flow, state).worst.value <= tolerance):
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
-        smooth = Flow(problem, slope, about, SOFTENING)
         x0 = start_stresses(model, problem, problem.compliance, start)
+        scale = load_scale(problem, enclosing.associated)
+        state, how = _reached(flow, x0, scale, means, tolerance, record)
+    record(_end(flow, state))
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+
+
+def _reached(
+    flow: Flow,
+    x0: Array,
+    scale: float,
+    means: Sequence[Means],
+    tolerance: float,
+    record: Callable[[Iteration], None],
+) -> tuple[State, str]:
+    """The state to which one way after the other leads, and which it was: both load paths come first."""
+    problem = flow.problem
+    smooth, weights = replace(flow, softening=SOFTENING), problem.compliance
+    met: list[tuple[State, str]] = []
+
+    def solved() -> bool:
+        return bool(met) and mcp_residuals(flow, met[-1][0]).worst.value <= tolerance
+
+    for k, one in enumerate(means):
         state, tracked = follow(
             smooth,
             x0,
-            problem.compliance,
-            means=means,
-            power=load_scale(problem, enclosing.associated) / len(problem.blocks),
+            weights,
+            means=[one],
+            power=scale / len(problem.blocks),
             progress=lambda at: record(_point(problem, at)),
         )
-        how = tracked[-1].how
-    state = polish(flow, state)
-    record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+        met.append((polish(flow, state), tracked[-1].how))
+        if not solved() and k == 0 and len(means) > 1:
+            steps = stages(flow, x0, weights, tolerance, STEPS, scale)
+            met += [(polish(flow, stage.state), "implicit steps") for stage in steps[-1:]]
+        if solved():
+            return met[-1]
+    return min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
 
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:

@@ -24,7 +24,7 @@ class Means(NamedTuple):
 # cuts most folds; then the barrier grows, with other weights. Each has a case in the tests that those before
 # it leave open.
 MEANS = (
-    Means(Barrier(), 0, 300),
+    Means(Barrier(), 0, 400),
     Means(Barrier(0.1, 2.0), 1, 300),
     Means(Barrier(1.0, 2.0), 2, 500),
     Means(Barrier(3.0, 1.0), 1, 500),
