@@ -20,7 +20,7 @@ from limitblocks.analysis.programs import (
     static_program,
 )
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import (
@@ -75,7 +75,7 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         If no solver gives a pair of bounds within the tolerance.
     """
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair = _solved(model.problem, tolerance)
+    pair = _solved(model.problem, dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
     upper = pair.upper / problem.units.live
     return Bounds(
@@ -95,10 +95,10 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     )
 
 
-def _solved(problem: LimitProblem, tolerance: float) -> _Pair:
+def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
-    for pair in _pairs(problem, tolerance, said):
+    for pair in _pairs(problem, dead, tolerance, said):
         worst = pair.residuals.worst
         if worst.value <= tolerance:
             return pair
@@ -107,9 +107,11 @@ def _solved(problem: LimitProblem, tolerance: float) -> _Pair:
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
 
 
-def _pairs(problem: LimitProblem, tolerance: float, said: list[str]) -> Iterator[_Pair]:
+def _pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:
     """Pairs of solutions by one solver after the other, each as it is, polished, and in better units."""
     explained = False
+    standing = State(0.0, dead, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))
+    resting = remeasured(problem, standing)  # where a solver finds nothing: units of the dead loads alone
     for solver in solvers(bool(problem.cones.second_order)):
         measured: LimitProblem | None = problem
         for _ in range(ROUNDS):
@@ -124,7 +126,8 @@ def _pairs(problem: LimitProblem, tolerance: float, said: list[str]) -> Iterator
                 if not explained:
                     explain(problem)
                     explained = True
-                break
+                measured, resting = resting, None
+                continue
             pair = _Pair(problem, state, (static.solver, kinematic.solver))
             yield pair
             polished = polish(Flow(problem, ASSOCIATED), state, until=tolerance / 10)

@@ -8,10 +8,12 @@ import numpy as np
 
 from limitblocks.analysis.programs import falling_program, solved, solvers
 from limitblocks.arrays import Array
-from limitblocks.problem import Flow, State
+from limitblocks.evidence.measure import Measure
+from limitblocks.problem import Flow, LimitProblem, State
 
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
+LIKELY = 10.0  # times the largest load tied to an interface: more force on it is not to be expected
 CERTIFIED = 1e-7  # largest residual of a mechanism that proves that a structure falls
 
 
@@ -52,8 +54,16 @@ def falling(flow: Flow, loads: Array) -> Fall | None:
         G = known.matrix(np.zeros(measured.C.shape[0]))
         for solver in solvers(bool(problem.cones.second_order)):
             u, y = solved(falling_program(replace(measured, F=G), acting), solver).values
-            strains = np.abs(measured.C @ u + G.T @ y).max()
-            surplus = acting @ u - measured.g @ y
-            if strains < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED and surplus > FALLING:
+            strains = measured.C @ u + G.T @ y
+            surplus = acting @ u - measured.g @ y - LIKELY * _worth(measured, acting, strains)
+            closed = np.abs(strains).max() < CERTIFIED and measured.cones.margin(y).min() > -CERTIFIED
+            if closed and surplus > FALLING:
                 return Fall(known, acting, State(0.0, np.zeros(measured.C.shape[0]), u, y))
     return None
+
+
+def _worth(problem: LimitProblem, loads: Array, strains: Array) -> float:
+    """Power of forces as large as the largest load tied to an interface on strains that break the flow."""
+    none = np.zeros(0)
+    measure = Measure(replace(problem, dead=loads), State(0.0, np.zeros(len(strains)), none, none))
+    return float(np.abs(strains) @ measure.pressed[problem.stress_interface])

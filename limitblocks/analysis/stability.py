@@ -8,6 +8,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 from scipy import sparse
+from scipy.sparse import linalg
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_si import in_model_order, resultants_of
@@ -33,6 +34,7 @@ from limitblocks.evidence.stability_result import (
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
+REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
 
 
@@ -138,9 +140,9 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """
     problem = model.problem
     said = []
-    for t, x, worst in _states(problem, load_factor * problem.units.live):
+    for x, worst in _states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
-            return min(MOST, t, _margin(problem, x))
+            return min(MOST, _margin(problem, x))
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
     if falls(problem, problem.dead + load_factor * problem.units.live * problem.live):
         return -MOST
@@ -158,7 +160,7 @@ def dead_load_state(problem: LimitProblem) -> Array:
         If neither is proven.
     """
     said = []
-    for _, x, worst in _states(problem, 0.0):
+    for x, worst in _states(problem, 0.0):
         if worst.value <= TOLERANCE:
             return x
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
@@ -168,8 +170,8 @@ def dead_load_state(problem: LimitProblem) -> Array:
     raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))
 
 
-def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[float, Array, Residual]]:
-    """Margins and states of one solver after the other, with the worst of their residuals.
+def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
+    """States of largest margin of one solver after the other, with the worst of their residuals.
 
     Each is found again in units of what acts on the blocks in the one before.
     """
@@ -179,18 +181,30 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[float, 
             if measured is None:
                 break
             factor = load_factor * measured.units.live / problem.units.live
-            t, x = solved(_standing_program(measured, measured.dead + factor * measured.live), solver).values
+            _, x = solved(_standing_program(measured, measured.dead + factor * measured.live), solver).values
+            x = _balanced(measured, factor, x)
             state = State(factor, x, np.zeros(measured.C.shape[1]), np.zeros(len(measured.g)))
             worst = Residuals(static_residuals(measured, factor, x)).worst
-            yield float(t), x * measured.stress_units / problem.stress_units, worst
+            yield x * measured.stress_units / problem.stress_units, worst
             measured = remeasured(measured, state) if np.isfinite(x).all() else None
+
+
+def _balanced(problem: LimitProblem, load_factor: float, x: Array) -> Array:
+    """The nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
+    if not np.isfinite(x).all():
+        return x
+    K = problem.C.T @ problem.C + sparse.eye_array(problem.C.shape[1]) * REGULAR
+    lu = linalg.splu(sparse.csc_array(K))
+    for _ in range(2):
+        x = x + problem.C @ lu.solve(problem.dead + load_factor * problem.live - problem.C.T @ x)
+    return np.asarray(x)
 
 
 def _standing_program(problem: LimitProblem, loads: Array) -> Program:
     """The largest margin t and its stresses. Variables: t, x."""
     t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.C.T @ x == loads
-    lowered = problem.cones.identity * _own_loads(problem)[problem.row_interface] / problem.units.row
+    lowered = problem.cones.identity / problem.units.row  # every interface by its own unit of force
     inside = in_cone(problem.F @ x + problem.g - t * lowered, problem.cones)
     return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *inside]), (t, x))
 
