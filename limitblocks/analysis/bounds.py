@@ -19,7 +19,7 @@ from limitblocks.analysis.programs import (
     solvers,
     static_program,
 )
-from limitblocks.analysis.stability import dead_load_state
+from limitblocks.analysis.stability import balanced, dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
@@ -142,11 +142,19 @@ def _state(static: Solution, kinematic: Solution) -> State:
 
 def explain(problem: LimitProblem) -> None:
     """Raise UnlimitedLoad where a recomputed certificate proves it; else return."""
-    pushed = replace(problem, dead=problem.live, g=np.zeros_like(problem.g))
-    for solver in solvers(bool(problem.cones.second_order)):
-        (x,) = solved(jamming_program(problem), solver).values
-        if Residuals(static_residuals(pushed, 0.0, x)).worst.value <= CERTIFIED:
-            raise UnlimitedLoad(
-                "the live load can grow without limit: a stress state within the yield surface balances it "
-                "alone; check its direction, or use the non-associated analysis"
-            )
+    none = np.zeros_like(problem.g)
+    pushed = replace(problem, dead=problem.live, g=none)  # any multiple of the live load
+    for _ in range(ROUNDS):
+        for solver in solvers(bool(problem.cones.second_order)):
+            (x,) = solved(jamming_program(pushed), solver).values
+            x = balanced(pushed, 0.0, x)
+            if Residuals(static_residuals(pushed, 0.0, x)).worst.value <= CERTIFIED:
+                raise UnlimitedLoad(
+                    "the live load can grow without limit: a stress state within the yield surface balances "
+                    "it alone; check its direction, or use the non-associated analysis"
+                )
+        found = np.isfinite(x).all()
+        better = remeasured(pushed, State(0.0, x, np.zeros(pushed.C.shape[1]), none)) if found else None
+        if better is None:
+            return
+        pushed = better

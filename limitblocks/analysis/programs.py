@@ -102,9 +102,9 @@ def falling_program(problem: LimitProblem, loads: Array) -> Program:
 
 
 def jamming_program(problem: LimitProblem) -> Program:
-    """Stress state that balances the live load alone and can grow without yielding. Variable: x."""
+    """Stress state that balances the dead load and can grow without yielding. Variable: x."""
     x = cp.Variable(problem.C.shape[0])
-    unbalanced = cp.norm(problem.C.T @ x - problem.live, "inf")
+    unbalanced = cp.norm(problem.C.T @ x - problem.dead, "inf")
     return Program(cp.Problem(cp.Minimize(unbalanced), in_cone(problem.F @ x, problem.cones)), (x,))
 
 

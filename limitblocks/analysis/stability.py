@@ -182,15 +182,15 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, 
                 break
             factor = load_factor * measured.units.live / problem.units.live
             _, x = solved(_standing_program(measured, measured.dead + factor * measured.live), solver).values
-            x = _balanced(measured, factor, x)
+            x = balanced(measured, factor, x)
             state = State(factor, x, np.zeros(measured.C.shape[1]), np.zeros(len(measured.g)))
             worst = Residuals(static_residuals(measured, factor, x)).worst
             yield x * measured.stress_units / problem.stress_units, worst
             measured = remeasured(measured, state) if np.isfinite(x).all() else None
 
 
-def _balanced(problem: LimitProblem, load_factor: float, x: Array) -> Array:
-    """The nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
+def balanced(problem: LimitProblem, load_factor: float, x: Array) -> Array:
+    """Return the nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
     if not np.isfinite(x).all():
         return x
     K = problem.C.T @ problem.C + sparse.eye_array(problem.C.shape[1]) * REGULAR
