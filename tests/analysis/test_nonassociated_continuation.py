@@ -105,3 +105,9 @@ def test_a_leap_is_never_shorter_than_the_step_before_it(flow):
     claimed = replace(start.stage, residuals=Residuals((Residual("flow", flow, ""),)))
     far = leap(start._replace(stage=claimed), 1e-6, lb.Settings())
     assert step.rho / 300 <= far.loading.rho <= step.rho
+
+
+def test_a_start_without_dilatancy_is_not_taken_for_the_associated_answer():
+    model = structures.ferris_tin_loi_wall(4, lb.PointContact(0.65))
+    found = lb.nonassociated(model, dilatancy=0.65, start=lb.nonassociated(model))
+    assert found.load_factor == pytest.approx(lb.bounds(model).upper, abs=1e-6)

@@ -103,7 +103,7 @@ def nonassociated(
 
     given = enclosing.bounds if flow.associated and start is None else start
     state = flowing_state(model, flow, given)
-    if state is not None and (flow.associated or mcp_residuals(flow, state).worst.value <= tolerance):
+    if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
         x0 = start_stresses(model, problem, problem.compliance, start)
