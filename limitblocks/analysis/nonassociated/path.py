@@ -21,9 +21,9 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Point,
     distance,
     inner,
+    moved,
     moved_on,
     residuals,
-    room,
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
@@ -36,12 +36,12 @@ from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
 CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
-BOUNDARY = 0.95  # of the way to the boundary of the cone
-CORRECTORS, HALVINGS = 5, 6
+SLOW = 0.7  # of the length after more than three correctors
+CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
+TRIED, DECADE, LAST = 1e-3, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
 CLOSED = TOLERANCE  # residual of a solution
-TRIES = 2  # rounds of the polish on the way
+DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
 
@@ -150,17 +150,18 @@ class _Walk:
         """Correct the point, or accept it and predict the next one."""
         left = residuals(self.path, self.z)
         off = distance(self.path, self.z, left)
-        if not np.isfinite(off) or (off > 1.0 and self.correctors >= CORRECTORS):
+        if np.isnan(off) or (off > 1.0 and self.correctors == CORRECTORS):
             self._retreat()
             return
         self.factorisations += 1
         try:
             newton = Newton(self.path, self.z)
-            step = newton.solve(left.negative())
-            turn = replace(newton.solve(theta_slope(self.path, self.z).negative()), theta=1.0)
+            slope = theta_slope(self.path, self.z)
+            step, turn = newton.solve(left.negative(), slope.negative())
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
             self._retreat()
             return
+        turn = replace(turn, theta=1.0)
         length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
         if not (np.isfinite(length) and length > 0.0 and newton.sign):
             self._retreat()
@@ -168,26 +169,14 @@ class _Walk:
         tangent = turn.scaled(self._heading(newton.sign, turn) / length)
         correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
         if off > 1.0:
-            self._correct(correction, off)
+            self.correctors += 1
+            self.z = moved(self.path, self.z, 1.0, correction)
         else:
             self._accept(newton.sign, correction, tangent)
 
     def _heading(self, sign: float, turn: Point) -> float:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
         return -sign * (self.points[0].sign if self.points else sign)
-
-    def _correct(self, d: Point, off: float) -> None:
-        """Move along a correction as far as it brings the point nearer to the path."""
-        self.correctors += 1
-        t = min(1.0, BOUNDARY * room(self.path.cones, self.z, d))
-        for _ in range(HALVINGS):
-            z = self.z.moved(t, d)
-            nearer = distance(self.path, z, residuals(self.path, z))
-            if nearer <= max(1.0, (1.0 - 0.1 * t) * off):
-                self.z = z
-                return
-            t *= 0.5
-        self._retreat()
 
     def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
         """Go on from a point near the path."""
@@ -198,6 +187,8 @@ class _Walk:
             raise _Lost("returned")
         if self.base is not None and self.correctors <= 1:
             self.length = min(GROWTH * self.length, LONGEST)
+        elif self.correctors > 3:
+            self.length *= SLOW
         self.path = moved_on(self.path, self.z)
         self.base = _Base(self.z, correction, tangent)
         self._predict()
@@ -213,23 +204,22 @@ class _Walk:
     def _predict(self) -> None:
         assert self.base is not None
         z, correction, tangent = self.base
-        z = z.moved(min(1.0, 0.5 * room(self.path.cones, z, correction)), correction)
-        self.z = z.moved(min(self.length, BOUNDARY * room(self.path.cones, z, tangent)), tangent)
+        z = moved(self.path, z, 1.0, correction)
+        self.z = moved(self.path, z, self.length, tangent)
         self.correctors = 0
 
     def _closed(self) -> bool:
-        """Whether the polish of a base far down the path is a solution; tried once a decade of mu."""
-        if self.base is None:
+        """Whether the polish of a base far down the path is a solution; tried once a decade of theta."""
+        if self.base is None or self.base.point.theta >= self.tried:
             return False
         z = self.base.point
-        mu = self.path.barrier.size * z.theta
-        if mu >= self.tried:
-            return False
-        if mu < LAST:
+        if z.theta < LAST:
             raise _Lost("no solution at the end")
-        self.tried = DECADE * mu
-        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y), rounds=TRIES)
+        self.tried = DECADE * z.theta
+        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y))
         residual = defect(self.path.flow, state)
+        if abs(state.load_factor - z.load_factor) > DRIFT * abs(z.load_factor):
+            return False
         if self.best is None or residual < defect(self.path.flow, self.best):
             self.best = state
         return residual < CLOSED
