@@ -27,7 +27,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
+from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
@@ -40,7 +40,6 @@ SLOW = 0.7  # of the length after more than three correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, DECADE, LAST = 1e-3, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
-CLOSED = TOLERANCE  # residual of a solution
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
@@ -97,9 +96,7 @@ def track(
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
         walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
-        best = walk.best
-        if best is None:
-            best = polish(flow, walk.state) if walk.points else walk.state
+        best = walk.best or walk.state
     found = Tracked(
         walk.path.barrier,
         seed,
@@ -126,8 +123,9 @@ class _Walk:
 
     @property
     def state(self) -> State:
-        """The point as a state."""
-        return State(self.z.load_factor, self.z.x, self.z.u, self.z.y)
+        """The last accepted point as a state."""
+        z = self.base.point if self.base else self.z
+        return State(z.load_factor, z.x, z.u, z.y)
 
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
@@ -144,7 +142,9 @@ class _Walk:
             return str(lost)
         except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
             return "singular start"
-        return "closed"
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        return CLOSED
 
     def _advance(self) -> None:
         """Correct the point, or accept it and predict the next one."""
@@ -216,10 +216,10 @@ class _Walk:
         if z.theta < LAST:
             raise _Lost("no solution at the end")
         self.tried = DECADE * z.theta
-        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y))
+        state = polish(self.path.flow, self.state)
         residual = defect(self.path.flow, state)
         if abs(state.load_factor - z.load_factor) > DRIFT * abs(z.load_factor):
             return False
         if self.best is None or residual < defect(self.path.flow, self.best):
             self.best = state
-        return residual < CLOSED
+        return residual < TOLERANCE
