@@ -35,8 +35,8 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
-CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
-SLOW = 0.7  # of the length after more than three correctors
+CUT = 0.35  # of the length after a failure
+PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, DECADE, LAST = 1e-3, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
@@ -168,7 +168,9 @@ class _Walk:
             return
         tangent = turn.scaled(self._heading(newton.sign, turn) / length)
         correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
-        if off > 1.0:
+        if off <= 1.0 and self._returns(tangent):
+            self._retreat()
+        elif off > 1.0:
             self.correctors += 1
             self.z = moved(self.path, self.z, 1.0, correction)
         else:
@@ -178,6 +180,14 @@ class _Walk:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
         return -sign * (self.points[0].sign if self.points else sign)
 
+    def _returns(self, tangent: Point) -> bool:
+        """Whether the corrector fell back behind the base: the step went across a fold."""
+        if self.base is None or self.length < FIRST * CUT**4:
+            return False
+        step = self.z.moved(-1.0, self.base.point)
+        ahead = inner(self.path.cones, self.z, step, tangent)
+        return min(ahead, inner(self.path.cones, self.base.point, step, self.base.tangent)) < 0.0
+
     def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
         """Go on from a point near the path."""
         self.points.append(Progress(self.z.theta, self.z.load_factor, sign, self.factorisations))
@@ -185,10 +195,8 @@ class _Walk:
             self.progress(self.points[-1])
         if self.z.theta > RETURNED:
             raise _Lost("returned")
-        if self.base is not None and self.correctors <= 1:
-            self.length = min(GROWTH * self.length, LONGEST)
-        elif self.correctors > 3:
-            self.length *= SLOW
+        if self.base is not None:
+            self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)
         self.path = moved_on(self.path, self.z)
         self.base = _Base(self.z, correction, tangent)
         self._predict()
