@@ -13,8 +13,11 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import quotient, slope
 
 
+REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
+
+
 class _Columns(NamedTuple):
-    """Right-hand sides of the five equations as columns; products divided by s."""
+    """Right-hand sides of the five equations as columns, products divided by s; or directions in (x, u, a, s, y)."""
 
     flow: Array
     balance: Array
@@ -37,9 +40,12 @@ class Newton:
         stiff = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
         H = layout.padding + layout.potential_parts(z.x) @ stiff
         diagonal = np.arange(H.shape[1])
-        H[:, diagonal, diagonal] += layout.per_interface(path.rho(z.theta) * path.elastic)
+        elastic = path.rho(z.theta) * path.elastic
+        H[:, diagonal, diagonal] += layout.per_interface(elastic)
+        self.stiff = sparse.csr_array(sparse.diags_array(elastic))
         if not path.flow.constant:
             t = path.flow.derivative(z.x, z.y).tocoo()
+            self.stiff = sparse.csr_array(self.stiff + t)
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
         self.flexibility = np.linalg.inv(H)
@@ -48,21 +54,35 @@ class Newton:
         self.sign = float(np.prod(np.sign(np.linalg.det(H)))) * _sign(self.lu)
 
     def solve(self, *right: Equations) -> tuple[Point, ...]:
-        """Return the directions d with J d = q for each q.
+        """Return the directions d with J d = q for each q, refined once far down the path.
 
-        They are not refined: the corrector mends what is left, and refinement doubles what a step costs.
+        Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
         q = self._columns(right)
+        d = self._eliminated(q)
+        if self.z.theta < REFINED:
+            d = _Columns(*(a + b for a, b in zip(d, self._eliminated(self._left(q, d)), strict=True)))
+        return tuple(
+            Point(d.flow[:, k], d.balance[:, k], float(d.work[0, k]), d.slack[:, k], d.product[:, k], 0.0)
+            for k in range(len(right))
+        )
+
+    def _eliminated(self, q: _Columns) -> _Columns:
+        """Directions by x, u, a, s, y as columns."""
         p, z, layout = self.path.flow.problem, self.z, self.path.layout
-        cones = p.cones
-        free = self._flexed(q.flow + self.GT @ (q.product + slope(cones, z.s, z.y, q.slack)))
+        free = self._flexed(q.flow + self.GT @ (q.product + slope(p.cones, z.s, z.y, q.slack)))
         w = layout.solved(self.lu, np.vstack([q.balance + layout.balance @ free, q.work]))
         dx = free + self._flexed(p.C @ w[:-1])
         ds = p.F @ dx - q.slack
-        dy = q.product - slope(cones, z.s, z.y, ds)
-        return tuple(
-            Point(dx[:, k], w[:-1, k], float(w[-1, k]), ds[:, k], dy[:, k], 0.0) for k in range(len(right))
-        )
+        return _Columns(dx, w[:-1], w[-1:], ds, q.product - slope(p.cones, z.s, z.y, ds))
+
+    def _left(self, q: _Columns, d: _Columns) -> _Columns:
+        """What directions leave of q; slacks and products are exact."""
+        p, layout = self.path.flow.problem, self.path.layout
+        flow = q.flow - self.stiff @ d.flow + p.C @ d.balance + self.GT @ d.product
+        balance = q.balance + layout.balance @ d.flow - p.live[:, None] * d.work
+        none = np.zeros_like(q.slack)
+        return _Columns(flow, balance, q.work - p.live @ d.balance, none, none)
 
     def _columns(self, right: tuple[Equations, ...]) -> _Columns:
         products = [quotient(self.path.cones, self.z.s, q.product) for q in right]
