@@ -28,10 +28,10 @@ from limitblocks.analysis.nonassociated.path_equations import (
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
-from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.path_start import centred, path_from, settled
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
@@ -109,6 +109,11 @@ def track(
     return best, found
 
 
+def state_of(z: Point) -> State:
+    """Return a point as a state."""
+    return State(z.load_factor, z.x, z.u, z.y)
+
+
 class _Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
@@ -120,12 +125,12 @@ class _Walk:
         self.factorisations = self.failures = 0
         self.points: list[Progress] = []
         self.best: State | None = None
+        self.left = np.inf  # worst residual of the best state
 
     @property
     def state(self) -> State:
         """The last accepted point as a state."""
-        z = self.base.point if self.base else self.z
-        return State(z.load_factor, z.x, z.u, z.y)
+        return state_of(self.base.point if self.base else self.z)
 
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
@@ -224,10 +229,16 @@ class _Walk:
         if z.theta < LAST:
             raise _Lost("no solution at the end")
         self.tried = DECADE * z.theta
-        state = polish(self.path.flow, self.state)
-        residual = defect(self.path.flow, state)
-        if abs(state.load_factor - z.load_factor) > DRIFT * abs(z.load_factor):
-            return False
-        if self.best is None or residual < defect(self.path.flow, self.best):
-            self.best = state
-        return residual < TOLERANCE
+        self._keep(polish(self.path.flow, self.state))
+        here = mcp_residuals(self.path.flow, self.state)
+        if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
+            for point in settled(self.path, z):
+                self.factorisations += 1
+                self._keep(state_of(point))
+        return self.left < TOLERANCE
+
+    def _keep(self, state: State) -> None:
+        """Keep a state as the best one met, unless it belongs to another path."""
+        reached, residual = self.state.load_factor, defect(self.path.flow, state)
+        if abs(state.load_factor - reached) <= DRIFT * abs(reached) and residual < self.left:
+            self.best, self.left = state, residual
