@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from scipy import sparse
@@ -127,7 +127,7 @@ def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
     return np.asarray(d)
 
 
-def diagonal_factors(K: Any, ordering: str = "MMD_AT_PLUS_A") -> Any:
+def diagonal_factors(K: Any, ordering: Literal["MMD_AT_PLUS_A", "NATURAL"] = "MMD_AT_PLUS_A") -> Any:
     """Return the factors of a matrix that is skew or quasidefinite but for what refinement mends.
 
     Without row exchanges 10,409 equations (facade of 160 blocks) take .018 s and leave 180,000 entries; with

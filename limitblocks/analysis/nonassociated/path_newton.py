@@ -16,7 +16,7 @@ REFINED = 1e-4  # theta below which directions are refined: without it paths sta
 
 
 class _Columns(NamedTuple):
-    """Right-hand sides of the five equations as columns, products over s; or directions in (x, u, a, s, y)."""
+    """Right-hand sides of the five equations, products over s, or directions by x, u, a, s, y: columns."""
 
     flow: Array
     balance: Array
