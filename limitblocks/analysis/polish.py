@@ -11,11 +11,14 @@ solved by Newton's method. Stresses of rigid parts and multipliers of redundant 
 singular. With the first equations negated it is skew for associated flow, so that J + delta I is regular and
 refinement on J is the proximal point method (Rockafellar 1976, SIAM J. Control 14); the polish of OSQP does
 the same (Stellato et al. 2020, Math. Prog. Computation 12). The rows that yield are read off again at every
-step: a semismooth Newton method, which closes paths earlier than one that solves for each set of rows.
+step: a semismooth Newton method, which closes paths earlier than one that solves for each set of rows. Where
+it fails the steps are those of least norm, from a quasidefinite system (Vanderbei 1995, SIAM J. Optim. 5):
+lintels that crush need them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any, Literal
@@ -29,10 +32,14 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
 PROXIMAL = 1e-6  # delta
+REGULAR = 1e-11  # eps of the least solution
 REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
 STEPS = 20  # of Newton's method
 PATIENCE = 4  # steps in turn that do not better the best state
+
+
+Solution = Callable[[sparse.csr_array, Array, int], Array]
 
 
 class Kind(IntEnum):
@@ -84,26 +91,37 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     until : float
         Residual that is small enough.
     """
-    p, now = flow.problem, state
-    best, least, failed = state, defect(flow, state), 0
-    for _ in range(STEPS):
-        if least <= until or failed == PATIENCE:
-            break
-        s = p.F @ now.x + p.g
-        sigma = float(np.linalg.norm(s)) / max(float(np.linalg.norm(now.y)), 1e-300)
-        try:
-            now = _step(flow, now, classified(p.cones, s, sigma * now.y))
-        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
-            break
-        inside = _admissible(p.cones, now)
-        worst = defect(flow, inside)
-        failed = failed + 1 if worst >= least else 0
-        if worst < least:
-            best, least = inside, worst
+    best, least = state, defect(flow, state)
+    for solution in (_proximal_solution, _least_solution):
+        for found in _steps(flow, state, solution):
+            worst = defect(flow, found)
+            if worst < least:
+                best, least = found, worst
+            if least <= until:
+                return best
     return best
 
 
-def _step(flow: Flow, now: State, active: Active) -> State:
+def _steps(flow: Flow, state: State, solution: Solution) -> Iterator[State]:
+    """States of a semismooth Newton method, until they get worse."""
+    p, now, least, failed = flow.problem, state, defect(flow, state), 0
+    for _ in range(STEPS):
+        s = p.F @ now.x + p.g
+        sigma = float(np.linalg.norm(s)) / max(float(np.linalg.norm(now.y)), 1e-300)
+        try:
+            now = _step(flow, now, classified(p.cones, s, sigma * now.y), solution)
+        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+            return
+        found = _admissible(p.cones, now)
+        worst = defect(flow, found)
+        failed = failed + 1 if worst >= least else 0
+        least = min(least, worst)
+        yield found
+        if failed == PATIENCE:
+            return
+
+
+def _step(flow: Flow, now: State, active: Active, solution: Solution) -> State:
     """One Newton step on the equations of a set of yielding rows."""
     p = flow.problem
     y = np.zeros_like(now.y)
@@ -111,7 +129,7 @@ def _step(flow: Flow, now: State, active: Active) -> State:
     now = State(now.load_factor, now.x, now.u, y)
     residual, J = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
-    d = _proximal_solution(J, -residual, n)
+    d = solution(J, -residual, n)
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
@@ -125,6 +143,18 @@ def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
     for _ in range(REFINEMENTS):
         d = d + lu.solve(sign * (r - J @ d))
     return np.asarray(d)
+
+
+def _least_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
+    """Least-norm least-squares solution of J d = r, where rows contradict each other; n as above."""
+    eps = REGULAR * sparse.eye_array(len(r))
+    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(len(r)), J.T], [J, -eps]]))
+    lu = diagonal_factors(K)
+    right = np.concatenate([np.zeros(len(r)), r])
+    z = lu.solve(right)
+    for _ in range(2):
+        z = z + lu.solve(right - K @ z)
+    return np.asarray(z[: len(r)])
 
 
 def diagonal_factors(K: Any, ordering: Literal["MMD_AT_PLUS_A", "NATURAL"] = "MMD_AT_PLUS_A") -> Any:
