@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.known import known
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -73,7 +74,15 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         If the live load can grow without limit.
     SolverFailure
         If no solver gives a pair of bounds within the tolerance.
+
+    Notes
+    -----
+    Solved once for each model and tolerance: asked for again, the same result comes back.
     """
+    return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance))
+
+
+def _bounds(model: Model, tolerance: float) -> Bounds:
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
     pair = _solved(model.problem, dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
