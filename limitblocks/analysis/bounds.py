@@ -84,7 +84,7 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
 
 def _bounds(model: Model, tolerance: float) -> Bounds:
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair = _solved(model.problem, dead, tolerance)
+    pair = pair_of_bounds(model.problem, dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
     upper = pair.upper / problem.units.live
     return Bounds(
@@ -104,7 +104,7 @@ def _bounds(model: Model, tolerance: float) -> Bounds:
     )
 
 
-def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
+def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
     for pair in _pairs(problem, dead, tolerance, said):

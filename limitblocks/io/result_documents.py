@@ -53,6 +53,7 @@ class ResultDocument(Document):
     residuals: Any = None
     tolerance: Any = None
     how: Any = None
+    fixed_point_change: Any = None
     history: Any = None
     versions: Any = None
 

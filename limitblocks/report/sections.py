@@ -92,6 +92,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
             ("Way", result.how, "which path led to this solution"),
+            *_confirmation(result),
         ),
         checks=_checks(result.residuals, result.tolerance),
         tolerance=result.tolerance,
@@ -182,6 +183,14 @@ def _stability(_model: Model, found: Stability) -> Section:
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     entries = residuals.entries
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
+
+
+def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
+    """The row of the table that says whether the state is a fixed point, where that is known."""
+    change = result.fixed_point_change
+    if change is None:
+        return ()
+    return (("Fixed point", f"{change:.1e}", "change of the load factor with the flow frozen here"),)
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:

@@ -6,8 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
@@ -26,7 +28,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
-from limitblocks.evidence.results import Iteration, Nonassociated, Status
+from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
@@ -43,8 +45,10 @@ def nonassociated(
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
+    method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
+    confirm: bool = True,
     throw: bool = True,
 ) -> Nonassociated:
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
@@ -70,25 +74,34 @@ def nonassociated(
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    method : {"path", "fixed point"}
+        The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
+        analyses, each with the friction of the last, from the associated state or `start` on. Often the
+        loop ends at another solution, and it may stall.
     means : sequence of Means
         Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
         of :func:`limitblocks.load_path` are tried.
     progress : callable, optional
         Called with each Iteration.
+    confirm : bool
+        Confirm the answer as a fixed point: with the flow frozen at it, the static and the kinematic program
+        of limit analysis give its load factor again (`fixed_point_change`); costs about half of bounds.
     throw : bool
         Raise NotConverged (which carries the best result); if false, return that result with its status.
 
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, or `start` belongs to another model or is no state of it.
+        If the dilatancy is out of range, the method unknown, or `start` belongs to another model or is no
+        state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
         If the flow is associated everywhere and the live load can grow without limit.
     NotConverged
-        If no path ends within the tolerance.
+        If no path ends, or no round of the loop, within the tolerance.
     """
+    way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
@@ -106,11 +119,15 @@ def nonassociated(
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
-        x0 = start_stresses(model, problem, problem.compliance, start)
-        scale = load_scale(problem, enclosing.associated)
-        state, how = _reached(flow, x0, scale, means, tolerance, record)
+        first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
+        x0 = start_stresses(model, problem, problem.compliance, first)
+        if way is Method.FIXED_POINT:
+            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
+        else:
+            scale = load_scale(problem, enclosing.associated)
+            state, how = _reached(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm)
 
 
 def _reached(
@@ -153,6 +170,13 @@ def _point(problem: LimitProblem, at: Progress) -> Iteration:
     return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
 
 
+def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
+    """What a round of the outer loop tells the user."""
+    load_factor = state.load_factor / flow.problem.units.live
+    residuals = mcp_residuals(flow, state).to_dict()
+    return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)
+
+
 def _end(flow: Flow, state: State) -> Iteration:
     load_factor = state.load_factor / flow.problem.units.live
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
@@ -167,11 +191,13 @@ def finished(
     how: str,
     tolerance: float,
     throw: bool,
+    confirm: bool = True,
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
     problem = flow.problem
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
+    converged = worst.value <= tolerance
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
@@ -184,7 +210,7 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
+        status=Status.CONVERGED if converged else Status.OUT_OF_STEPS,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
@@ -192,6 +218,7 @@ def finished(
         remarks=locked_shear(flow, state),
         tolerance=tolerance,
         digest=model.digest,
+        fixed_point_change=fixed_point_change(flow, state) if confirm and converged else None,
     )
     if throw and not result.converged:
         raise NotConverged(
