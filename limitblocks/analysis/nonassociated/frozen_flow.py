@@ -57,3 +57,12 @@ def fixed_point_change(flow: Flow, state: State) -> float:
     values = np.array([pair.state.load_factor, pair.upper]) / pair.problem.units.live
     change = np.abs(values * problem.units.live - state.load_factor).max()
     return float(change / Measure(problem, state).load_factor)
+
+
+def unconfirmed(change: float | None) -> tuple[str, ...]:
+    """What a reader should know where a round changes the load factor beyond the accuracy of bounds."""
+    if change is None or change <= TOLERANCE:
+        return ()
+    if np.isinf(change):
+        return ("no solver confirms the state as a fixed point of frozen flow",)
+    return (f"with the flow frozen at this state the load factor changes by {change:.1e} of it",)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
-from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
@@ -198,6 +198,7 @@ def finished(
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
     converged = worst.value <= tolerance
+    change = fixed_point_change(flow, state) if confirm and converged else None
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
@@ -215,10 +216,10 @@ def finished(
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=locked_shear(flow, state),
+        remarks=locked_shear(flow, state) + unconfirmed(change),
         tolerance=tolerance,
         digest=model.digest,
-        fixed_point_change=fixed_point_change(flow, state) if confirm and converged else None,
+        fixed_point_change=change,
     )
     if throw and not result.converged:
         raise NotConverged(

@@ -52,6 +52,8 @@ class Rounds:
     drift : float
         Relative change of the load factor up to which what closes a round belongs to it; farther solutions
         are kept in case no round does better.
+    near : float
+        Residual from which on Newton's method takes over from the two programs.
     most, closing : int
         Rounds, and those of the two programs that close one.
     """
@@ -62,6 +64,7 @@ class Rounds:
     cohesion: float = 0.1
     still: float = 1e-4
     drift: float = 1e-3
+    near: float = 1e-6
     most: int = 60
     closing: int = 5
 
@@ -143,7 +146,7 @@ def outer_loop(
         record(found, rotation, k)
         size = abs(found.load_factor)
         if abs(found.load_factor - last) <= rounds.still * size:
-            state, _ = fixed_point(nearest, found, flow, tolerance, rounds.closing)
+            state = _closed(nearest, found, flow, tolerance, rounds)
             if state is not None:
                 drift = abs(state.load_factor - found.load_factor)
                 closed.append((drift, state, k))
@@ -153,6 +156,15 @@ def outer_loop(
         x = rounds.relaxation * found.x + (1.0 - rounds.relaxation) * x
     if closed:
         _, state, k = min(closed, key=lambda one: one[0])
-        return polish(flow, state), f"fixed point, {k} rounds"
+        return state, f"fixed point, {k} rounds"
     best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
     return best, f"fixed point, not closed in {len(met) - 1} rounds"
+
+
+def _closed(
+    nearest: NearestStresses, found: State, flow: Flow, tolerance: float, rounds: Rounds
+) -> State | None:
+    """The solution that the two programs and Newton's method make of a round, None if it is none."""
+    near, _ = fixed_point(nearest, found, flow, max(tolerance, rounds.near), rounds.closing)
+    state = polish(flow, found if near is None else near)
+    return state if mcp_residuals(flow, state).worst.value <= tolerance else None
