@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from limitblocks.analysis.certified import certified
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
@@ -23,6 +24,7 @@ from limitblocks.analysis.stability import balanced, dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import (
     Residuals,
     bounds_residuals,
@@ -75,9 +77,9 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         If no solver gives a pair of bounds within the tolerance.
     """
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair = _solved(model.problem, dead, tolerance)
+    pair, proof = _proven(model.problem, _solved(model.problem, dead, tolerance), dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
-    upper = pair.upper / problem.units.live
+    upper = proof.upper if proof.complete else pair.upper / problem.units.live
     return Bounds(
         lower=si.load_factor,
         upper=upper,
@@ -89,10 +91,23 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         flow_multipliers=read_only(si.y),
         dead_load_stresses=read_only(dead * model.problem.stress_units),
         residuals=pair.residuals,
+        proof=proof,
         solvers=pair.solvers,
         tolerance=tolerance,
         digest=model.digest,
     )
+
+
+def _proven(problem: LimitProblem, pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
+    """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
+    own = pair.problem
+    state, proof = certified(problem, own, pair.state, dead * problem.stress_units / own.stress_units)
+    if proof.width <= tolerance:
+        return _Pair(own, state, pair.solvers), proof
+    if proof.complete:
+        wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
+        proof = Proof(-np.inf, np.inf, wide, wide)
+    return pair, proof
 
 
 def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:

@@ -38,6 +38,12 @@ class Proof:
         """True if both sides are proven."""
         return not (self.static or self.kinematic)
 
+    @property
+    def width(self) -> float:
+        """Distance of the bounds over the load factor; infinite where a side is not proven."""
+        size = max(abs(self.lower), abs(self.upper))
+        return (self.upper - self.lower) / size if np.isfinite(size) and size > 0.0 else np.inf
+
     def to_dict(self) -> dict[str, Any]:
         """Return the proof as numbers (None where there is none) and text."""
         sides = {"lower": self.lower, "upper": self.upper}
@@ -52,7 +58,7 @@ class Proof:
         return "; ".join(sides)
 
 
-def proof_of(problem: LimitProblem, si: State, dead: Array) -> Proof:
+def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0) -> Proof:
     """Prove what a static and a kinematic solution show of the associated load factor.
 
     Parameters
@@ -65,6 +71,9 @@ def proof_of(problem: LimitProblem, si: State, dead: Array) -> Proof:
     dead : Array, shape (s,)
         Any generalised stresses, N and N m, such as those of the dead loads: where they are far within yield
         is the way on which what is unbalanced is carried to the supports.
+    reserve : float
+        How many times the room must exceed the need: more than 1 so that a machine which sums in another
+        order proves the same.
 
     Notes
     -----
@@ -77,12 +86,12 @@ def proof_of(problem: LimitProblem, si: State, dead: Array) -> Proof:
     state = p.dimensionless(si)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what is undefined proves nothing
         tree = spanning_tree(p, room_of(p, dead / p.stress_units))
-        static = static_reach(p, state.load_factor, state.x, tree)
-        kinematic = kinematic_reach(p, state.u, state.y)
+        static = static_reach(p, state.load_factor, state.x, tree).times(reserve)
+        kinematic = kinematic_reach(p, state.u, state.y).times(reserve)
         upper = _upper(p, state, kinematic) / p.units.live if kinematic.proven else np.inf
     return Proof(
-        lower=si.load_factor if static.proven else -np.inf,
-        upper=upper,
+        lower=float(si.load_factor) if static.proven else -np.inf,
+        upper=float(upper),
         static=_why("lower bound", "stresses", p, static),
         kinematic=_why("upper bound", "multipliers", p, kinematic)
         or ("" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"),

@@ -39,6 +39,10 @@ class Reach:
         """True if the exact state is admissible."""
         return bool((self.room >= self.need).all())
 
+    def times(self, reserve: float) -> Reach:
+        """The same with `reserve` times the need."""
+        return Reach(reserve * self.need, self.room, reserve * self.change)
+
 
 def static_reach(problem: LimitProblem, load_factor: float, x: Array, tree: Tree) -> Reach:
     """Return how far stresses in exact equilibrium with dead + load_factor live may lie from x (s,)."""
