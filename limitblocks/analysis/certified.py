@@ -57,9 +57,7 @@ def certified(problem: LimitProblem, own: LimitProblem, state: State, dead: Arra
         return min(first, _certified(problem, own, polished, inner), key=lambda one: one[1].width)
 
 
-def _certified(
-    problem: LimitProblem, own: LimitProblem, state: State, inner: State
-) -> tuple[State, Proof]:
+def _certified(problem: LimitProblem, own: LimitProblem, state: State, inner: State) -> tuple[State, Proof]:
     """Both sides proven with a little of the inner state; its stresses carry the dead loads."""
     static, moving = _static(problem, own, state, inner), _kinematic(problem, own, state, inner)
     both = State(static.load_factor, static.x, moving.u, moving.y)

@@ -125,7 +125,8 @@ def _checked(model: Model, claim: Claim, tolerance: float) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
-    judged = mcp_residuals(flow, state) if claim.upper is None else _of_bounds(flow, claim, state)
+    bounds = claim.upper is not None and flow.associated
+    judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
     entries = (*judged.entries, _standing(problem, claim))
     return Check(Residuals(entries), tolerance, found, locked_shear(flow, state), model.digest)
 

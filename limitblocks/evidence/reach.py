@@ -102,10 +102,11 @@ def made_up(problem: LimitProblem, defect: Array) -> Array:
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:
     """Right inverses R of a stack of matrices A, and |e| / (1 - |e|) of the error e = A R - 1, row sums."""
-    right = np.linalg.pinv(matrix)
+    right: Array = np.asarray(np.linalg.pinv(matrix), dtype=float)
     identity, off = products(matrix, right)
     error = (np.abs(identity - np.eye(matrix.shape[1])) + off).sum(axis=2).max(axis=1) * UP
-    return right, np.where(error < POOREST, error / (1.0 - np.minimum(error, POOREST)) * UP, np.inf)
+    share = np.where(error < POOREST, error / (1.0 - np.minimum(error, POOREST)) * UP, np.inf)
+    return right, np.asarray(share, dtype=float)
 
 
 def _exactly(size: Array, share: Array) -> Array:

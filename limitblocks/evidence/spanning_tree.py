@@ -14,8 +14,9 @@ from limitblocks.problem import LimitProblem
 
 @dataclass(frozen=True, eq=False)
 class Tree:
-    """Of each block (n,): the `interface` that leads towards a support, the `parent` block behind it (-1: a
-    support), and its `depth`, the number of interfaces on the way.
+    """Of each block (n,): the interface that leads towards a support, the block behind it, its depth.
+
+    `parent` is -1 where a support is behind the interface; `depth` counts the interfaces on the way.
     """
 
     interface: Indices
