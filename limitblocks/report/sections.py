@@ -9,6 +9,7 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
@@ -68,6 +69,7 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
             ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
+            ("Proven", *_proven(bounds.proof)),
         ),
         checks=_checks(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
@@ -178,6 +180,13 @@ def _stability(_model: Model, found: Stability) -> Section:
         tolerance=ARISEN,
         rates=found.displacement_rates,
     )
+
+
+def _proven(proof: Proof) -> tuple[str, str]:
+    """Whether the bounds are theorems, and what that means, or why not."""
+    if proof.complete:
+        return "yes", "theorems about the numbers of the limit problem, rounding errors included"
+    return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
 
 
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:

@@ -98,8 +98,9 @@ class FrozenAnalysis:
         for solver in solvers(conic):
             found = solved(program, solver)
             u, y = found.values
-            if all(np.isfinite(part).all() for part in (u, y, found.dual)):
-                return State(float(h.value @ y - p.dead @ u), found.dual, u, y)
+            stresses = found.duals[0]
+            if all(np.isfinite(part).all() for part in (u, y, stresses)):
+                return State(float(h.value @ y - p.dead @ u), stresses, u, y)
         return None
 
     @cached_property
