@@ -37,6 +37,7 @@ class Status(Enum):
     OUT_OF_STEPS = (
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
     )
+    INTERRUPTED = "interrupted: the state shown is the best one reached until then, and no solution"
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,9 @@ from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
-from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
-from limitblocks.analysis.nonassociated.path_record import Progress
-from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -19,6 +17,7 @@ from limitblocks.analysis.nonassociated.start import (
     flowing_state,
     load_scale,
     own_units,
+    refuse_jammed,
     refuse_unlimited,
     start_stresses,
 )
@@ -32,9 +31,6 @@ from limitblocks.evidence.results import Iteration, Method, Nonassociated, Statu
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
-STEPS = Settings(
-    budget=300
-)  # the other way along the load path; it closes walls on which the first one winds
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
 
 
@@ -79,8 +75,7 @@ def nonassociated(
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
         loop ends at another solution, and it may stall.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
-        of :func:`limitblocks.load_path` are tried.
+        Paths to follow in turn, until one ends at a solution.
     progress : callable, optional
         Called with each Iteration.
     confirm : bool
@@ -97,15 +92,17 @@ def nonassociated(
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
-        If the flow is associated everywhere and the live load can grow without limit.
+        If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
+        without limit.
     NotConverged
-        If no path ends, or no round of the loop, within the tolerance.
+        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it.
     """
     way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
+    refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     history: list[Iteration] = []
 
@@ -139,29 +136,24 @@ def _reached(
     record: Callable[[Iteration], None],
 ) -> tuple[State, str]:
     """The state to which one way after the other leads, and which it was: both load paths come first."""
-    problem = flow.problem
-    smooth, weights = replace(flow, softening=SOFTENING), problem.compliance
+    smooth, weights = replace(flow, softening=SOFTENING), flow.problem.compliance
     met: list[tuple[State, str]] = []
-
-    def solved() -> bool:
-        return bool(met) and mcp_residuals(flow, met[-1][0]).worst.value <= tolerance
-
-    for k, one in enumerate(means):
+    for one in means:
         state, tracked = follow(
             smooth,
             x0,
             weights,
             means=[one],
-            power=scale / len(problem.blocks),
-            progress=lambda at: record(_point(problem, at)),
+            power=scale / len(flow.problem.blocks),
+            progress=lambda at: record(_point(flow.problem, at)),
         )
         met.append((polish(flow, state), tracked[-1].how))
-        if not solved() and k == 0 and len(means) > 1:
-            steps = stages(flow, x0, weights, tolerance, STEPS, scale)
-            met += [(polish(flow, stage.state), "implicit steps") for stage in steps[-1:]]
-        if solved():
+        if tracked[-1].interrupted:
+            break
+        if mcp_residuals(flow, met[-1][0]).worst.value <= tolerance:
             return met[-1]
-    return min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+    state, how = min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+    return state, f"{how}, {INTERRUPTED}" if tracked[-1].interrupted else how
 
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:
@@ -201,6 +193,7 @@ def finished(
     change = fixed_point_change(flow, state) if confirm and converged else None
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
+    stopped = Status.INTERRUPTED if how.endswith(INTERRUPTED) else Status.OUT_OF_STEPS
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
@@ -211,7 +204,7 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if converged else Status.OUT_OF_STEPS,
+        status=Status.CONVERGED if converged else stopped,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
@@ -222,9 +215,10 @@ def finished(
         fixed_point_change=change,
     )
     if throw and not result.converged:
+        why = INTERRUPTED if stopped is Status.INTERRUPTED else f"no solution within {tolerance:g}"
         raise NotConverged(
-            f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e} at load factor "
-            f"{result.load_factor:.6g}; the error's result holds that state",
+            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}; "
+            "the error's result holds that state",
             result,
         )
     return result

@@ -103,6 +103,19 @@ def load_scale(problem: LimitProblem, associated: float) -> float:
     return limit if 0.0 < limit < np.inf else (dead or 1.0) / float(np.linalg.norm(problem.live))
 
 
+def refuse_jammed(enclosing: Bracket) -> None:
+    """Raise UnlimitedLoad where no mechanism of any flow rule exists: without friction nothing limits the load.
+
+    Then normal forces x alone balance the live load, and G x in K as shear and torsion are zero. A mechanism
+    C u = -G^T y with live.u = 1 would give 1 = x.C u = -(G x).y <= 0.
+    """
+    if np.isinf(enclosing.associated) and np.isinf(enclosing.frictionless):
+        raise UnlimitedLoad(
+            "the live load can grow without limit: normal forces alone balance it, without any friction, so "
+            "that no mechanism does positive work with it; check its direction"
+        )
+
+
 def refuse_unlimited(flow: Flow, associated: float) -> None:
     """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
     if np.isinf(associated) and flow.associated:
