@@ -100,10 +100,12 @@ class FrozenAnalysis:
         slack = cohesion * rotation * np.abs(held).max() * p.cones.identity * self._frictional
         rotated.value, h.value = rotation, p.g + (1.0 + rotation) * held + slack
         for solver in solvers(conic):
-            found = solved(program, solver)
-            u, y = found.values
-            if all(np.isfinite(part).all() for part in (u, y, found.dual)):
-                return State(float(h.value @ y - p.dead @ u), found.dual, u, y)
+            for variable in program.variables:
+                variable.value = None  # of the round before, where the solver fails
+            u, y = solved(program, solver).values
+            if np.isfinite(u).all() and np.isfinite(y).all():
+                stresses = np.asarray(program.problem.constraints[0].dual_value, dtype=float)
+                return State(float(h.value @ y - p.dead @ u), stresses, u, y)
         return None
 
     @cached_property
