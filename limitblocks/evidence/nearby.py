@@ -16,6 +16,7 @@ from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
+ACROSS = 0.01  # of a change along the ray of a cone: as large a change across it, which turns the flow
 ROUNDS = 4  # of stilling what would have to flow in another direction
 
 
@@ -79,7 +80,7 @@ class Given:
         return force
 
     def ways(self, level: float) -> sparse.csr_array:
-        """Columns (R, R) along which multipliers change: of a cone its ray, and across it `level` of that.
+        """Columns (R, R) along which multipliers change: of a cone its ray, and less readily across it.
 
         At places whose force may be dropped, any.
         """
@@ -92,7 +93,7 @@ class Given:
             d = z / np.where(size > 0.0, size, 1.0)[:, None]
             way = np.zeros((*rows.shape, rows.shape[1]))
             way[:, 0, 0], way[:, 1:, 0] = 1.0, -d
-            way[:, 1:, 1:] = level * (np.eye(d.shape[1]) - d[:, :, None] * d[:, None, :])
+            way[:, 1:, 1:] = ACROSS * (np.eye(d.shape[1]) - d[:, :, None] * d[:, None, :])
             way[free[first : first + len(rows)] | (size == 0.0)] = np.eye(rows.shape[1])
             blocks.append(way)
             first += len(rows)
@@ -109,7 +110,8 @@ def nearby(given: Given, level: float) -> Nearby | None:
     if (~near & (given.change > 0.0)).any():
         return None
     ways, best = given.ways(level), None
-    u, y = given.state.u, _aligned(p, given.G, given.state.x, given.state.y)
+    held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
+    u, y = given.state.u, _aligned(p, given.G, held, given.state.y)
     for _ in range(ROUNDS):
         found = nearest_mechanism(p, given.G, u, y, near, ways)
         if found is None:
