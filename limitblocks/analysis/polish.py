@@ -28,6 +28,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
@@ -167,20 +168,7 @@ def _scaled_least_solution(J: sparse.csr_array, r: Array, y: Array) -> Array:
     scaled = sparse.csr_array(J @ sparse.diags_array(columns))
     length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
     rows = 1.0 / np.where(length > 0.0, length, 1.0)
-    return columns * _least_solution(sparse.csr_array(sparse.diags_array(rows) @ scaled), rows * r)
-
-
-def _least_solution(J: sparse.csr_array, r: Array) -> Array:
-    """Least-norm least-squares solution of J p = r, with refinement."""
-    m, n = J.shape
-    eps = sparse.diags_array(np.full(m, -REGULAR))
-    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = linalg.splu(K)
-    right = np.concatenate([np.zeros(n), r])
-    z = lu.solve(right)
-    for _ in range(2):
-        z = z + lu.solve(right - K @ z)
-    return np.asarray(z[:n])
+    return columns * least_solution(sparse.csr_array(sparse.diags_array(rows) @ scaled), rows * r, REGULAR, 2)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:

@@ -20,6 +20,7 @@ from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
     AsJson,
+    BackwardLimit,
     ClaimFile,
     Dilatancy,
     Force,
@@ -100,13 +101,15 @@ def nonassociated(
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow |= {} if backward_error is None else {"backward_error": backward_error}
         _answer(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
@@ -128,7 +131,11 @@ def path(
 
 @app.command()
 def check(
-    model: ModelFile, result: ClaimFile, tolerance: Tolerance = DEFAULT_TOLERANCE, as_json: AsJson = False
+    model: ModelFile,
+    result: ClaimFile,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
+    as_json: AsJson = False,
 ) -> None:
     """Check a result file against Eqs (54)-(59) of its model."""
     with clean_errors():
@@ -137,7 +144,7 @@ def check(
 
         structure = read(model)
         claim = read_result(result, structure)
-        found = check_mcp(structure, claim, tolerance=tolerance)
+        found = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
         _print(structure, found, as_json)

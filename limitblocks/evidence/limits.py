@@ -106,13 +106,14 @@ class Limits:
 
 
 def places(problem: LimitProblem) -> tuple[Indices, Indices]:
-    """Number the places where forces act, an interface or a point of it, and return each member's and stress'.
+    """Number the places where forces act: interfaces, or points of them.
 
-    A linear row or a cone (degree,) and the stresses (s,) that it acts on belong to one place.
+    Returns the place of each linear row and cone (degree,) and of each stress (s,) that it acts on.
     """
     cones = problem.cones
     rows = np.arange(cones.height)
     acts = sparse.coo_array((np.ones(len(rows)), (cones.member, rows))).tocsr() @ abs(problem.F)
     graph = sparse.block_array([[None, acts], [acts.T, None]])
     _, label = sparse.csgraph.connected_components(graph, directed=False)
-    return label[: cones.degree], label[cones.degree :]
+    numbers = np.asarray(label, dtype=np.int64)
+    return numbers[: cones.degree], numbers[cones.degree :]

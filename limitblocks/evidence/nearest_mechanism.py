@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
@@ -62,7 +64,7 @@ def _least_change(
     largest = size.max(initial=0.0)
     unit = np.maximum(size / largest, LEAST_MULTIPLIER) if largest > 0.0 else np.ones(len(size))
     live = sparse.csr_array(problem.live[None, :])
-    blocks = [[problem.C, sparse.csr_array(G.T @ along)], [live, None]]
+    blocks: list[list[Any]] = [[problem.C, sparse.csr_array(G.T @ along)], [live, None]]
     J = sparse.csr_array(sparse.block_array(blocks if len(size) else [row[:1] for row in blocks]))
     columns = sparse.diags_array(np.append(np.ones(problem.C.shape[1]), unit))
     length = np.sqrt((J @ columns).power(2).sum(axis=1))

@@ -48,6 +48,7 @@ def solved(
         frictionless=np.nan,
         associated=bounds.upper,
         residuals=bounds.residuals,
+        backward_error=lb.check_mcp(model, bounds).backward_error,
         status=status,
         how="by hand",
         history=(iteration,),

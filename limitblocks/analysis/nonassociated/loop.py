@@ -24,6 +24,7 @@ from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
+from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated, Status
@@ -42,6 +43,7 @@ def nonassociated(
     dilatancy: float = 0.0,
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
+    backward_error: float | None = None,
     start: Start | None = None,
     means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
@@ -67,6 +69,9 @@ def nonassociated(
         where the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
+    backward_error : float, optional
+        Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
+        its status is then Status.NEARBY. By default only the tolerance counts.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
@@ -90,6 +95,7 @@ def nonassociated(
         If no path ends within the tolerance.
     """
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    limit = checked_limit(backward_error)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
@@ -110,7 +116,7 @@ def nonassociated(
         scale = load_scale(problem, enclosing.associated)
         state, how = _reached(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, limit)
 
 
 def _reached(
@@ -167,9 +173,14 @@ def finished(
     how: str,
     tolerance: float,
     throw: bool,
+    limit: float | None = None,
 ) -> Nonassociated:
-    """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance.
+
+    With a `limit` of the backward error, unless that is within it.
+    """
     problem = flow.problem
+    state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
     found = enclosing.bounds
@@ -184,7 +195,10 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
+        backward_error=error,
+        status=Status.CONVERGED
+        if worst.value <= tolerance
+        else (Status.NEARBY if within(error, residuals, tolerance, limit) else Status.OUT_OF_STEPS),
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
@@ -193,10 +207,10 @@ def finished(
         tolerance=tolerance,
         digest=model.digest,
     )
-    if throw and not result.converged:
+    if throw and not result.accepted:
         raise NotConverged(
             f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e} at load factor "
-            f"{result.load_factor:.6g}; the error's result holds that state",
+            f"{result.load_factor:.6g}, {error}; the error's result holds that state",
             result,
         )
     return result
