@@ -35,7 +35,7 @@ from limitblocks.cli.options import (
     WithPath,
 )
 from limitblocks.cli.studies import studies
-from limitblocks.errors import NotConverged, UnlimitedLoad
+from limitblocks.errors import NotConverged
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
@@ -108,9 +108,8 @@ def nonassociated(
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        flow |= {} if backward_error is None else {"backward_error": backward_error}
-        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
+        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        _answer(analyses.nonassociated, model, as_json, output, force, backward_error=backward_error, **flow)
 
 
 @app.command()
@@ -190,7 +189,7 @@ def report(
         structure = read(model)
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
-        results = _bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
+        results = analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         results += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         results += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
@@ -205,17 +204,6 @@ def schema() -> None:
     from limitblocks.io import model_schema
 
     typer.echo(json.dumps(model_schema(), indent=1))
-
-
-def _bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
-    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
-    try:
-        return [analyses.bounds(model, **asked)]
-    except UnlimitedLoad as error:
-        if needed:
-            raise
-        typer.echo(f"warning: no bounds: {error}", err=True)
-        return []
 
 
 def _answer(
