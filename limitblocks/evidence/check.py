@@ -95,8 +95,9 @@ class Check:
         }
 
     def __str__(self) -> str:
-        near = f"not passed, but exact for a model within {self.limit:g}" if self.accepted else "FAILED"
-        word = "passed" if self.passed else near
+        word = "passed" if self.passed else "FAILED"
+        if self.accepted and not self.passed:
+            word = f"not passed, but exact for a model within {self.limit:g}"
         source = ", mechanism found by the checker" if self.mechanism_found else ""
         place = f" at {self.worst.where}" if self.worst.where else ""
         said = "".join(f"; {remark}" for remark in self.remarks)

@@ -259,6 +259,13 @@ def test_wrong_limits_are_refused(limit):
         lb.check_mcp(model, claim, backward_error=limit)
 
 
+def test_a_check_that_passed_says_so_with_its_backward_error():
+    check = lb.check_mcp(*true("sliding, circle"))
+    assert check.accepted
+    assert str(check).startswith("check passed: worst residual")
+    assert "backward error 0.0e+00" in str(check)
+
+
 def test_a_model_that_falls_or_gives_work_is_not_accepted():
     """A change of the model heals neither: both are judged by their residuals."""
     names = ("a stack that leans too far, octagon", "table 5 at an interface that gives work, square")
