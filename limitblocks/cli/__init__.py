@@ -31,11 +31,13 @@ from limitblocks.cli.options import (
     Tolerance,
     Turns,
     Version,
+    Way,
     WithNonassociated,
     WithPath,
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
@@ -100,6 +102,7 @@ def nonassociated(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
+    method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     backward_error: BackwardLimit = None,
     as_json: AsJson = False,
@@ -108,8 +111,9 @@ def nonassociated(
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.nonassociated, model, as_json, output, force, backward_error=backward_error, **flow)
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow |= {"method": method, "backward_error": backward_error}
+        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
 @app.command()
