@@ -5,17 +5,28 @@ from typing import Annotated
 
 import typer
 
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+BackwardLimit = Annotated[
+    float | None,
+    typer.Option(
+        "--backward-error",
+        help="Also accept what is exact for a model changed by no more than this, such as 1e-4.",
+        min=0.0,
+        show_default=False,
+    ),
+]
 OwnTolerance = Annotated[
     float | None,
     typer.Option(help="Largest gap and residual accepted [default: 1e-06 of bounds, else 1e-08].", min=0.0),
 ]
 Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under bending turns about.")]
+Way = Annotated[Method, typer.Option("--method", help="How a solution is looked for.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")

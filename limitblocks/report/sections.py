@@ -9,6 +9,8 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
@@ -68,6 +70,7 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
             ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
+            ("Proven", *_proven(bounds.proof)),
         ),
         checks=_checks(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
@@ -78,7 +81,8 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
 
 def _nonassociated(_model: Model, result: Nonassociated) -> Section:
     flow = "do not lift" if result.dilatancy == 0.0 else f"lift by {result.dilatancy:g} of what they slide"
-    proven = "together satisfy" if result.converged else "do not yet satisfy"
+    near = "satisfy, for a model as near as was asked for," if result.accepted else "do not yet satisfy"
+    proven = "together satisfy" if result.converged else near
     return Section(
         title="Non-associated solution" if result.converged else "Non-associated state, not converged",
         meaning=(
@@ -92,6 +96,8 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
             ("Way", result.how, "which path led to this solution"),
+            _backward(result.backward_error),
+            *_confirmation(result),
         ),
         checks=_checks(result.residuals, result.tolerance),
         tolerance=result.tolerance,
@@ -148,9 +154,12 @@ def _check(_model: Model, check: mcp.Check) -> Section:
             "A claimed solution put into Eqs (54)-(59) of the model, without a word from any solver. It is a "
             "solution if every residual is within the tolerance; that does not make it the only one."
         ),
-        headline="passed" if check.passed else "failed",
+        headline="passed" if check.passed else "near" if check.accepted else "failed",
         quantity=f"worst residual {check.worst.value:.1e} ({check.worst.name})",
-        values=(("Mechanism and multipliers", source, "by which the flow rule was checked"),),
+        values=(
+            ("Mechanism and multipliers", source, "by which the flow rule was checked"),
+            _backward(check.backward_error),
+        ),
         checks=_checks(check.residuals, check.tolerance),
         tolerance=check.tolerance,
         warnings=check.remarks + _loose(check.tolerance),
@@ -179,9 +188,31 @@ def _stability(_model: Model, found: Stability) -> Section:
     )
 
 
+def _backward(error: BackwardError) -> tuple[str, str, str]:
+    parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
+    where = _some([f"{name} ({change:.1e})" for name, change in error.places])
+    said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")
+    return "Backward error", f"{error.value:.1e}", said
+
+
+def _proven(proof: Proof) -> tuple[str, str]:
+    """Whether the bounds are theorems, and what that means, or why not."""
+    if proof.complete:
+        return "yes", "theorems about the numbers of the limit problem, rounding errors included"
+    return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
+
+
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     entries = residuals.entries
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
+
+
+def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
+    """The row of the table that says whether the state is a fixed point, where that is known."""
+    change = result.fixed_point_change
+    if change is None:
+        return ()
+    return (("Fixed point", f"{change:.1e}", "change of the load factor with the flow frozen here"),)
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.results import Iteration, LoadPath, Method, Nonassociated, PathStep, Status
 from limitblocks.problem import Turning
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
@@ -34,7 +34,15 @@ def run(*arguments):
 
 
 def solved(
-    model, *, dilatancy=0.2, turning="centroid", tolerance=1e-8, progress=None, status=Status.CONVERGED
+    model,
+    *,
+    dilatancy=0.2,
+    turning="centroid",
+    method="path",
+    tolerance=1e-8,
+    backward_error=None,
+    progress=None,
+    status=Status.CONVERGED,
 ):
     """The associated solution: it satisfies Eqs (54)-(59) where the dilatancy is the friction."""
     bounds = lb.bounds(model)
@@ -48,8 +56,9 @@ def solved(
         frictionless=np.nan,
         associated=bounds.upper,
         residuals=bounds.residuals,
+        backward_error=lb.check_mcp(model, bounds).backward_error,
         status=status,
-        how="by hand",
+        how=f"by hand, {Method(method).value}",
         history=(iteration,),
         dilatancy=dilatancy,
         turning=Turning(turning),
@@ -145,6 +154,15 @@ def test_turning_is_an_option_and_is_kept_in_the_file(verb, file, tmp_path):
     assert "centre of pressure" in refused.stderr
 
 
+@pytest.mark.usefixtures("solver")
+def test_method_is_an_option(file):
+    done = run("nonassociated", file, "--method", "fixed point", "--json")
+    assert json.loads(done.stdout)["how"] == "by hand, fixed point"
+    refused = run("nonassociated", file, "--method", "luck")
+    assert refused.exit_code == 2
+    assert "fixed point" in refused.stderr
+
+
 def test_bounds_are_checked_with_associated_flow(file, tmp_path):
     output = tmp_path / "bounds.json"
     assert run("bounds", file, "-o", output).exit_code == 0
@@ -219,6 +237,21 @@ def test_check_of_an_honest_result_passes(file, result):
 
 def times(factor):
     return lambda numbers: (factor * np.array(numbers)).tolist()
+
+
+def test_check_takes_what_is_exact_for_a_near_model_where_asked_to(file, result):
+    """One thousandth more load factor: an imbalance of less than that of what acts on a block."""
+    changed(result, load_factor=times(1.001))
+    assert run("check", file, result).exit_code == 1
+    done = run("check", file, result, "--backward-error", 1e-3)
+    assert done.exit_code == 0
+    assert "near" in done.stdout
+    assert "loads" in done.stdout
+    found = json.loads(run("check", file, result, "--backward-error", 1e-3, "--json").stdout)
+    assert (found["passed"], found["accepted"], found["backward_error_limit"]) == (False, True, 1e-3)
+    assert found["backward_error"]["value"] == found["backward_error"]["loads"] < 1e-3
+    assert run("check", file, result, "--backward-error", 1e-6).exit_code == 1
+    assert run("check", file, result, "--backward-error", 0).exit_code == 2
 
 
 MUTILATIONS = {

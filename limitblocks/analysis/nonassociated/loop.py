@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
@@ -23,9 +25,10 @@ from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
+from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
-from limitblocks.evidence.results import Iteration, Nonassociated, Status
+from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
@@ -38,9 +41,12 @@ def nonassociated(
     dilatancy: float = 0.0,
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
+    backward_error: float | None = None,
     start: Start | None = None,
+    method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
+    confirm: bool = True,
     throw: bool = True,
 ) -> Nonassociated:
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
@@ -63,29 +69,42 @@ def nonassociated(
         where the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
+    backward_error : float, optional
+        Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
+        its status is then Status.NEARBY. By default only the tolerance counts.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    method : {"path", "fixed point"}
+        The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
+        analyses, each with the friction of the last, from the associated state or `start` on. Often the
+        loop ends at another solution, and it may stall.
     means : sequence of Means
         Paths to follow in turn, until one ends at a solution.
     progress : callable, optional
         Called with each Iteration.
+    confirm : bool
+        Confirm the answer as a fixed point: with the flow frozen at it, the static and the kinematic program
+        of limit analysis give its load factor again (`fixed_point_change`); costs about half of bounds.
     throw : bool
         Raise NotConverged (which carries the best result); if false, return that result with its status.
 
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, or `start` belongs to another model or is no state of it.
+        If the dilatancy is out of range, the method unknown, or `start` belongs to another model or is no
+        state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
         If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
         without limit.
     NotConverged
-        If no path ends within the tolerance, or the user interrupts it.
+        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it.
     """
+    way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    limit = checked_limit(backward_error)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
@@ -103,11 +122,17 @@ def nonassociated(
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
-        x0 = start_stresses(model, problem, problem.compliance, start)
-        scale = load_scale(problem, enclosing.associated)
-        state, how = _reached(flow, x0, scale, means, tolerance, record)
+        first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
+        x0 = start_stresses(model, problem, problem.compliance, first)
+        if way is Method.FIXED_POINT:
+            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
+        else:
+            scale = load_scale(problem, enclosing.associated)
+            state, how = _reached(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+    return finished(
+        model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
+    )
 
 
 def _reached(
@@ -145,6 +170,13 @@ def _point(problem: LimitProblem, at: Progress) -> Iteration:
     return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
 
 
+def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
+    """What a round of the outer loop tells the user."""
+    load_factor = state.load_factor / flow.problem.units.live
+    residuals = mcp_residuals(flow, state).to_dict()
+    return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)
+
+
 def _end(flow: Flow, state: State) -> Iteration:
     load_factor = state.load_factor / flow.problem.units.live
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
@@ -159,14 +191,23 @@ def finished(
     how: str,
     tolerance: float,
     throw: bool,
+    confirm: bool = True,
+    limit: float | None = None,
 ) -> Nonassociated:
-    """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance.
+
+    With a `limit` of the backward error, unless that is within it.
+    """
     problem = flow.problem
+    state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
+    converged = worst.value <= tolerance
+    change = fixed_point_change(flow, state) if confirm and converged else None
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     stopped = Status.INTERRUPTED if how.endswith(INTERRUPTED) else Status.OUT_OF_STEPS
+    near = Status.NEARBY if within(error, residuals, tolerance, limit) else stopped
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
@@ -177,20 +218,22 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if worst.value <= tolerance else stopped,
+        backward_error=error,
+        status=Status.CONVERGED if converged else near,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=locked_shear(flow, state),
+        remarks=locked_shear(flow, state) + unconfirmed(change),
         tolerance=tolerance,
         digest=model.digest,
+        fixed_point_change=change,
     )
-    if throw and not result.converged:
+    if throw and not result.accepted:
         why = INTERRUPTED if stopped is Status.INTERRUPTED else f"no solution within {tolerance:g}"
         raise NotConverged(
-            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}; "
-            "the error's result holds that state",
+            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}, "
+            f"{error}; the error's result holds that state",
             result,
         )
     return result
