@@ -79,6 +79,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
+@np.errstate(all="ignore")  # a state that ran away is not kept
 def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
@@ -111,6 +112,8 @@ def _steps(flow: Flow, state: State, solution: Solution) -> Iterator[State]:
         try:
             now = _step(flow, now, classified(p.cones, s, sigma * now.y), solution)
         except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+            return
+        if not all(np.isfinite(part).all() for part in (now.load_factor, now.x, now.u, now.y)):
             return
         found = _admissible(p.cones, now)
         worst = defect(flow, found)
