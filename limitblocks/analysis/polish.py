@@ -93,6 +93,8 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
         Residual that is small enough.
     """
     best, least = state, defect(flow, state)
+    if least <= until:
+        return best
     for solution in (_proximal_solution, _least_solution):
         for found in _steps(flow, state, solution):
             worst = defect(flow, found)
