@@ -39,7 +39,7 @@ CUT = 0.35  # of the length after a failure
 PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, DECADE, LAST = 1e-3, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
+TRIED, AGAIN, LAST = 1e-3, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
@@ -222,13 +222,13 @@ class _Walk:
         self.correctors = 0
 
     def _closed(self) -> bool:
-        """Whether the polish of a base far down the path is a solution; tried once a decade of theta."""
+        """Whether the polish of a base far down the path is a solution; tried as theta falls."""
         if self.base is None or self.base.point.theta >= self.tried:
             return False
         z = self.base.point
         if z.theta < LAST:
             raise _Lost("no solution at the end")
-        self.tried = DECADE * z.theta
+        self.tried = AGAIN * z.theta
         self._keep(polish(self.path.flow, self.state))
         here = mcp_residuals(self.path.flow, self.state)
         if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
