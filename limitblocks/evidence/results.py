@@ -31,14 +31,14 @@ class Iteration:
     load_factor : float
         Load factor.
     kind : str
-        "path" (a point of the tracked path), "polish" (its end); of the load path "step" (quasi-static),
-        "jump" (across a snap, with viscosity) or "fixed point".
+        "path" (a point of the tracked path), "step" (an increment of the load path), "polish" (the end).
     step_size : float
-        Dimensionless; the work of the live load. Of a path theta, what is left of compliance and barrier.
+        Dimensionless; the work of the live load in an increment. Of a path theta, what is left of compliance and
+        barrier.
     residuals : dict
         All residuals of Eqs (54)-(59); of a point of a path theta.
     inner, failures : int
-        Newton iterations, rounds or factorisations so far, and attempts that failed before.
+        Factorisations (of a path so far, of an increment its own), and attempts that failed before.
     """
 
     load_factor: float
@@ -168,8 +168,8 @@ class PathStep:
     residuals : dict
         Equilibrium and yield violation, over what acts on the blocks.
     kind : str
-        "permanent loads", "step" (quasi-static), "jump" (across a snap), "fixed point" or "polish"
-        (collapse).
+        "permanent loads", "step" (the end of an increment), "before snap", "unstable" (between the two ends
+        of a snap), "after snap" or "polish" (collapse).
     """
 
     load_factor: float
@@ -181,11 +181,59 @@ class PathStep:
 
 
 @dataclass(frozen=True, eq=False)
+class Snap:
+    """A fold of the load path: the displacement would have to fall before it can grow again.
+
+    Both states have the same displacement in the mean of the live load (the work of the live load at load
+    factor one). An experiment under control of that displacement jumps from one to the other.
+
+    Attributes
+    ----------
+    before, after : PathStep
+        The last state before the fold, and the first one on the path beyond it at that displacement.
+    """
+
+    before: PathStep
+    after: PathStep
+
+    @property
+    def drop(self) -> float:
+        """By how much the load factor falls."""
+        return self.before.load_factor - self.after.load_factor
+
+    def __str__(self) -> str:
+        return f"snap from load factor {self.before.load_factor:.6g} to {self.after.load_factor:.6g}"
+
+
+@dataclass(frozen=True, eq=False)
 class LoadPath:
-    """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59)."""
+    """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59).
+
+    Attributes
+    ----------
+    steps : tuple of PathStep
+        States in the order in which they are met.
+    collapse : Nonassociated
+        The end.
+    snaps : tuple of Snap
+        Folds in the displacement, in their order.
+    trace : Array, shape (k, 3)
+        Every point that arclength met: arclength (mean relative change of slacks and multipliers), work of
+        the live load at load factor one (N m; relative to the compliance), load factor. Increments follow
+        one another; at the end of each the barrier fades, which may move the load factor a little.
+    tracked : float
+        What the tracked path of :func:`limitblocks.nonassociated` with a small barrier ends at, NaN where it
+        does not end at a solution.
+    remarks : tuple of str
+        Whether the two agree, and why if they do not.
+    """
 
     steps: tuple[PathStep, ...]
     collapse: Nonassociated
+    snaps: tuple[Snap, ...] = ()
+    trace: Array = field(default_factory=lambda: np.zeros((0, 3)), repr=False)
+    tracked: float = np.nan
+    remarks: tuple[str, ...] = ()
 
     @property
     def load_factor(self) -> float:
@@ -212,7 +260,9 @@ class LoadPath:
         ]
 
     def __str__(self) -> str:
-        return f"load path of {len(self.steps)} steps: {self.collapse}"
+        snaps = f", {len(self.snaps)} snaps" if self.snaps else ""
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"load path of {len(self.steps)} steps{snaps}: {self.collapse}{remarks}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""
@@ -224,4 +274,13 @@ class LoadPath:
             }
             for row, step in zip(self.table(), self.steps, strict=True)
         ]
-        return {"analysis": "path", "steps": steps, "collapse": self.collapse.to_dict()}
+        places = {id(step): k for k, step in enumerate(self.steps)}
+        return {
+            "analysis": "path",
+            "steps": steps,
+            "snaps": [[places[id(snap.before)], places[id(snap.after)]] for snap in self.snaps],
+            "trace": self.trace.tolist(),
+            "tracked": self.tracked,
+            "remarks": list(self.remarks),
+            "collapse": self.collapse.to_dict(),
+        }

@@ -100,5 +100,9 @@ class PathDocument(Document):
     schema_version: Literal[1] = 1
     analysis: Literal["path"]
     steps: Any = None
+    snaps: Any = None
+    trace: Any = None
+    tracked: Any = None
+    remarks: Any = None
     collapse: ResultDocument
     versions: Any = None

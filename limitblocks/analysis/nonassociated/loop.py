@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from limitblocks.analysis.in_si import in_model_order, resultants_of
-from limitblocks.analysis.nonassociated.loading import stages
+from limitblocks.analysis.nonassociated.loading import pushed
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
 from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -30,9 +32,7 @@ from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
-STEPS = Settings(
-    budget=300
-)  # the other way along the load path; it closes walls on which the first one winds
+STEPS = Settings(growth=2.0)  # the other way along the load path, which closes what the first one leaves open
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
 
 
@@ -71,7 +71,7 @@ def nonassociated(
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
+        Paths to follow in turn, until one ends at a solution; after the first of several the increments
         of :func:`limitblocks.load_path` are tried.
     progress : callable, optional
         Called with each Iteration.
@@ -109,7 +109,7 @@ def nonassociated(
         x0 = start_stresses(model, problem, problem.compliance, start)
         scale = load_scale(problem, enclosing.associated)
         state, how = _reached(flow, x0, scale, means, tolerance, record)
-    record(_end(flow, state))
+    record(end(flow, state))
     return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
 
 
@@ -140,11 +140,19 @@ def _reached(
         )
         met.append((polish(flow, state), tracked[-1].how))
         if not solved() and k == 0 and len(means) > 1:
-            steps = stages(flow, x0, weights, tolerance, STEPS, scale)
-            met += [(polish(flow, stage.state), "implicit steps") for stage in steps[-1:]]
+            _, end_state = pushed(flow, x0, weights, tolerance, STEPS, scale)
+            met.append((end_state, "increments of the load path"))
         if solved():
             return met[-1]
     return min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+
+
+def small_barrier(flow: Flow, x0: Array, weights: Array, scale: float, tolerance: float) -> float:
+    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`."""
+    smooth, power = replace(flow, softening=SOFTENING), scale / len(flow.problem.blocks)
+    state = polish(flow, follow(smooth, x0, weights, means=MEANS[:1], power=power)[0])
+    found = mcp_residuals(flow, state).worst.value <= tolerance
+    return state.load_factor / flow.problem.units.live if found else np.nan
 
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:
@@ -153,7 +161,7 @@ def _point(problem: LimitProblem, at: Progress) -> Iteration:
     return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
 
 
-def _end(flow: Flow, state: State) -> Iteration:
+def end(flow: Flow, state: State) -> Iteration:
     load_factor = state.load_factor / flow.problem.units.live
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
 

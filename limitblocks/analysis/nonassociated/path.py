@@ -45,7 +45,7 @@ TRIES = 2  # rounds of the polish on the way
 BUDGET = 600  # factorisations
 
 
-class _Lost(Exception):
+class Lost(Exception):
     """The path cannot be followed any further."""
 
 
@@ -95,7 +95,7 @@ def track(
         The solution, or the best state met, and how the path went.
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
+        walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
         best = walk.best
         if best is None:
@@ -112,7 +112,7 @@ def track(
     return best, found
 
 
-class _Walk:
+class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
@@ -140,7 +140,7 @@ class _Walk:
                 if self.factorisations >= self.budget:
                     return "budget"
                 self._advance()
-        except _Lost as lost:
+        except Lost as lost:
             return str(lost)
         except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
             return "singular start"
@@ -195,7 +195,7 @@ class _Walk:
         if self.progress is not None:
             self.progress(self.points[-1])
         if self.z.theta > RETURNED:
-            raise _Lost("returned")
+            raise Lost("returned")
         if self.base is not None and self.correctors <= 1:
             self.length = min(GROWTH * self.length, LONGEST)
         self.path = moved_on(self.path, self.z)
@@ -207,7 +207,7 @@ class _Walk:
         self.failures += 1
         self.length *= CUT
         if self.base is None or self.length < LEAST:
-            raise _Lost("no step succeeds")
+            raise Lost("no step succeeds")
         self._predict()
 
     def _predict(self) -> None:
@@ -226,7 +226,7 @@ class _Walk:
         if mu >= self.tried:
             return False
         if mu < LAST:
-            raise _Lost("no solution at the end")
+            raise Lost("no solution at the end")
         self.tried = DECADE * mu
         state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y), rounds=TRIES)
         residual = defect(self.path.flow, state)
