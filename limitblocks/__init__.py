@@ -28,7 +28,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Snap, Status
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
 from limitblocks.io import (
@@ -103,6 +103,7 @@ __all__ = [
     "PointContact",
     "Report",
     "Settings",
+    "Snap",
     "SolveError",
     "SolverFailure",
     "Stability",

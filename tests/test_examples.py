@@ -110,6 +110,13 @@ EXPECTED = {
         # mu / sqrt(sin^2 w - mu^2 cos^2 w) at 45 degrees
         "associated": (0.6 / np.sqrt(0.5 - 0.5 * 0.6**2), 1e-6),
     },
+    "20_a_load_path_that_snaps": {  # closed form in the example
+        "collapse over weight": (1, 1e-9),
+        "after the snap over weight": (1, 2e-3),
+        "before the snap over greatest": (0.95, 0.05),  # the barrier rounds the corner
+        "jack moved across the snap": (0, 1e-12),
+        "same end along": (1, 1e-9),
+    },
     "19_does_it_stand": {  # by hand in the example: tan 40 deg > 0.6 > tan 20 deg
         "answers": ([2, 1, 1, 0, 0], 0),  # falls, only by self-stress twice, stands twice
         "vertical force over weight": (1, 1e-6),

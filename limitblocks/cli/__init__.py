@@ -19,6 +19,7 @@ from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
+    Along,
     AsJson,
     ClaimFile,
     Dilatancy,
@@ -116,14 +117,16 @@ def path(
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    along: Along = False,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.path, model, as_json, output, force, **flow)
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        snaps = {"snaps": "along"} if along else {}
+        _answer(analyses.path, model, as_json, output, force, **flow, **snaps)
 
 
 @app.command()

@@ -16,6 +16,9 @@ OwnTolerance = Annotated[
 ]
 Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under bending turns about.")]
+Along = Annotated[
+    bool, typer.Option("--along", help="Steps along snaps, too: the unstable states that they jump over.")
+]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")

@@ -33,8 +33,8 @@ class Iteration:
     kind : str
         "path" (a point of the tracked path), "step" (an increment of the load path), "polish" (the end).
     step_size : float
-        Dimensionless; the work of the live load in an increment. Of a path theta, what is left of compliance and
-        barrier.
+        Dimensionless; the work of the live load in an increment. Of a path theta, what is left of compliance
+        and barrier.
     residuals : dict
         All residuals of Eqs (54)-(59); of a point of a path theta.
     inner, failures : int

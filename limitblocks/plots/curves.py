@@ -26,7 +26,14 @@ from limitblocks.plots.style import (
 )
 
 COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
-KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*", "polish": "*"}
+KINDS = {
+    "permanent loads": "D",
+    "step": "o",
+    "before snap": "v",
+    "unstable": "x",
+    "after snap": "^",
+    "polish": "*",
+}
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
@@ -80,6 +87,8 @@ def load_path(
 ) -> Any:
     """Draw the load factor against a displacement of one block, from the permanent loads to collapse.
 
+    Folds are marked by triangles; a broken line leads across a snap.
+
     Parameters
     ----------
     path : LoadPath
@@ -112,11 +121,17 @@ def load_path(
     k, axis = rows[int(row)], axes[int(column)]
     x, loads = path.curve(k, axis)
     ax = curve_axes(ax)
-    ax.plot(x, loads, "-", color=BLUE, linewidth=1.4)
+    snaps = [(k, k + 1) for k, step in enumerate(path.steps[1:]) if step.kind == "after snap"]
+    across = [pair for pair in snaps if path.steps[pair[0]].kind == "before snap"]
+    line = loads.astype(float)
+    for before, after in across:
+        ax.plot(x[[before, after]], loads[[before, after]], "--", color=PALE, linewidth=1.2)
+    breaks = [after for _, after in across]
+    ax.plot(np.insert(x, breaks, np.nan), np.insert(line, breaks, np.nan), "-", color=BLUE, linewidth=1.4)
     for kind in dict.fromkeys(step.kind for step in path.steps):
         these = [step.kind == kind for step in path.steps]
         size = 11.0 if kind == "polish" else 4.5
-        style = {"color": VERMILION if kind == "polish" else BLUE, "markersize": size}
+        style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
         ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")

@@ -101,6 +101,9 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
     )
 
 
+SNAP = "load factors before and after, at one displacement of the live load"
+
+
 def _path(model: Model, path: LoadPath) -> Section:
     end = _nonassociated(model, path.collapse)
     last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
@@ -115,6 +118,11 @@ def _path(model: Model, path: LoadPath) -> Section:
         values=(
             ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
             ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
+            ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
+            *(
+                ("Snap", f"{one.before.load_factor:#.7g} to {one.after.load_factor:#.7g}", SNAP)
+                for one in path.snaps
+            ),
             *end.values[1:5],
         ),
         checks=end.checks,

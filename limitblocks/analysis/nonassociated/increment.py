@@ -5,9 +5,9 @@ From the stresses x_k the increments du, dy of displacements and multipliers sat
     W (x - x_k) = C du + G(x)^T dy,   dead + a live = C^T x,   live . du = tau,
     F x + g = s,   s o dy = nu,   s, dy in int K
 
-With u = du / tau and y = dy / tau these are the equations of a path with rho = 1 / tau and mu = nu / tau. So theta
-is the least tau over tau, and where theta turns the structure snaps back: tau has to fall before it can go on
-growing. At the last tau the barrier fades at a fixed rho; the increment ends on the yield surface itself.
+With u = du / tau and y = dy / tau these are the equations of a path with rho = 1 / tau and mu = nu / tau. So
+theta is the first tau over tau, and where theta turns the structure snaps back: tau has to fall before it can
+go on growing. At the last tau the barrier fades at a fixed rho; the increment ends on the yield surface.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path import Lost, Walk
+from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array
@@ -47,21 +47,27 @@ class Increment:
 
     @property
     def folds(self) -> tuple[tuple[int, int], ...]:
-        """Places of the last visit before each fold, and of the first one beyond it at that tau or more."""
-        found, k = [], 0
-        while k + 1 < len(self.visits):
-            if self.visits[k + 1].forward:
-                k += 1
-                continue
-            rho = self.visits[k].rho
-            j = next(
-                j
-                for j in range(k + 1, len(self.visits))
-                if self.visits[j].rho <= rho and self.visits[j].forward
-            )
-            found.append((k, j))
-            k = j
+        """Places of the visit of largest tau at each fold, and of the first beyond it at that tau or more."""
+        at, found, k = self.visits, [], 1
+        while k < len(at):
+            if not at[k].forward:
+                fold = k - 1
+                while at[fold + 1].rho < at[fold].rho:
+                    fold += 1
+                later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
+                k = next(later, len(at) - 1)
+                found.append((fold, k))
+            k += 1
         return tuple(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """What came of an increment: itself if it succeeded, else whether a snap goes back beyond its start."""
+
+    increment: Increment | None
+    factorisations: int
+    returned: bool = False
 
 
 class _Stretch(Walk):
@@ -75,7 +81,15 @@ class _Stretch(Walk):
     @property
     def arrived(self) -> bool:
         """Whether the last point kept is at the end."""
-        return bool(self.kept) and self.kept[-1].theta <= ARRIVED * self.until
+        return bool(self.kept) and self.kept[-1].theta <= ARRIVED * self.until and self._forward(-1)
+
+    @property
+    def returned(self) -> bool:
+        """Whether the path went back to where tau is zero."""
+        return bool(self.kept) and self.kept[-1].theta > RETURNED
+
+    def _forward(self, k: int) -> bool:
+        return self.points[k].sign == self.points[0].sign
 
     def go(self) -> str:
         """Follow the path as far as it is asked for."""
@@ -103,14 +117,14 @@ class _Stretch(Walk):
             d = b.moved(-1.0, a)
             lengths.append(lengths[-1] + float(np.sqrt(inner(self.path.cones, a, d, d))))
         return tuple(
-            Visit(z, rho * z.theta, length, at.sign == self.points[0].sign)
-            for z, length, at in zip(self.kept, lengths, self.points, strict=True)
+            Visit(z, rho * z.theta, length, self._forward(k))
+            for k, (z, length) in enumerate(zip(self.kept, lengths, strict=True))
         )
 
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
-def increment(path: Path, weights: Array, rho: float) -> tuple[Increment | None, int]:
-    """Push by 1 / rho from the stresses path.x0; return what was met, None if it fails, and the factorisations.
+def increment(path: Path, weights: Array, rho: float) -> Tried:
+    """Push by 1 / rho from the stresses path.x0.
 
     Parameters
     ----------
@@ -126,18 +140,18 @@ def increment(path: Path, weights: Array, rho: float) -> tuple[Increment | None,
     try:
         start, used = centred(curve)
     except (RuntimeError, ValueError, np.linalg.LinAlgError):
-        return None, 1
+        return Tried(None, 1)
     if start is None:
-        return None, used
+        return Tried(None, used)
     walk = _Stretch(curve, start, 1.0 / SPAN)
     walk.go()
     used += walk.factorisations
     if not walk.arrived:
-        return None, used
+        return Tried(None, used, walk.returned)
     last = walk.kept[-1]
     size, rho = path.barrier.size * last.theta, first * last.theta
     fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=rho * weights)
     fade = _Stretch(fading, replace(last, theta=1.0), NO_BARRIER / size)
     fade.go()
     used += fade.factorisations
-    return (Increment(walk.visits(first), fade.kept[-1], rho) if fade.arrived else None), used
+    return Tried(Increment(walk.visits(first), fade.kept[-1], rho) if fade.arrived else None, used)

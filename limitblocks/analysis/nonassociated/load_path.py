@@ -76,8 +76,8 @@ def load_path(
     Raises
     ------
     ModelError
-        If a stiffness is not positive or a joint has none, `snaps` is unknown, the dilatancy is out of range, or
-        `start` belongs to another model or is no state of it.
+        If a stiffness is not positive or a joint has none, `snaps` is unknown, the dilatancy is out of
+        range, or `start` belongs to another model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     NotConverged
@@ -126,9 +126,10 @@ def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:
     off = abs(tracked - load_factor)
     if off <= AGREE * abs(load_factor):
         return (f"the tracked path of nonassociated ends at the same load factor, within {AGREE:g}",)
+    share = 100.0 * off / max(abs(load_factor), abs(tracked))
     return (
-        f"the tracked path of nonassociated ends at {tracked:.6g}, {100.0 * off / abs(load_factor):.2g} % off: it "
-        "pushes once for all, so that slip may go back, and its barrier rounds the corners of yield",
+        f"the tracked path of nonassociated ends at {tracked:.6g}, {share:.2g} % off: it pushes "
+        "once for all, so that slip may go back, and its barrier rounds the corners of yield",
     )
 
 
@@ -182,5 +183,5 @@ def _means(problem: LimitProblem) -> tuple[float, float]:
 
 
 def _unit(model: Model, problem: LimitProblem) -> Array:
-    """Displacements of the free blocks (6 n,), m and rad, over dimensionless ones of joints of softness one."""
+    """Displacements of the free blocks (6 n,), m and rad, over dimensionless ones, for softness one."""
     return np.asarray(np.prod(_means(model.problem)) / problem.units.loads)

@@ -1,8 +1,8 @@
 """Increments from the permanent loads to collapse: each starts at the stresses of the one before.
 
 Slip that has stopped stays where it is, as in incremental plasticity: multipliers of an increment are not
-negative, whatever flowed before. At collapse the stresses stop changing, the compliance plays no part any more
-and Eqs (54)-(59) hold; the polish takes them to rounding.
+negative, whatever flowed before. At collapse the stresses stop changing, the compliance plays no part any
+more and Eqs (54)-(59) hold; the polish takes them to rounding.
 """
 
 from __future__ import annotations
@@ -34,8 +34,9 @@ LEAST = 1e-6  # of the first increment: smaller ones are not tried
 
 @dataclass(frozen=True, eq=False)
 class Pushed:
-    """An increment, the state at its end with its residuals, and what it cost."""
+    """An increment, the stresses it starts from, the state at its end, its residuals, and its cost."""
 
+    start: Array
     increment: Increment
     state: State
     residuals: Residuals
@@ -92,22 +93,28 @@ def pushed(
     state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
-        met, cost = increment(path, weights, rho)
-        used += cost
-        if met is None:
-            log.info("increment rho %.2g failed after %d", rho, cost)
-            failures, rho = failures + 1, rho * settings.growth**2
+        met = increment(path, weights, rho)
+        used += met.factorisations
+        if met.increment is None:
+            log.info("increment rho %.2g failed after %d", rho, met.factorisations)
+            failures += 1
+            if met.returned and found:  # a snap longer than the increment: once more, from farther back
+                last = found.pop()
+                path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
+            else:
+                rho *= settings.growth**2
             continue
-        z = met.end
+        z = met.increment.end
         state = State(z.load_factor, z.x, z.u, z.y)
-        found.append(Pushed(met, state, mcp_residuals(flow, state), cost, failures))
+        proof = mcp_residuals(flow, state)
+        found.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
             progress(found[-1])
         closed = _closed(flow, found[-1], tolerance)
         if closed is not None:
             return tuple(found), closed
         path, failures = replace(path, x0=z.x), 0
-        rho /= FAST if found[-1].residuals["flow"] < NEAR / 10.0 else settings.growth
+        rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     return tuple(found), polish(flow, state)
 
 

@@ -162,6 +162,7 @@ def _point(problem: LimitProblem, at: Progress) -> Iteration:
 
 
 def end(flow: Flow, state: State) -> Iteration:
+    """What the polished end tells the user."""
     load_factor = state.load_factor / flow.problem.units.live
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
 

@@ -63,7 +63,7 @@ def _ends(increment: Increment, before: int, after: int) -> tuple[State, State]:
     That one lies between two visits. On the line between them equilibrium holds, and yield since K is convex.
     """
     fold, a, b = (increment.visits[k] for k in (before, after - 1, after))
-    t = (1.0 / fold.rho - 1.0 / a.rho) / (1.0 / b.rho - 1.0 / a.rho)
+    t = min(1.0, (1.0 / fold.rho - 1.0 / a.rho) / (1.0 / b.rho - 1.0 / a.rho))
     one, two = _total(a), _total(b)
     mixed = State(
         one.load_factor + t * (two.load_factor - one.load_factor),
@@ -110,7 +110,7 @@ class _Teller:
         return step
 
     def trace(self, increment: Increment, length: float) -> Array:
-        """Arclength, work of the live load at load factor one, and load factor of the visits, shape (k, 3)."""
+        """Arclength, work of the live load at load factor one, load factor of each visit, shape (k, 3)."""
         units = self.flow.problem.units
         return np.array(
             [
