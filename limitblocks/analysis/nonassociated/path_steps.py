@@ -98,7 +98,7 @@ class _Teller:
         flowing = self._flowing(rates or state)
         residuals = mcp_residuals(self.flow, state)
         step = PathStep(
-            load_factor=state.load_factor / problem.units.live,
+            load_factor=float(state.load_factor / problem.units.live),
             stress_resultants=resultants_of(problem, state.x),
             displacements=read_only(moved),
             active=tuple(sorted(flowing - self.flowing)),
