@@ -116,4 +116,4 @@ def test_folds_are_where_the_displacement_turns():
 
 def test_an_unknown_way_over_snaps_is_refused():
     with pytest.raises(lb.ModelError, match="snaps is 'over', expected 'across' or 'along'"):
-        lb.load_path(structures.block(lb.PointContact(0.3)), snaps="over")
+        lb.load_path(structures.column(lb.PointContact(0.3), count=1, width=0.6, height=0.25), snaps="over")
