@@ -14,11 +14,13 @@ falling:
 
 The jack (of weight J, stiffness K) moves by d + F/K. Where the seat loses force faster than K, d can only
 grow if the jack goes *back*: 1 + (dF/dd) / K < 0. A slow experiment moves the jack on, and the plug snaps out
-of the seat. The library follows the states between by arclength (Allgower & Georg 1990, Numerical
-Continuation Methods), reports the two ends of the snap, and goes on to where the push carries all the weight.
+of the seat. The library follows the states between by arclength, reports the two ends of the snap, and goes
+on to where the push carries all the weight.
 
 The greatest load comes out some percent low: the barrier of the increments rounds so sharp a corner. What
 comes after the snap, and the collapse, have nothing to do with it.
+
+Source: derived above; snaps followed by arclength: Riks (1979), Int. J. Solids Structures 15, 529-551.
 """
 
 import sys

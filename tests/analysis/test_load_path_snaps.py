@@ -97,6 +97,20 @@ def test_along_a_snap_the_jack_goes_back(snapped):
     assert len(document["trace"]) == len(path.trace)
 
 
+def test_its_curve_and_its_report_show_the_snap(snapped):
+    pytest.importorskip("matplotlib")
+    how, model, path = snapped
+    ax = lb.plots.load_path(path, model, block="jack", component="Z")
+    labels = {text.get_text() for text in ax.get_legend().get_texts()}
+    assert {"before snap", "after snap"} <= labels
+    assert ("unstable" in labels) == (how == "along")
+    assert [line.get_linestyle() for line in ax.lines].count("--") == (how == "across")
+    (row,) = (row for row in lb.report(model, path).sections[0].values if row[0] == "Snap")
+    assert [float(number) for number in row[1].split(" to ")] == pytest.approx(
+        [path.snaps[0].before.load_factor, path.snaps[0].after.load_factor], rel=1e-6
+    )
+
+
 def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
     """Else the path is lost where it goes back beyond the start of the increment."""
     whole = loading.increment

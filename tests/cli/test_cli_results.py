@@ -130,6 +130,7 @@ def test_path_prints_its_steps(file, tmp_path):
         assert part in done.stdout
     assert run("check", file, output).exit_code == 0
     assert len(json.loads(run("path", file, "--json").stdout)["steps"]) == 2
+    assert run("path", file, "--along").exit_code == 0
 
 
 @pytest.mark.usefixtures("solver")
