@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
@@ -19,6 +20,7 @@ Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under b
 Along = Annotated[
     bool, typer.Option("--along", help="Steps along snaps, too: the unstable states that they jump over.")
 ]
+Way = Annotated[Method, typer.Option("--method", help="How a solution is looked for.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")

@@ -90,12 +90,6 @@ def test_each_means_closes_what_those_before_it_leave_open(name, direction, mean
     assert f"barrier {barrier.size:g}, power {barrier.power:g}, seed {seed}" in found.how
 
 
-def test_increments_close_a_wall_on_which_the_first_path_winds():
-    found = lb.nonassociated(pushed("buttressed_wall", lb.OrdunaLourenco(0.7), (0, 1, 0)))
-    assert found.residuals.worst.value <= 1e-8
-    assert found.how == "increments of the load path"
-
-
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
 def test_the_derivative_is_that_of_the_equations(joint, rule):

@@ -18,13 +18,15 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
-from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner, moved
+from limitblocks.analysis.nonassociated.path_newton import REFINED
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array
 
 SPAN = 10.0  # last tau over the first one: the elastic part of an increment needs no points
 ARRIVED = 1.01  # times the last theta
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
+FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
 
 
@@ -107,8 +109,8 @@ class _Stretch(Walk):
     def _predict(self) -> None:
         super()._predict()
         if self.base is not None and self.z.theta < self.until:
-            tangent = self.base.tangent
-            self.z = self.z.moved((self.until - self.z.theta) / tangent.theta, tangent)
+            start, tangent = moved(self.path, self.base.point, 1.0, self.base.correction), self.base.tangent
+            self.z = moved(self.path, start, (self.until - start.theta) / tangent.theta, tangent)
 
     def visits(self, rho: float) -> tuple[Visit, ...]:
         """The points kept; rho is that at theta = 1."""
@@ -149,9 +151,9 @@ def increment(path: Path, weights: Array, rho: float) -> Tried:
     if not walk.arrived:
         return Tried(None, used, walk.returned)
     last = walk.kept[-1]
-    size, rho = path.barrier.size * last.theta, first * last.theta
+    size, rho = path.barrier.size * last.theta / FADING, first * last.theta
     fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=rho * weights)
-    fade = _Stretch(fading, replace(last, theta=1.0), NO_BARRIER / size)
+    fade = _Stretch(fading, replace(last, theta=FADING), NO_BARRIER / size)
     fade.go()
     used += fade.factorisations
     return Tried(Increment(walk.visits(first), fade.kept[-1], rho) if fade.arrived else None, used)

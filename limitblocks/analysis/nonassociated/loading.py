@@ -27,7 +27,6 @@ log = logging.getLogger(__name__)
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 while stepping
 NEAR = 0.1  # flow residual below which the polish is tried
 DRIFT = 1e-3  # change of the load factor, relative, up to which the polished state is that of the increment
-ROUNDS = 3  # of the polish
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
 LEAST = 1e-6  # of the first increment: smaller ones are not tried
 
@@ -118,10 +117,11 @@ def pushed(
     return tuple(found), polish(flow, state)
 
 
+@np.errstate(all="ignore")  # a state that ran away is no collapse
 def _closed(flow: Flow, last: Pushed, tolerance: float) -> State | None:
     """The collapse that an increment ends at, None if it does not."""
     if last.residuals["flow"] > NEAR:
         return None
-    state, before = polish(flow, last.state, rounds=ROUNDS), last.state.load_factor
+    state, before = polish(flow, last.state), last.state.load_factor
     near = abs(state.load_factor - before) <= DRIFT * max(abs(state.load_factor), abs(before))
     return state if near and mcp_residuals(flow, state).worst.value <= tolerance else None
