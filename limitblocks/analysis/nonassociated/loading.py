@@ -25,6 +25,7 @@ from limitblocks.problem import Flow, State
 log = logging.getLogger(__name__)
 
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 while stepping
+ADMISSIBLE = 1e-8  # residuals of equilibrium and yield at the end of an increment
 NEAR = 0.1  # flow residual below which the polish is tried
 DRIFT = 1e-3  # change of the load factor, relative, up to which the polished state is that of the increment
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
@@ -46,6 +47,7 @@ class Pushed:
 Progress = Callable[[Pushed], None]
 
 
+@np.errstate(all="ignore")  # a state that ran away is none of the path
 def pushed(
     flow: Flow,
     x0: Array,
@@ -94,7 +96,8 @@ def pushed(
     while used < settings.budget and rho * LEAST < first:
         met = increment(path, weights, rho)
         used += met.factorisations
-        if met.increment is None:
+        proof = None if met.increment is None else _proof(flow, met.increment)
+        if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
             if met.returned and found:  # a snap longer than the increment: once more, from farther back
@@ -105,7 +108,6 @@ def pushed(
             continue
         z = met.increment.end
         state = State(z.load_factor, z.x, z.u, z.y)
-        proof = mcp_residuals(flow, state)
         found.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
             progress(found[-1])
@@ -117,7 +119,13 @@ def pushed(
     return tuple(found), polish(flow, state)
 
 
-@np.errstate(all="ignore")  # a state that ran away is no collapse
+def _proof(flow: Flow, met: Increment) -> Residuals | None:
+    """Residuals of the end of an increment, None where it is not in equilibrium within yield."""
+    z = met.end
+    found = mcp_residuals(flow, State(z.load_factor, z.x, z.u, z.y))
+    return found if max(found["equilibrium"], found["yield"]) <= ADMISSIBLE else None
+
+
 def _closed(flow: Flow, last: Pushed, tolerance: float) -> State | None:
     """The collapse that an increment ends at, None if it does not."""
     if last.residuals["flow"] > NEAR:

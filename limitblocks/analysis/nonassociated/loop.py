@@ -158,6 +158,7 @@ def _reached(
     return state, f"{how}, {INTERRUPTED}" if tracked[-1].interrupted else how
 
 
+@np.errstate(all="ignore")  # a state that ran away is no solution
 def small_barrier(flow: Flow, x0: Array, weights: Array, scale: float, tolerance: float) -> float:
     """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`."""
     state, _ = _reached(flow, x0, scale, MEANS[:1], tolerance, lambda _: None)
