@@ -6,6 +6,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated import loop
 
 DOWN, UP = (0, 0, -1), (0, 0, 1)
 ANALYSES = [lb.bounds, lb.nonassociated, lb.load_path]
@@ -41,6 +42,14 @@ def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
 def test_more_weight_does_not_end_what_stands():
     with pytest.raises(lb.UnlimitedLoad, match="without limit"):
         lb.bounds(arch(0.25, DOWN))
+
+
+def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monkeypatch):
+    """Normal forces alone carry it, so that no mechanism of any flow rule does positive work."""
+    monkeypatch.setattr(loop, "follow", None)
+    model = replace(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), live=lb.mass_proportional(DOWN))
+    with pytest.raises(lb.UnlimitedLoad, match="normal forces alone balance it"):
+        lb.nonassociated(model)
 
 
 def test_lifted_blocks_part_where_their_weight_is_gone():

@@ -9,7 +9,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated import path as tracking
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
-from limitblocks.analysis.nonassociated.means import MEANS
+from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
@@ -81,13 +81,38 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
 
 @pytest.mark.parametrize(
     ("name", "direction", "means"),
-    [("cantilever_stair", (1, 0, 0), 2), ("dome", (1, 0, 0), 3), ("groin_vault", (1, 1, 0), 4)],
+    [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3), ("dome", (0, 1, 0), 4)],
 )
-def test_each_means_closes_what_those_before_it_leave_open(name, direction, means):
-    found = lb.nonassociated(pushed(name, lb.OrdunaLourenco(0.7), direction))
+def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, means):
+    found = lb.nonassociated(pushed(name, lb.OrdunaLourenco(0.7), direction), means=MEANS[means - 2 : means])
     assert found.residuals.worst.value <= 1e-8
     barrier, seed, _ = MEANS[means - 1]
     assert f"barrier {barrier.size:g}, power {barrier.power:g}, seed {seed}" in found.how
+
+
+def test_proximal_rounds_close_a_path_of_which_only_compliance_is_left(monkeypatch):
+    model = pushed("pavilion_vault", lb.OrdunaLourenco(0.7), (1, 0, 0))
+    settings = {"means": [Means(Barrier(0.02, 2.0), 1, 330)], "throw": False}
+    assert lb.nonassociated(model, **settings).converged
+    monkeypatch.setattr(tracking, "settled", lambda _path, _z: ())
+    assert not lb.nonassociated(model, **settings).converged
+
+
+def test_an_interrupted_path_leaves_its_best_state():
+    model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    seen = []
+
+    def press(iteration):
+        seen.append(iteration)
+        if len(seen) == 10:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match="interrupted: flow residual") as caught:
+        lb.nonassociated(model, progress=press)
+    found = caught.value.result
+    assert found.status.name == "INTERRUPTED"
+    assert found.load_factor == seen[8].load_factor  # the last point that was accepted as a whole
+    assert found.how.endswith("interrupted")
 
 
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
@@ -98,7 +123,7 @@ def test_the_derivative_is_that_of_the_equations(joint, rule):
     z, _ = centred(path)
     random = np.random.default_rng(0)
     q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))
-    d = Newton(path, z).solve(q)
+    (d,) = Newton(path, z).solve(q)
     h = 1e-5
     ends = [residuals(path, z.moved(t, d)) for t in (h, -h)]
     for name in ("flow", "balance", "work", "slack", "product"):
@@ -115,7 +140,8 @@ def test_the_stresses_move_on_without_a_jump_of_the_path():
     flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
     path = path_from(flow, x0, weights, Barrier(floor=2.0), 0)
     z, _ = centred(path)
-    z = z.moved(0.5, Newton(path, z).solve(theta_slope(path, z).negative()))
+    (d,) = Newton(path, z).solve(theta_slope(path, z).negative())
+    z = z.moved(0.5, d)
     onward = moved_on(path, z)
     assert np.abs(onward.x0 - path.x0).max() > 1e-3
     np.testing.assert_allclose(residuals(onward, z).flow, residuals(path, z).flow, atol=1e-12)

@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from limitblocks.problem import Cones
+from limitblocks.problem.barrier import central
 from limitblocks.problem.cones import rays
 
 CONES = Cones(2, ((2, 3), (1, 4)))
@@ -143,3 +144,13 @@ def test_rays_lie_on_the_boundary_in_the_planes_of_two_axes(size):
     np.testing.assert_allclose(found[:, 0], np.linalg.norm(found[:, 1:], axis=1), atol=1e-15)
     assert (np.count_nonzero(np.abs(found[:, 1:]) > 1e-12, axis=1) <= 2).all()
     assert len(found) == {2: 2, 3: 8, 4: 24}[size]
+
+
+@given(VECTORS, st.floats(1e-9, 10.0))
+def test_central_pairs_differ_by_v_and_multiply_to_the_identity(v, product):
+    products = product * CONES.identity
+    s, y = central(CONES, v, products)
+    np.testing.assert_allclose(s - y, v, atol=1e-12)
+    np.testing.assert_allclose(CONES.product(s, y), products, atol=1e-9)
+    assert CONES.margin(s).min() > 0.0
+    assert CONES.margin(y).min() > 0.0

@@ -12,12 +12,10 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
+from limitblocks.analysis.polish import diagonal_factors
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Flow, LimitProblem
-
-DIAGONAL = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # no row exchanges
 
 
 def _places(owner: Indices, m: int) -> Indices:
@@ -156,7 +154,7 @@ class Layout:
         n = int(row.max()) + 1
         matrix = sparse.coo_array((np.ones(len(row)), (row, column)), shape=(n, n)).tocsc()
         dominant = sparse.csc_array(matrix + abs(matrix).sum() * sparse.eye_array(n))
-        return np.asarray(linalg.splu(dominant, permc_spec="MMD_AT_PLUS_A", **DIAGONAL).perm_c)
+        return np.asarray(diagonal_factors(dominant).perm_c)
 
     def factors(self, parts: Array) -> Any:
         """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
@@ -165,7 +163,7 @@ class Layout:
         live = self.problem.live[self.problem.live != 0.0]
         data[border] = np.concatenate([live, live])
         matrix = sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
-        return linalg.splu(matrix, permc_spec="NATURAL", **DIAGONAL)
+        return diagonal_factors(matrix, "NATURAL")
 
     def solved(self, lu: Any, right: Array) -> Array:
         """Return the solution of those factors for right-hand sides (6 n + 1, c)."""

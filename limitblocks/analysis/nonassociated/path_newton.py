@@ -12,12 +12,11 @@ from limitblocks.analysis.nonassociated.path_equations import Equations, Path, P
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import quotient, slope
 
-
 REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
 
 
 class _Columns(NamedTuple):
-    """Right-hand sides of the five equations as columns, products divided by s; or directions in (x, u, a, s, y)."""
+    """Right-hand sides of the five equations, products over s, or directions by x, u, a, s, y: columns."""
 
     flow: Array
     balance: Array
@@ -85,9 +84,13 @@ class Newton:
         return _Columns(flow, balance, q.work - p.live @ d.balance, none, none)
 
     def _columns(self, right: tuple[Equations, ...]) -> _Columns:
-        products = [quotient(self.path.cones, self.z.s, q.product) for q in right]
-        parts = [[q.flow for q in right], [q.balance for q in right], [[q.work] for q in right]]
-        return _Columns(*(np.stack(part, axis=1) for part in [*parts, [q.slack for q in right], products]))
+        return _Columns(
+            np.column_stack([q.flow for q in right]),
+            np.column_stack([q.balance for q in right]),
+            np.array([[q.work for q in right]]),
+            np.column_stack([q.slack for q in right]),
+            np.column_stack([quotient(self.path.cones, self.z.s, q.product) for q in right]),
+        )
 
     def _flexed(self, v: Array) -> Array:
         layout = self.path.layout

@@ -104,7 +104,7 @@ def load_scale(problem: LimitProblem, associated: float) -> float:
 
 
 def refuse_jammed(enclosing: Bracket) -> None:
-    """Raise UnlimitedLoad where no mechanism of any flow rule exists: without friction nothing limits the load.
+    """Raise UnlimitedLoad where no mechanism of any flow rule exists: the load is unlimited without friction.
 
     Then normal forces x alone balance the live load, and G x in K as shear and torsion are zero. A mechanism
     C u = -G^T y with live.u = 1 would give 1 = x.C u = -(G x).y <= 0.
