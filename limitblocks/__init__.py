@@ -29,7 +29,8 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.range_result import LoadFactorRange, Origin, RangeAnswer
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces

@@ -7,13 +7,12 @@ wrong, 3 no solution found.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from limitblocks.cli import analyses
+from limitblocks.cli.answers import answered, printed
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
@@ -22,11 +21,16 @@ from limitblocks.cli.options import (
     AsJson,
     ClaimFile,
     Dilatancy,
+    Exact,
     Force,
+    Mechanisms,
     ModelFile,
     OwnTolerance,
+    Paths,
     ReportFile,
     ResultFile,
+    Seconds,
+    Seed,
     Tolerance,
     Turns,
     Version,
@@ -34,7 +38,7 @@ from limitblocks.cli.options import (
     WithPath,
 )
 from limitblocks.cli.studies import studies
-from limitblocks.errors import NotConverged, UnlimitedLoad
+from limitblocks.errors import UnlimitedLoad
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
@@ -76,7 +80,7 @@ def stability(
 ) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = _answer(analyses.stability, model, as_json, output, force)
+        found = answered(analyses.stability, model, as_json, output, force)
     if not found.stands:
         raise typer.Exit(1)
 
@@ -91,7 +95,7 @@ def bounds(
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
-        _answer(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
+        answered(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
 
 
 @app.command()
@@ -107,7 +111,7 @@ def nonassociated(
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
         flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
+        answered(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
 @app.command()
@@ -123,7 +127,28 @@ def path(
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
         flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.path, model, as_json, output, force, **flow)
+        answered(analyses.path, model, as_json, output, force, **flow)
+
+
+@app.command(name="range")
+def load_factor_range(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    paths: Paths = 15,
+    mechanisms: Mechanisms = 100,
+    seed: Seed = 0,
+    time_limit: Seconds = 120.0,
+    exact: Exact = False,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print certified load factors of many ways, and how far they reach."""
+    with clean_errors():
+        settings = {"dilatancy": dilatancy, "turning": turning, "paths": paths, "mechanisms": mechanisms}
+        settings |= {"seed": seed, "time_limit": time_limit, "exact": exact}
+        answered(analyses.load_factor_range, model, as_json, output, force, **settings)
 
 
 @app.command()
@@ -140,7 +165,7 @@ def check(
         found = check_mcp(structure, claim, tolerance=tolerance)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
-        _print(structure, found, as_json)
+        printed(structure, found, as_json)
         found.require()
 
 
@@ -209,39 +234,3 @@ def _bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[
             raise
         typer.echo(f"warning: no bounds: {error}", err=True)
         return []
-
-
-def _answer(
-    solve: Callable[..., Any],
-    file: Path,
-    as_json: bool,
-    output: Path | None,
-    force: bool,
-    **settings: Any,
-) -> Any:
-    """Solve the model in `file`, write and print the result; write the best state where it stopped early."""
-    from limitblocks.io import read, write_result
-
-    refuse_existing(output, force, file)
-    model = read(file)
-    try:
-        result = solve(model, **settings)
-    except NotConverged as error:
-        if output and error.result is not None:
-            write_result(error.result, output, overwrite=force)
-            typer.echo(f"the best state found, not a solution, is in {output}", err=True)
-        raise
-    if output:
-        write_result(result, output, overwrite=force)
-    _print(model, result, as_json)
-    return result
-
-
-def _print(model: Model, result: Any, as_json: bool) -> None:
-    from limitblocks.io.result_file import result_text
-    from limitblocks.report.terminal import print_result
-
-    if as_json:
-        typer.echo(result_text(result))
-    else:
-        print_result(model, result)

@@ -9,12 +9,14 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.report.curve import convergence_curve, path_curve
+from limitblocks.report.range_section import range_section
 from limitblocks.report.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
@@ -179,6 +181,10 @@ def _stability(_model: Model, found: Stability) -> Section:
     )
 
 
+def _range(_model: Model, found: LoadFactorRange) -> Section:
+    return range_section(found, limits, _checks)
+
+
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     entries = residuals.entries
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
@@ -204,4 +210,5 @@ _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
     LoadPath: _path,
     mcp.Check: _check,
     Stability: _stability,
+    LoadFactorRange: _range,
 }

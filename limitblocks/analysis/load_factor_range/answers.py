@@ -13,11 +13,11 @@ from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array
 from limitblocks.evidence.check import check_mcp
-from limitblocks.evidence.range_result import Origin, RangeAnswer
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State
+from limitblocks.problem import Flow, LimitProblem, State
 
 DISTINCT = 1e-4  # of the scale of load factors: nearer ones are one answer
 NOISE = 1e-9  # of the multipliers: mechanisms that hardly slip have no thrust to compare
@@ -141,5 +141,15 @@ def of_result(
         origin=origin,
         moving=moving,
         share=float(sum(b.weight for b in free if b.name in moves) / sum(b.weight for b in free)),
-        thrust=now / before if before > NOISE * abs(y).sum() else 1.0,
+        thrust=max(0.0, now) / before if before > NOISE * abs(y).sum() else 1.0,
+    )
+
+
+def state_of(model: Model, problem: LimitProblem, found: Nonassociated) -> State:
+    """Return a result as a dimensionless state."""
+    supports = set(model.supports)
+    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
+    rates = found.displacement_rates[places].ravel()
+    return problem.dimensionless(
+        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
     )

@@ -5,11 +5,12 @@ With binary z for each yield row, and limits M of the slacks and Y of the multip
     min or max a,   dead + a live = C^T x,   0 <= F x + g <= M (1 - z),   0 <= y <= Y z,
     C u + G^T y = 0,   live . u = 1.
 
-M is exact where the admissible slack has a greatest value (a linear program a row); where it has none, because
-the structure can be wedged, it is a cap that the result states. Y is a normalisation: mechanisms are left out on
-which the live load works less than 1 / Y of the largest multiplier. It cannot be derived from linear programs:
-mechanisms on which the live load does no work may be added to any other. The power of all forces gives cuts,
-with (F - G) x >= 0 what slipping takes up per multiplier and q_k the least sum of it at the points of interface k:
+M is exact where the admissible slack has a greatest value (a linear program a row); where it has none,
+because the structure can be wedged, it is a cap that the result states. Y is a normalisation: mechanisms
+are left out on which the live load works less than 1 / Y of the largest multiplier. It cannot be derived
+from linear programs: mechanisms on which the live load does no work may be added to any other. The power of
+all forces gives cuts, with (F - G) x >= 0 what slipping takes up per multiplier and q_k the least sum of it
+at the points of interface k:
 
     a + dead . u >= g . y + sum_k q_k t_k,   t_k <= sum of y at each point of interface k.
 """
@@ -52,12 +53,8 @@ class Found(NamedTuple):
 def exact_extreme(flow: Flow, limits: tuple[float, float], sense: float, time_limit: float) -> Found:
     """Return the least (sense 1) or the greatest (sense -1) load factor of all solutions, dimensionless.
 
-    Raises
-    ------
-    ModelError
-        The flow depends on the stresses, a joint has second-order cones, or a row gives work.
+    See :func:`refuse` for what it cannot take.
     """
-    refuse(flow)
     begun, p = time.monotonic(), flow.problem
     static = statics(p, limits)
     inside = [*static.constraints, static.rows >= 0]
@@ -78,7 +75,7 @@ def exact_extreme(flow: Flow, limits: tuple[float, float], sense: float, time_li
         ],
     )
     bound = sense * _solve(program, time_limit)
-    state = None if z.value is None else _piece(flow, static, np.asarray(z.value) > 0.5, sense)
+    state = None if z.value is None else _piece(flow, static, np.asarray(z.value, dtype=float), sense)
     return Found(state, bound, STRESSES if capped else np.inf, Y, time.monotonic() - begun)
 
 
@@ -86,9 +83,9 @@ def refuse(flow: Flow) -> None:
     """Raise ModelError where no mixed-integer linear program says what the solutions are."""
     if flow.problem.cones.second_order:
         raise ModelError(
-            "exact=True needs joints of planes, and this model has round friction or crushing; without dilatancy "
-            "a polygon of friction has other solutions, but PointContact(friction, cone='inner' or 'outer', "
-            "sides=...) without compressive strength can be solved exactly"
+            "exact=True needs joints of planes, and this model has round friction or crushing; use "
+            "PointContact(friction, cone='outer', sides=4), or 'inner': a polygon of friction has other "
+            "solutions without dilatancy, so that the answer is an approximation"
         )
     if not flow.constant:
         raise ModelError("exact=True needs turning 'centroid': Table 5 depends on the stresses")
@@ -138,7 +135,7 @@ def _piece(flow: Flow, static: Statics, yields: Array, sense: float) -> State | 
     """The certified solution of the piece in which these rows yield: stresses and mechanism by themselves."""
     p = flow.problem
     y, u = cp.Variable(len(p.g)), cp.Variable(p.C.shape[1])
-    tight, free = np.flatnonzero(yields), np.flatnonzero(~yields)
+    tight, free = np.flatnonzero(yields > 0.5), np.flatnonzero(yields <= 0.5)
     statically = [*static.constraints, static.rows >= 0, static.rows[tight] == 0]
     moving = [*kinematics(flow, u, y), y >= 0, y[free] == 0]
     aim = sense * static.load_factor + cp.sum(y)

@@ -16,7 +16,7 @@ import numpy as np
 
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.analysis.programs import Program, solved, solvers
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
@@ -62,7 +62,7 @@ def in_face(rows: cp.Expression, held: Array, cones: Cones) -> list[cp.Constrain
     return constraints
 
 
-def _in_cone_faces(rows: cp.Expression, held: Array, group: Array) -> list[cp.Constraint]:
+def _in_cone_faces(rows: cp.Expression, held: Array, group: Indices) -> list[cp.Constraint]:
     """The same of second-order cones: all of it, the ray opposite on the boundary, or nothing but zero."""
     v = held[group]
     across = np.linalg.norm(v[:, 1:], axis=1)
@@ -150,9 +150,10 @@ def proven(
     for values in _solutions(flow.problem, program):
         a, x, u, y = state_of(*values)
         state = State(float(a), x, u, y)
-        for candidate in (lambda: state, lambda: polish(flow, state))[: 1 + polished]:
-            if defect(flow, candidate()) <= TOLERANCE:
-                return candidate()
+        if polished and not defect(flow, state) <= TOLERANCE:
+            state = polish(flow, state)
+        if defect(flow, state) <= TOLERANCE:
+            return state
     return None
 
 

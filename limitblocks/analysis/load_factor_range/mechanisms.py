@@ -1,10 +1,11 @@
 """Search for solutions from mechanisms drawn at random, by two linear programs in turn.
 
-The set of solutions is {(a, x) admissible, (u, y) a mechanism, y . (F x + g) = 0}: a bilinear condition between
-two convex sets. From a mechanism of a few blocks, the stresses of least load factor (or greatest) and gap, then
-the mechanism of least gap, and so on: the gap never grows, and where it ends at zero there is a solution, whose
-face has the extremes. Alternating programs of a bilinear one: Bennett & Mangasarian (1993), Computational
-Optimization and Applications 2, 207-227. It finds much, and proves nothing about what it does not find.
+The set of solutions is {(a, x) admissible, (u, y) a mechanism, y . (F x + g) = 0}: a bilinear condition
+between two convex sets. From a mechanism of a few blocks, the stresses of least load factor (or greatest)
+and gap, then the mechanism of least gap, and so on, with a gap that counts for more and more; where it ends
+at zero there is a solution, whose face has the extremes. Alternating programs of a bilinear one: Bennett &
+Mangasarian (1993), Computational Optimization and Applications 2, 207-227. It finds much, and proves
+nothing about what it does not find.
 """
 
 from __future__ import annotations

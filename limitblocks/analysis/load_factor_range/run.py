@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.load_factor_range.answers import Certified, Collected, answer, of_result
+from limitblocks.analysis.load_factor_range.answers import Certified, Collected, answer, of_result, state_of
 from limitblocks.analysis.load_factor_range.exact import AGREES, exact_extreme, refuse
 from limitblocks.analysis.load_factor_range.mechanisms import Mechanisms
 from limitblocks.analysis.load_factor_range.sampling import Sampler
@@ -25,11 +25,12 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.evidence.range_result import Extreme, LoadFactorRange, Origin, RangeAnswer
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
 BEYOND = 10.0  # times the load scale: load factors looked at where nothing limits them
 LOADING = ("small barrier", "implicit steps")  # ways of `nonassociated` that follow the loading
@@ -41,7 +42,7 @@ class _TimeUp(Exception):
 
 
 class _Task(NamedTuple):
-    """What stays the same: model, flow rule, bracket, permanent-load stresses, what is collected, the clock."""
+    """What stays the same: model, flow rule, bracket, permanent-load stresses, what is collected."""
 
     model: Model
     flow: Flow
@@ -102,8 +103,8 @@ def load_factor_range(
     flow_rule = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     if paths < 1 or mechanisms < 0 or not time_limit > 0.0:
         raise ModelError(
-            f"paths is {paths}, mechanisms {mechanisms}, time_limit {time_limit}; expected at least 1, at least "
-            "0 and more than 0 s"
+            f"paths is {paths}, mechanisms {mechanisms}, time_limit {time_limit}; expected at least "
+            "1, at least 0 and more than 0 s"
         )
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
@@ -136,7 +137,7 @@ def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | Non
 def _walked(
     task: _Task, paths: int, seed: int, deadline: float
 ) -> tuple[RangeAnswer | None, tuple[int, int]]:
-    """Follow the load path and `paths` - 1 other ways; the load-path answer, and how many arrived of how many."""
+    """Follow the load path and `paths` - 1 other ways; its answer, how many were tried, how many arrived."""
 
     def watch(_: object) -> None:
         if time.monotonic() > deadline:
@@ -251,13 +252,3 @@ def _remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) 
     ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []
     said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends]
     return tuple(said)
-
-
-def state_of(model: Model, problem: LimitProblem, found: Nonassociated) -> State:
-    """Return a result as a dimensionless state."""
-    supports = set(model.supports)
-    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
-    rates = found.displacement_rates[places].ravel()
-    return problem.dimensionless(
-        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import cvxpy as cp
@@ -18,7 +19,7 @@ from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array
-from limitblocks.evidence.range_result import Origin
+from limitblocks.evidence.range_answer import Origin
 from limitblocks.problem import Flow, State
 
 STIFFNESS = 10.0  # most that the stiffness of a joint, and shear over normal stiffness, depart from the usual
@@ -60,28 +61,28 @@ class Sampler:
             yield Way(
                 f"barrier {large.barrier.size:g}, power {large.barrier.power:g}, seed {k}",
                 Origin.REACHED,
-                lambda m=large: self._tracked(m, self.x0),
+                partial(self._tracked, large, self.x0),
             )
             yield Way(
                 f"small barrier, seed {k}, permanent loads near random stresses {size:g}",
                 Origin.REACHED,
-                lambda m=small, r=size * other: self._tracked(m, self._permanent(r)),
+                partial(self._tracked_from, small, size * other),
             )
             yield Way(
                 f"small barrier, seed {k}, random stiffness of the joints",
                 Origin.REACHED,
-                lambda m=small, r=ratios: self._other_stiffness(m, r),
+                partial(self._other_stiffness, small, ratios),
             )
             yield Way(
                 f"implicit steps, permanent loads near random stresses {size:g}",
                 Origin.REACHED,
-                lambda r=-size * other: self._stepped(self._permanent(r)),
+                partial(self._stepped, -size * other),
             )
             if self.associated is not None:
                 yield Way(
                     f"small barrier, seed {k}, from the associated collapse",
                     Origin.SEARCHED,
-                    lambda m=small: self._tracked(m, self.associated),
+                    partial(self._tracked, small, self.associated),
                 )
 
     def _tracked(self, means: Means, x0: Array | None, weights: Array | None = None) -> State | None:
@@ -100,6 +101,9 @@ class Sampler:
         )
         return polish(self.flow, state)
 
+    def _tracked_from(self, means: Means, random: Array) -> State | None:
+        return self._tracked(means, self._permanent(random))
+
     def _other_stiffness(self, means: Means, ratios: Array) -> State | None:
         """A path on joints each of another stiffness, and of another stiffness in shear."""
         p = self.flow.problem
@@ -110,7 +114,8 @@ class Sampler:
         weights = p.compliance * STIFFNESS**factors
         return self._tracked(means, permanent_state(p, weights), weights)
 
-    def _stepped(self, x0: Array | None) -> State | None:
+    def _stepped(self, random: Array) -> State | None:
+        x0 = self._permanent(random)
         if x0 is None:
             return None
         p = self.flow.problem

@@ -1,4 +1,4 @@
-"""Can the structure be wedged: is there a stress state without any load within yield?"""
+"""Whether the structure can be wedged: a stress state without any load within yield."""
 
 from __future__ import annotations
 

@@ -1,0 +1,52 @@
+"""Solve the model of a file, write the result and print it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from limitblocks.cli.errors import refuse_existing
+from limitblocks.errors import NotConverged
+
+if TYPE_CHECKING:
+    from limitblocks.model import Model
+
+
+def answered(
+    solve: Callable[..., Any],
+    file: Path,
+    as_json: bool,
+    output: Path | None,
+    force: bool,
+    **settings: Any,
+) -> Any:
+    """Solve the model in `file`, write and print the result; write the best state if it stopped early."""
+    from limitblocks.io import read, write_result
+
+    refuse_existing(output, force, file)
+    model = read(file)
+    try:
+        result = solve(model, **settings)
+    except NotConverged as error:
+        if output and error.result is not None:
+            write_result(error.result, output, overwrite=force)
+            typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+        raise
+    if output:
+        write_result(result, output, overwrite=force)
+    printed(model, result, as_json)
+    return result
+
+
+def printed(model: Model, result: Any, as_json: bool) -> None:
+    """Print a result as JSON or as tables."""
+    from limitblocks.io.result_file import result_text
+    from limitblocks.report.terminal import print_result
+
+    if as_json:
+        typer.echo(result_text(result))
+    else:
+        print_result(model, result)
