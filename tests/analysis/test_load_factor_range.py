@@ -114,6 +114,18 @@ def test_a_jammed_block_has_no_greatest_load_factor():
     assert found.answers[-1].check.passed
 
 
+def test_drawn_mechanisms_find_what_no_path_leads_to():
+    """Wedged at a corner of floor and ceiling, the cube turns about it at no load: nothing slips there.
+
+    W b/2 about both axes is balanced by the friction of the wedging force P, up to mu P h.
+    """
+    found = lb.load_factor_range(jammed(), paths=1, mechanisms=4)
+    assert found.certified[0] == pytest.approx(0.0, abs=1e-6)
+    assert found.answers[0].check.passed
+    assert found.answers[0].thrust == pytest.approx(0.0, abs=1e-6)
+    assert found.reached[0] >= 0.3 * (1 - 1e-6)
+
+
 def test_a_structure_that_can_be_wedged_may_have_one_load_factor():
     """The cube jams, and the block beside it, alone pushed, slides at mu."""
     beside = lb.Block.box("beside", (1.0, 1.0, 0.5), (4, 0, 0.25), 20e3)

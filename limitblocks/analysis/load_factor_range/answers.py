@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.load_factor_range.faces import extremes, ray, simplest
+from limitblocks.analysis.load_factor_range.faces import extremes, ray
 from limitblocks.analysis.nonassociated.loop import finished
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.polish import defect
@@ -36,7 +36,8 @@ class Certified(NamedTuple):
 class Collected:
     """Certified states of one flow rule, the intervals that they prove, and the ray without limit.
 
-    `limits` enclose the dimensionless load factors looked at; `faces` tells whether mechanisms are pieces.
+    `limits` enclose the dimensionless load factors looked at, measured by `scale`; `endless` tells
+    whether the associated load is unlimited.
     """
 
     flow: Flow
@@ -97,10 +98,8 @@ class Collected:
             self.greatest = new
 
     def all(self) -> list[Certified]:
-        """Distinct states, the ends among them with the simplest mechanism, by load factor."""
+        """Distinct states, the ends among them, by load factor."""
         ends = [one for one in (self.least, self.beyond or self.greatest) if one and one not in self.found]
-        if self.flow.constant:
-            ends = [one._replace(state=simplest(self.flow, one.state)) for one in ends]
         return sorted([*self.found, *ends], key=lambda one: one.state.load_factor)
 
 

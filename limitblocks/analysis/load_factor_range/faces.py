@@ -102,16 +102,6 @@ def extremes(flow: Flow, state: State, limits: tuple[float, float]) -> tuple[Sta
     return end(1.0), end(-1.0)
 
 
-def simplest(flow: Flow, state: State) -> State:
-    """Return the state with the mechanism of least sum of multipliers that its stresses admit."""
-    p = flow.problem
-    u, y = cp.Variable(p.C.shape[1]), cp.Variable(len(p.g))
-    constraints = [*kinematics(flow, u, y), *in_face(y, p.F @ state.x + p.g, p.cones)]
-    program = Program(cp.Problem(cp.Minimize(cp.sum(y[p.cones.heads])), constraints), (u, y))
-    found = proven(flow, program, lambda u, y: (state.load_factor, state.x, u, y), polished=False)
-    return found or state
-
-
 def kinematics(flow: Flow, u: cp.Variable, y: cp.Variable) -> list[cp.Constraint]:
     """Return the constraints of flow and normalisation, Eqs (54) and (55); not y in K."""
     p = flow.problem
@@ -141,16 +131,13 @@ def ray(flow: Flow, state: State) -> Array | None:
 
 
 def proven(
-    flow: Flow,
-    program: Program,
-    state_of: Callable[..., tuple[float, Array, Array, Array]],
-    polished: bool = True,
+    flow: Flow, program: Program, state_of: Callable[..., tuple[float, Array, Array, Array]]
 ) -> State | None:
     """Return the first solver's solution that passes the residuals, polished if it has to be, or None."""
     for values in _solutions(flow.problem, program):
         a, x, u, y = state_of(*values)
         state = State(float(a), x, u, y)
-        if polished and not defect(flow, state) <= TOLERANCE:
+        if defect(flow, state) > TOLERANCE:
             state = polish(flow, state)
         if defect(flow, state) <= TOLERANCE:
             return state
