@@ -34,11 +34,13 @@ from limitblocks.cli.options import (
     Tolerance,
     Turns,
     Version,
+    Way,
     WithNonassociated,
     WithPath,
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import UnlimitedLoad
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
@@ -103,6 +105,7 @@ def nonassociated(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
+    method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -111,7 +114,7 @@ def nonassociated(
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
         flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        answered(analyses.nonassociated, model, as_json, output, force, **flow)
+        answered(analyses.nonassociated, model, as_json, output, force, method=method, **flow)
 
 
 @app.command()

@@ -116,7 +116,7 @@ def merged(intervals: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 def answer(model: Model, flow: Flow, enclosing: Bracket, permanent: Array, one: Certified) -> RangeAnswer:
     """Return a certified state as an answer with its evidence."""
-    result = finished(model, one.state, enclosing, (), flow, one.how, TOLERANCE, False)
+    result = finished(model, one.state, enclosing, (), flow, one.how, TOLERANCE, False, False)
     return of_result(model, flow, permanent, result, one.origin)
 
 

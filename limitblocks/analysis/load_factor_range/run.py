@@ -20,6 +20,7 @@ from limitblocks.analysis.nonassociated.start import (
     bracket,
     load_scale,
     own_units,
+    refuse_jammed,
     refuse_unlimited,
     start_stresses,
 )
@@ -33,7 +34,7 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
 BEYOND = 10.0  # times the load scale: load factors looked at where nothing limits them
-LOADING = ("small barrier", "implicit steps")  # ways of `nonassociated` that follow the loading
+LOADING = ("small barrier", "barrier 0.02,")  # ways of `nonassociated` that follow the loading
 Progress = Callable[[Iteration], None]
 
 
@@ -109,6 +110,7 @@ def load_factor_range(
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, *flow_rule)
+    refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     if exact:
         refuse(flow)

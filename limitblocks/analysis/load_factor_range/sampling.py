@@ -12,10 +12,11 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.loop import SOFTENING, STEPS
+from limitblocks.analysis.nonassociated.loop import SOFTENING
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array
@@ -25,6 +26,7 @@ from limitblocks.problem import Flow, State
 STIFFNESS = 10.0  # most that the stiffness of a joint, and shear over normal stiffness, depart from the usual
 STRESSES = (0.3, 1.0, 3.0)  # size of the random stresses over those of the permanent loads
 LARGE = (Barrier(0.1, 2.0), Barrier(1.0, 2.0), Barrier(3.0, 1.0), Barrier(10.0, 2.0))
+STEPS = Settings(budget=300)
 BUDGET = MEANS[0].budget
 Watch = Callable[[object], None]
 
@@ -89,7 +91,7 @@ class Sampler:
         if x0 is None:
             return None
         problem = self.flow.problem
-        state, _ = track(
+        state, path = track(
             replace(self.flow, softening=SOFTENING),
             x0,
             problem.compliance if weights is None else weights,
@@ -99,6 +101,8 @@ class Sampler:
             power=self.scale / len(problem.blocks),
             progress=self.watch,
         )
+        if path.interrupted:
+            raise KeyboardInterrupt
         return polish(self.flow, state)
 
     def _tracked_from(self, means: Means, random: Array) -> State | None:
