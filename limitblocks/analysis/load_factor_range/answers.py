@@ -90,11 +90,10 @@ class Collected:
                     )
 
     def _stretch(self, new: Certified) -> None:
-        near = DISTINCT * self.scale
         value = new.state.load_factor
-        if self.least is None or value < self.least.state.load_factor - near:
+        if self.least is None or value < self.least.state.load_factor:
             self.least = new
-        if self.greatest is None or value > self.greatest.state.load_factor + near:
+        if self.greatest is None or value > self.greatest.state.load_factor:
             self.greatest = new
 
     def all(self) -> list[Certified]:
@@ -152,3 +151,17 @@ def state_of(model: Model, problem: LimitProblem, found: Nonassociated) -> State
     return problem.dimensionless(
         State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
     )
+
+
+def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:
+    """Return what a reader of the range should know."""
+    said = []
+    if first is None:
+        said.append("nonassociated found no answer")
+    elif first.origin is not Origin.LOAD_PATH:
+        said.append(f"the load-path answer is one of a larger barrier ({first.solution.how})")
+    if not flow.constant:
+        said.append("with turning about the centre of pressure the set has no convex pieces: paths alone")
+    ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []
+    said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends]
+    return tuple(said)

@@ -38,7 +38,10 @@ class Mechanisms:
 
     def solution(self) -> State | None:
         """Return a certified solution from a new draw, or None."""
-        mechanism, sense = self._drawn(), self.random.choice([-1.0, 1.0])
+        return self.beyond(self._drawn(), self.random.choice([-1.0, 1.0]))
+
+    def beyond(self, mechanism: tuple[Array, Array] | None, sense: float) -> State | None:
+        """Return a certified solution of lower (sense 1) or higher (-1) load factor from a mechanism, or None."""
         state: State | None = None
         for k in range(ROUNDS):
             state = self._round(mechanism, sense, WORTH**k) if mechanism else None

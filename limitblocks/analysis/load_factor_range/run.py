@@ -9,7 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.load_factor_range.answers import Certified, Collected, answer, of_result, state_of
+from limitblocks.analysis.load_factor_range.answers import (
+    Certified,
+    Collected,
+    answer,
+    of_result,
+    remarks,
+    state_of,
+)
 from limitblocks.analysis.load_factor_range.exact import AGREES, exact_extreme, refuse
 from limitblocks.analysis.load_factor_range.mechanisms import Mechanisms
 from limitblocks.analysis.load_factor_range.sampling import Sampler
@@ -83,7 +90,7 @@ def load_factor_range(
     paths : int
         Load paths and other ways to a solution, at least 1; the first is :func:`limitblocks.nonassociated`.
     mechanisms : int
-        Mechanisms drawn at random.
+        Mechanisms drawn at random, after a descent and an ascent from every answer of the paths; 0: none.
     seed : int
         Of all that is random.
     time_limit : float
@@ -183,6 +190,11 @@ def _drawn(task: _Task, count: int, seed: int, deadline: float) -> tuple[int, in
     high = task.collected.limits[1]
     draw = Mechanisms(task.flow, (0.0, high), seed)
     tried = arrived = 0
+    for one in (*task.collected.found, task.collected.least, task.collected.greatest) if count else ():
+        for sense in (1.0, -1.0):
+            if one is not None and time.monotonic() < deadline:
+                state = draw.beyond((one.state.u, one.state.y), sense)
+                task.collected.add(state, f"descent or ascent; {one.how}", Origin.SEARCHED, keep=False)
     while tried < count and time.monotonic() < deadline:
         tried += 1
         state, how = draw.solution(), f"mechanism drawn at random, seed {seed}, number {tried}"
@@ -235,22 +247,9 @@ def _result(
         paths=walked,
         mechanisms=drawn,
         complete=(walked[0], drawn[0]) == asked,
-        remarks=_remarks(flow, first, answers),
+        remarks=remarks(flow, first, answers),
         dilatancy=flow.dilatancy,
         turning=flow.turning,
         tolerance=TOLERANCE,
         digest=task.model.digest,
     )
-
-
-def _remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:
-    said = []
-    if first is None:
-        said.append("nonassociated found no answer")
-    elif first.origin is not Origin.LOAD_PATH:
-        said.append(f"the load-path answer is one of a larger barrier ({first.solution.how})")
-    if not flow.constant:
-        said.append("with turning about the centre of pressure the set has no convex pieces: paths alone")
-    ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []
-    said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends]
-    return tuple(said)

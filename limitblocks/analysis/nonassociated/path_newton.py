@@ -12,6 +12,7 @@ from limitblocks.analysis.nonassociated.path_equations import Equations, Path, P
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import quotient, slope
 
+
 REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
 
 
