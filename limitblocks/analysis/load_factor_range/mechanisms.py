@@ -41,7 +41,7 @@ class Mechanisms:
         return self.beyond(self._drawn(), self.random.choice([-1.0, 1.0]))
 
     def beyond(self, mechanism: tuple[Array, Array] | None, sense: float) -> State | None:
-        """Return a certified solution of lower (sense 1) or higher (-1) load factor from a mechanism, or None."""
+        """Return a certified solution of lower (sense 1) or higher (-1) load factor, from a mechanism."""
         state: State | None = None
         for k in range(ROUNDS):
             state = self._round(mechanism, sense, WORTH**k) if mechanism else None
@@ -50,7 +50,7 @@ class Mechanisms:
             mechanism = state.u, state.y
             if self._gap(state) < CLOSED:
                 break
-        # away from the end, where interior points find what is strictly complementary: the polish needs it
+        # away from the end: interior points find what is strictly complementary, which the polish needs
         state = self._round(mechanism, 0.0, 1.0) if mechanism else None
         state = polish(self.flow, state) if state else None
         return state if state and defect(self.flow, state) <= TOLERANCE else None

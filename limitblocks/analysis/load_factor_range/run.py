@@ -157,7 +157,9 @@ def _walked(
         tried += 1
         first = _first(task, watch)
         arrived += first is not None
-        sampler = Sampler(task.flow, task.permanent, _associated(task), task.scale, watch)
+        bounds, units = task.enclosing.bounds, task.flow.problem.stress_units
+        associated = bounds.generalised_stresses / units if bounds else None
+        sampler = Sampler(task.flow, task.permanent, associated, task.scale, watch)
         for way in islice(sampler.ways(seed), paths - 1):
             tried += 1
             state = way.go()
@@ -201,12 +203,6 @@ def _drawn(task: _Task, count: int, seed: int, deadline: float) -> tuple[int, in
         task.tell(state, how)
         arrived += task.collected.add(state, how, Origin.SEARCHED, keep=False)
     return tried, arrived
-
-
-def _associated(task: _Task) -> Array | None:
-    """Dimensionless stresses of the associated collapse, if there is one."""
-    found = task.enclosing.bounds
-    return None if found is None else found.generalised_stresses / task.flow.problem.stress_units
 
 
 def _extreme(task: _Task, sense: float, time_limit: float) -> Extreme:
