@@ -7,18 +7,20 @@ wrong, 3 no solution found.
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import typer
 
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import answered, printed
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
     AsJson,
+    BackwardLimit,
     ClaimFile,
     Dilatancy,
     Exact,
@@ -39,7 +41,7 @@ from limitblocks.cli.options import (
     WithPath,
 )
 from limitblocks.cli.studies import studies
-from limitblocks.errors import UnlimitedLoad
+from limitblocks.errors import NotConverged
 from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
@@ -82,7 +84,7 @@ def stability(
 ) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = answered(analyses.stability, model, as_json, output, force)
+        found = _answer(analyses.stability, model, as_json, output, force)
     if not found.stands:
         raise typer.Exit(1)
 
@@ -97,7 +99,7 @@ def bounds(
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
-        answered(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
+        _answer(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
 
 
 @app.command()
@@ -107,14 +109,16 @@ def nonassociated(
     turning: Turns = Turning.CENTROID,
     method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        answered(analyses.nonassociated, model, as_json, output, force, method=method, **flow)
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow |= {"method": method, "backward_error": backward_error}
+        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
 @app.command()
@@ -130,7 +134,7 @@ def path(
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
         flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        answered(analyses.path, model, as_json, output, force, **flow)
+        _answer(analyses.path, model, as_json, output, force, **flow)
 
 
 @app.command(name="range")
@@ -149,14 +153,18 @@ def load_factor_range(
 ) -> None:
     """Print certified load factors of many ways, and how far they reach."""
     with clean_errors():
-        settings = {"dilatancy": dilatancy, "turning": turning, "paths": paths, "mechanisms": mechanisms}
-        settings |= {"seed": seed, "time_limit": time_limit, "exact": exact}
-        answered(analyses.load_factor_range, model, as_json, output, force, **settings)
+        settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
+        settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
+        _answer(analyses.load_factor_range, model, as_json, output, force, **settings)
 
 
 @app.command()
 def check(
-    model: ModelFile, result: ClaimFile, tolerance: Tolerance = DEFAULT_TOLERANCE, as_json: AsJson = False
+    model: ModelFile,
+    result: ClaimFile,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
+    as_json: AsJson = False,
 ) -> None:
     """Check a result file against Eqs (54)-(59) of its model."""
     with clean_errors():
@@ -165,10 +173,10 @@ def check(
 
         structure = read(model)
         claim = read_result(result, structure)
-        found = check_mcp(structure, claim, tolerance=tolerance)
+        found = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
-        printed(structure, found, as_json)
+        _print(structure, found, as_json)
         found.require()
 
 
@@ -211,7 +219,7 @@ def report(
         structure = read(model)
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
-        results = _bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
+        results = analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         results += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         results += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
@@ -228,12 +236,37 @@ def schema() -> None:
     typer.echo(json.dumps(model_schema(), indent=1))
 
 
-def _bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
-    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
+def _answer(
+    solve: Callable[..., Any],
+    file: Path,
+    as_json: bool,
+    output: Path | None,
+    force: bool,
+    **settings: Any,
+) -> Any:
+    """Solve the model in `file`, write and print the result; write the best state where it stopped early."""
+    from limitblocks.io import read, write_result
+
+    refuse_existing(output, force, file)
+    model = read(file)
     try:
-        return [analyses.bounds(model, **asked)]
-    except UnlimitedLoad as error:
-        if needed:
-            raise
-        typer.echo(f"warning: no bounds: {error}", err=True)
-        return []
+        result = solve(model, **settings)
+    except NotConverged as error:
+        if output and error.result is not None:
+            write_result(error.result, output, overwrite=force)
+            typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+        raise
+    if output:
+        write_result(result, output, overwrite=force)
+    _print(model, result, as_json)
+    return result
+
+
+def _print(model: Model, result: Any, as_json: bool) -> None:
+    from limitblocks.io.result_file import result_text
+    from limitblocks.report.terminal import print_result
+
+    if as_json:
+        typer.echo(result_text(result))
+    else:
+        print_result(model, result)
