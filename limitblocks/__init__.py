@@ -6,6 +6,7 @@ from typing import Any
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
+from limitblocks.analysis.load_factor_range.run import load_factor_range
 from limitblocks.analysis.nonassociated.load_path import load_path
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.means import Means
@@ -29,6 +30,8 @@ from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Snap, Status
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
@@ -92,6 +95,7 @@ __all__ = [
     "Joint",
     "LimitBlocksError",
     "Load",
+    "LoadFactorRange",
     "LoadPath",
     "Means",
     "MissingDependency",
@@ -101,8 +105,10 @@ __all__ = [
     "Nonassociated",
     "NotConverged",
     "OrdunaLourenco",
+    "Origin",
     "PathStep",
     "PointContact",
+    "RangeAnswer",
     "Report",
     "Settings",
     "Snap",
@@ -127,6 +133,7 @@ __all__ = [
     "interface",
     "interface_states",
     "line_load",
+    "load_factor_range",
     "load_path",
     "mass_proportional",
     "model_schema",

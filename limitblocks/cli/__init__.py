@@ -24,11 +24,16 @@ from limitblocks.cli.options import (
     BackwardLimit,
     ClaimFile,
     Dilatancy,
+    Exact,
     Force,
+    Mechanisms,
     ModelFile,
     OwnTolerance,
+    Paths,
     ReportFile,
     ResultFile,
+    Seconds,
+    Seed,
     Tolerance,
     Turns,
     Version,
@@ -133,6 +138,27 @@ def path(
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         snaps = {"snaps": "along"} if along else {}
         _answer(analyses.path, model, as_json, output, force, **flow, **snaps)
+
+
+@app.command(name="range")
+def load_factor_range(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    paths: Paths = 15,
+    mechanisms: Mechanisms = 100,
+    seed: Seed = 0,
+    time_limit: Seconds = 120.0,
+    exact: Exact = False,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print certified load factors of many ways, and how far they reach."""
+    with clean_errors():
+        settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
+        settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
+        _answer(analyses.load_factor_range, model, as_json, output, force, **settings)
 
 
 @app.command()

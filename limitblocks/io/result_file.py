@@ -22,6 +22,8 @@ RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
+    "range": "holds a range of load factors; expected the result of bounds, nonassociated or path, or one of "
+    'its answers, which has its own under "solution"',
     "study": "holds a study, the load factors of many models; expected the result of bounds, "
     "nonassociated or path",
     "stability": "holds the answer whether the dead loads stand, no load factor; expected the result of "

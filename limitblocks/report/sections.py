@@ -11,12 +11,14 @@ from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.report.curve import convergence_curve, path_curve
+from limitblocks.report.range_section import range_section
 from limitblocks.report.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
@@ -196,6 +198,10 @@ def _stability(_model: Model, found: Stability) -> Section:
     )
 
 
+def _range(_model: Model, found: LoadFactorRange) -> Section:
+    return range_section(found, limits, _checks)
+
+
 def _backward(error: BackwardError) -> tuple[str, str, str]:
     parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
     where = _some([f"{name} ({change:.1e})" for name, change in error.places])
@@ -243,4 +249,5 @@ _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
     LoadPath: _path,
     mcp.Check: _check,
     Stability: _stability,
+    LoadFactorRange: _range,
 }

@@ -139,7 +139,7 @@ def test_results_of_other_models_are_refused():
         with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
             lb.report(portal("beam"), result)
     with pytest.raises(
-        lb.LimitBlocksError, match="expected a result: Bounds, Check, LoadPath, Nonassociated"
+        lb.LimitBlocksError, match="expected a result: Bounds, Check, LoadFactorRange, LoadPath, Nonassociated"
     ):
         lb.report(MODEL, "result")
 
