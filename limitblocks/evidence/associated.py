@@ -15,7 +15,8 @@ class Bounds:
     """Bounds on the load factor of the associated flow, with the states that prove them.
 
     For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
-    in equilibrium within the yield surface) and `upper` (a mechanism). Each comes from its own program.
+    in equilibrium within the yield surface) and `upper` (a mechanism). They are the two
+    solutions, primal and dual, of one convex program; each is judged by residuals of its own.
 
     Attributes
     ----------
@@ -41,7 +42,7 @@ class Bounds:
     residuals : Residuals
         Recomputed from the limit problem without the solver; all at most `tolerance`.
     solvers : tuple of str
-        Solver of the static and of the kinematic program.
+        Solver of the stress state and of the mechanism.
     tolerance : float
         Largest residual and gap accepted.
     digest : str
