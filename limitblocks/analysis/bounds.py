@@ -11,7 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from limitblocks.analysis.certified import certified
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.known import known
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -25,6 +27,7 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import (
     Residuals,
     bounds_residuals,
@@ -79,11 +82,19 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         If the live load can grow without limit.
     SolverFailure
         If no solver gives a pair of bounds within the tolerance.
+
+    Notes
+    -----
+    Solved once for each model and tolerance: asked for again, the same result comes back.
     """
+    return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance))
+
+
+def _bounds(model: Model, tolerance: float) -> Bounds:
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair = _solved(model.problem, dead, tolerance)
+    pair, proof = _proven(pair_of_bounds(model.problem, dead, tolerance), dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
-    upper = pair.upper / problem.units.live
+    upper = proof.upper if proof.complete else pair.upper / problem.units.live
     return Bounds(
         lower=si.load_factor,
         upper=upper,
@@ -95,13 +106,25 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         flow_multipliers=read_only(si.y),
         dead_load_stresses=read_only(dead * model.problem.stress_units),
         residuals=pair.residuals,
+        proof=proof,
         solvers=(pair.solver, pair.solver),
         tolerance=tolerance,
         digest=model.digest,
     )
 
 
-def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
+def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
+    """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
+    state, proof = certified(pair.problem, pair.state, dead)
+    if proof.width <= tolerance:
+        return replace(pair, state=state), proof
+    if proof.complete:
+        wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
+        proof = Proof(-np.inf, np.inf, wide, wide)
+    return pair, proof
+
+
+def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
     for pair in _pairs(problem, dead, tolerance, said):

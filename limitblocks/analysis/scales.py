@@ -58,7 +58,7 @@ class Scaled:
         largest = np.zeros(p.cones.degree)
         entries = abs(p.F @ sparse.diags_array(self.stress)).max(axis=1).toarray().ravel()
         np.maximum.at(largest, p.cones.member, entries)
-        return power_of_two(np.where(largest > 0.0, largest, 1.0))[p.cones.member]
+        return unit(largest)[p.cones.member]
 
     @cached_property
     def C(self) -> sparse.csr_array:
@@ -134,7 +134,7 @@ def unmoved(problem: LimitProblem, load_factor: float, x: Array) -> State:
 
 def unit(sizes: Array) -> Array:
     """Return the nearest powers of two; one for nothing."""
-    return power_of_two(np.where(sizes > 0.0, sizes, 1.0))
+    return np.asarray(power_of_two(np.where(sizes > 0.0, sizes, 1.0)))
 
 
 def scaled(problem: LimitProblem) -> Scaled:

@@ -11,6 +11,7 @@ from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.known import known
 from limitblocks.analysis.programs import (
     ROUNDS,
     Program,
@@ -158,10 +159,14 @@ def dead_load_state(problem: LimitProblem) -> Array:
     SolverFailure
         If neither is proven.
     """
+    return known(problem, "dead-load state", lambda: _dead_load_state(problem))
+
+
+def _dead_load_state(problem: LimitProblem) -> Array:
     said = []
     for x, worst in _states(problem, 0.0):
         if worst.value <= TOLERANCE:
-            return x
+            return read_only(x)
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
     fallen = falls(problem, problem.dead)
     if fallen:
