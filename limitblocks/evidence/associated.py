@@ -16,7 +16,8 @@ class Bounds:
     """Bounds on the load factor of the associated flow, with the states that prove them.
 
     For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
-    in equilibrium within the yield surface) and `upper` (a mechanism). Each comes from its own program.
+    in equilibrium within the yield surface) and `upper` (a mechanism). They are the two
+    solutions, primal and dual, of one convex program; each is judged by residuals of its own.
 
     Attributes
     ----------
@@ -45,7 +46,7 @@ class Bounds:
     proof : Proof
         What is proven, and why a side is not where it is not.
     solvers : tuple of str
-        Solver of the static and of the kinematic program.
+        Solver of the stress state and of the mechanism.
     tolerance : float
         Largest residual and gap accepted.
     digest : str
