@@ -48,10 +48,17 @@ Thickness = Annotated[
 ]
 Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
 Gap = Annotated[
-    float | None, typer.Option(help="Distance that counts as touching, in block lengths [default: 1e-3].")
+    float | None,
+    typer.Option(
+        help="Distance that counts as touching, in block lengths [default: by the accuracy of FILE]."
+    ),
 ]
 Angle = Annotated[
-    float | None, typer.Option(help="Angle between faces that counts as touching, rad [default: 1e-2].")
+    float | None,
+    typer.Option(help="Angle between faces that counts as touching, rad [default: by the accuracy of FILE]."),
+]
+Width = Annotated[
+    float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
 
 
@@ -68,6 +75,7 @@ def import_blocks(
     up: Up = None,
     gap: Gap = None,
     angle: Angle = None,
+    width: Width = None,
     output: Output = None,
     force: Force = False,
 ) -> None:
@@ -86,10 +94,18 @@ def import_blocks(
             found = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
             found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
-        model, warnings = model_of(
-            found, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
+        model, contacts = model_of(
+            found,
+            joint=law,
+            supports=supports,
+            live=load,
+            gap=gap,
+            angle=angle,
+            width=width,
+            name=file.stem,
         )
-        for word, lines in (("note", found.notes), ("warning", warnings)):
+        notes = (*found.notes, contacts.accuracy, *contacts.nothing)
+        for word, lines in (("note", notes), ("warning", contacts.warnings)):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")

@@ -1,8 +1,9 @@
 """Blocks, interfaces and the contacts between blocks; no mechanics."""
 
+from limitblocks.geometry.accuracy import Tolerances
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contact import find_contacts, find_interfaces
-from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver
+from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.interface import Interface
 
 __all__ = [
@@ -12,6 +13,8 @@ __all__ = [
     "NearMiss",
     "Overlap",
     "Sliver",
+    "Through",
+    "Tolerances",
     "find_contacts",
     "find_interfaces",
 ]

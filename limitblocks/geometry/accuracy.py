@@ -44,13 +44,14 @@ class Tolerances:
         Least mean width (area over half the perimeter) of an interface; what is narrower is a strip.
     accuracy : float
         Of the vertices, as the faces that touch show it: the median of half the variation of the gap over
-        a joint. About the standard deviation of a coordinate; 0 where fewer than 8 joints tell nothing.
+        a joint. About the standard deviation of a coordinate; None where there are fewer than 8 joints, which
+        do not tell noise from a wedge.
     """
 
     gap: float = GAP
     angle: float = ANGLE
     width: float = GAP
-    accuracy: float = 0.0
+    accuracy: float | None = None
 
     def in_words(self, length: float) -> str:
         """Return the tolerances as text, for blocks of `length`, m."""
@@ -59,7 +60,7 @@ class Tolerances:
             f"least width {millimetres(self.width * length)}"
         )
 
-    def to_dict(self) -> dict[str, float]:
+    def to_dict(self) -> dict[str, float | None]:
         """Return the numbers by name."""
         return asdict(self)
 
@@ -77,7 +78,7 @@ def block_length(blocks: Sequence[Block]) -> float:
 class Accuracy(NamedTuple):
     """What faces that touch show: vertices good to `size` block lengths, faces `angle` apart, rad."""
 
-    size: float = 0.0
+    size: float | None = None
     angle: float = 0.0
 
     @classmethod
@@ -101,11 +102,11 @@ class Accuracy(NamedTuple):
         return cls(float(np.median(joints.spread)) / length, float(np.median(joints.angle)))
 
 
-_EXACT = Accuracy()
+_UNKNOWN = Accuracy()
 
 
 def chosen(
-    gap: float | None, angle: float | None, width: float | None, accuracy: Accuracy = _EXACT
+    gap: float | None, angle: float | None, width: float | None, accuracy: Accuracy = _UNKNOWN
 ) -> Tolerances:
     """Return the tolerances: those given, the others by the accuracy.
 
@@ -122,14 +123,14 @@ def chosen(
         faults.append(f"angle is {angle!r}; a tolerance between 0 and pi/4 rad is needed")
     if faults:
         raise ModelError(*faults)
-    gap = max(GAP, GAPS * accuracy.size) if gap is None else gap
+    gap = max(GAP, GAPS * (accuracy.size or 0.0)) if gap is None else gap
     angle = max(ANGLE, min(ANGLES * accuracy.angle, _TURN)) if angle is None else angle
     return Tolerances(gap, angle, gap if width is None else width, accuracy.size)
 
 
-def too_coarse(accuracy: float, length: float) -> str:
+def too_coarse(accuracy: float | None, length: float) -> str:
     """Say why an accuracy, in block lengths of `length`, m, does not do; empty where it does."""
-    if accuracy <= COARSEST:
+    if accuracy is None or accuracy <= COARSEST:
         return ""
     return (
         f"the faces that touch are good to about {millimetres(accuracy * length)} only; beyond "

@@ -18,7 +18,6 @@ from limitblocks.geometry.accuracy import (
     Accuracy,
     block_length,
     chosen,
-    too_coarse,
 )
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
@@ -155,7 +154,7 @@ def find_contacts(
         through=_through(names, faces, seen.of(held), third[held]),
         tolerances=used,
         length=length,
-        refused=too_coarse(used.accuracy, length) if gap is None else "",
+        chosen=gap is None,
     )
 
 

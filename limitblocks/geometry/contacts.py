@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from limitblocks.errors import GeometryError
-from limitblocks.geometry.accuracy import Tolerances, millimetres
+from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
 from limitblocks.geometry.interface import Interface
 
 _SHOWN = 8
@@ -137,8 +137,8 @@ class Contacts:
         Those that were used.
     length : float
         Block length, m; 0 of fewer than two blocks.
-    refused : str
-        Why the tolerances that the accuracy asks for do not do; empty where they do.
+    chosen : bool
+        Whether the gap was chosen by the accuracy, not given.
     """
 
     interfaces: tuple[Interface, ...]
@@ -150,13 +150,13 @@ class Contacts:
     through: tuple[Through, ...] = ()
     tolerances: Tolerances = _DEFAULT
     length: float = 0.0
-    refused: str = ""
+    chosen: bool = True
 
     @property
     def faults(self) -> tuple[str, ...]:
         """A sentence for each thing that makes the interfaces no answer, with its remedy."""
         overlaps = (f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps)
-        return (*overlaps, *([self.refused] if self.refused else []))
+        return (*overlaps, *([self._coarse] if self._coarse and self.chosen else []))
 
     def require(self) -> None:
         """Raise GeometryError with all `faults`; do nothing where there is none."""
@@ -171,20 +171,28 @@ class Contacts:
         return f"; draw them apart, or give gap={1.1 * overlap.depth / self.length:.2g} (block lengths)"
 
     @property
+    def _coarse(self) -> str:
+        return too_coarse(self.tolerances.accuracy, self.length)
+
+    @property
     def accuracy(self) -> str:
         """A sentence on how accurate the faces are and which tolerances were used."""
-        size = self.tolerances.accuracy * self.length
-        good = (
-            f"the faces that touch are good to about {millimetres(size)}"
-            if size > _EXACT * self.length
-            else ""
-        )
-        return f"{good or 'the faces that touch are exact'}; {self.tolerances.in_words(self.length)}"
+        size, known = self.tolerances.accuracy, "too few joints to tell how accurate the faces are"
+        if size is not None:
+            good = f"are good to about {millimetres(size * self.length)}" if size > _EXACT else "are exact"
+            known = f"the faces that touch {good}"
+        return f"{known}; {self.tolerances.in_words(self.length)}"
+
+    @property
+    def nothing(self) -> list[str]:
+        """The line that nothing was found; none where something was."""
+        return [] if self.warnings else ["nothing found beside the interfaces with these tolerances"]
 
     @property
     def warnings(self) -> list[str]:
         """A line for each kind of thing found beside the interfaces, and for each overlap."""
-        lines = [str(overlap) for overlap in self.overlaps[:_SHOWN]]
+        lines = [self._coarse] if self._coarse else []
+        lines += [f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps[:_SHOWN]]
         if len(self.overlaps) > _SHOWN:
             lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")
         lines += self._line("no interface between blocks that nearly touch", self.near_misses)

@@ -6,8 +6,8 @@ import logging
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from limitblocks.errors import GeometryError, ModelError
-from limitblocks.geometry import Block, find_contacts
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.io import faults, model_file
 from limitblocks.io.formats import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
@@ -32,6 +32,7 @@ def read(
     live: Load | None = None,
     gap: float | None = None,
     angle: float | None = None,
+    width: float | None = None,
 ) -> Model:
     """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
 
@@ -58,8 +59,9 @@ def read(
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
-    gap, angle : float, optional
-        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad.
+    gap, angle, width : float, optional
+        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad; left out, chosen by the
+        accuracy of the faces. :attr:`limitblocks.Model.tolerances` says which were used.
 
     Raises
     ------
@@ -84,11 +86,20 @@ def read(
         return model_file.read(path)
     found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     with faults.named(path):
-        model, warnings = model_of(
-            found, joint=joint, supports=supports, live=live, dead=dead, gap=gap, angle=angle, name=path.stem
+        model, contacts = model_of(
+            found,
+            joint=joint,
+            supports=supports,
+            live=live,
+            dead=dead,
+            gap=gap,
+            angle=angle,
+            width=width,
+            name=path.stem,
         )
-    for line in (*found.notes, *warnings):
+    for line in (*found.notes, *contacts.warnings):
         _log.warning("%s: %s", path, line)
+    _log.info("%s: %s", path, contacts.accuracy)
     return model
 
 
@@ -101,9 +112,10 @@ def model_of(
     dead: Load | None = None,
     gap: float | None = None,
     angle: float | None = None,
+    width: float | None = None,
     name: str = "",
-) -> tuple[Model, list[str]]:
-    """Return the model of blocks that were read, and what is worth a look in their contacts, a line each.
+) -> tuple[Model, Contacts]:
+    """Return the model of blocks that were read, and what was seen in their contacts.
 
     Raises
     ------
@@ -118,12 +130,11 @@ def model_of(
             *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
         )
     names = supports_of(found, supports)
-    tolerances = {key: value for key, value in (("gap", gap), ("angle", angle)) if value is not None}
-    contacts = find_contacts(found.blocks, joint, **tolerances)
-    if contacts.overlaps:
-        raise GeometryError(*map(str, contacts.overlaps))
+    contacts = find_contacts(found.blocks, joint, gap=gap, angle=angle, width=width)
+    contacts.require()
     loads = self_weight() if dead is None else dead
-    return Model(found.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
+    model = Model(found.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+    return model, contacts
 
 
 def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:

@@ -23,7 +23,12 @@ def obj(tmp_path):
 
 def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
     result = run(obj, *OPTIONS, "--supports", "base", "--units", "mm")
-    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.exit_code == 0
+    assert result.stderr.splitlines() == [
+        "note: too few joints to tell how accurate the faces are; gap 0.68 mm, angle 0.01 rad, "
+        "least width 0.68 mm",
+        "note: nothing found beside the interfaces with these tolerances",
+    ]
     model = lb.read(tmp_path / "two.json")
     assert "1 blocks, 1 supports, 1 interfaces" in result.stdout
     assert model.blocks[1].volume == pytest.approx(0.25)
@@ -49,8 +54,9 @@ def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
         lb.Block.box("stone", (0.5, 1, 1), (0.004, 0, 0.5)),
     ]
     result = run(lb.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
-    note, warning = result.stderr.splitlines()
+    note, used, warning = result.stderr.splitlines()
     assert note == "note: 2 blocks are named 'stone'; all but the first got a number"
+    assert used.startswith("note: too few joints to tell how accurate the faces are; gap 0.79 mm, ")
     assert warning.startswith("warning: ")
     assert "stone|stone 2" in warning
     wide = run(tmp_path / "gap.stl", *OPTIONS, "--supports", "base", "--gap", "0.01", "--force")
