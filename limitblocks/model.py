@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
+from limitblocks.written import write
 
 SCHEMA_VERSION = 1
 
@@ -132,16 +133,7 @@ class Model:
         LimitBlocksError
             If the file exists and `overwrite` is false, or it cannot be written.
         """
-        path = Path(file)
-        text = json.dumps(self.to_dict(), indent=1)
-        try:
-            with path.open("w" if overwrite else "x", encoding="utf-8") as stream:
-                stream.write(text)
-        except FileExistsError:
-            raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
-        except OSError as error:
-            raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-        return path
+        return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
         kinds = f"{len(self.free_blocks)} blocks, {len(self.supports)} supports"
