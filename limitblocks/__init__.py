@@ -30,7 +30,16 @@ from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
 from limitblocks.evidence.stability_result import Stability, Standing
-from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.geometry import (
+    Block,
+    Contacts,
+    Healed,
+    Interface,
+    Tolerances,
+    find_contacts,
+    find_interfaces,
+    heal,
+)
 from limitblocks.io import (
     ImportedBlocks,
     model_schema,
@@ -83,6 +92,7 @@ __all__ = [
     "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "Healed",
     "ImportedBlocks",
     "Interface",
     "InterfaceStates",
@@ -109,6 +119,7 @@ __all__ = [
     "Standing",
     "Status",
     "Tilting",
+    "Tolerances",
     "UnlimitedLoad",
     "YieldRows",
     "added_mass",
@@ -121,6 +132,7 @@ __all__ = [
     "find_contacts",
     "find_interfaces",
     "force",
+    "heal",
     "interface",
     "interface_states",
     "line_load",

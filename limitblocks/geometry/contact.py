@@ -23,7 +23,7 @@ from limitblocks.geometry.block import Block
 from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed
 from limitblocks.geometry.interface import Interface
-from limitblocks.geometry.neighbours import overlapping_boxes
+from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.geometry.patches import Patches, covering, mean_width, patches, pieces_of
 from limitblocks.geometry.through import between
@@ -125,10 +125,10 @@ def find_contacts(
     length = block_length(blocks)
     centre = np.mean([block.vertices[0] for block in blocks], axis=0)
     points = [block.vertices - centre for block in blocks]
-    every = _neighbours(points, NEAR * GAP * length)
+    every = neighbours(points, NEAR * GAP * length)
     used = chosen(gap, angle, width, Accuracy.of(blocks, points, every))
     tolerance, reach = used.gap * length, max(NEAR * GAP, NEARLY * used.gap) * length
-    pairs = every if reach <= NEAR * GAP * length else _neighbours(points, reach)
+    pairs = every if reach <= NEAR * GAP * length else neighbours(points, reach)
     overlaps = find_overlaps(blocks, points, pairs, tolerance)
     faces = all_faces(blocks, points, tolerance / 2.0, used.angle / 2.0)
     turn = min(max(NEAR * ANGLE, NEARLY * used.angle), np.pi / 4)
@@ -156,13 +156,6 @@ def find_contacts(
         length=length,
         chosen=gap is None,
     )
-
-
-def _neighbours(points: Sequence[Array], tolerance: float) -> Indices:
-    """Return the pairs (p, 2) of blocks whose bounds, widened by `tolerance` each, overlap."""
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
-    return overlapping_boxes(low - tolerance, high + tolerance)
 
 
 def _refuse_same_names(blocks: Sequence[Block]) -> None:

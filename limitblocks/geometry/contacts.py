@@ -179,7 +179,7 @@ class Contacts:
         """A sentence on how accurate the faces are and which tolerances were used."""
         size, known = self.tolerances.accuracy, "too few joints to tell how accurate the faces are"
         if size is not None:
-            good = f"are good to about {millimetres(size * self.length)}" if size > _EXACT else "are exact"
+            good = f"are good to about {millimetres(size * self.length)}" if size > _EXACT else "meet exactly"
             known = f"the faces that touch {good}"
         return f"{known}; {self.tolerances.in_words(self.length)}"
 
