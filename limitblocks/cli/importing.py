@@ -57,6 +57,10 @@ Angle = Annotated[
     float | None,
     typer.Option(help="Angle between faces that counts as touching, rad [default: by the accuracy of FILE]."),
 ]
+Heal = Annotated[
+    bool,
+    typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
+]
 Width = Annotated[
     float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
@@ -76,6 +80,7 @@ def import_blocks(
     gap: Gap = None,
     angle: Angle = None,
     width: Width = None,
+    heal: Heal = False,
     output: Output = None,
     force: Force = False,
 ) -> None:
@@ -103,6 +108,7 @@ def import_blocks(
             angle=angle,
             width=width,
             name=file.stem,
+            heal=heal,
         )
         notes = (*found.notes, contacts.accuracy, *contacts.nothing)
         for word, lines in (("note", notes), ("warning", contacts.warnings)):

@@ -24,6 +24,8 @@ GAPS = 6.0
 ANGLES = 8.0
 #: Accuracy, in block lengths, beyond which load factors are no longer right within 1 %: scripts/noise.
 COARSEST = 2e-3
+#: Facets of a contact that make a rough face, and the accuracy beyond which that is no drawing.
+_FACETS, _SMOOTH = 3, 1e-5
 #: Gap in block lengths and angle in rad within which faces are compared; beyond the tolerances of COARSEST.
 _REACH, _TURN = 2.0 * GAPS * COARSEST, 0.2
 #: Share of the smaller face that a joint covers, fewest joints that tell noise from a wedge, most looked at.
@@ -128,13 +130,18 @@ def chosen(
     return Tolerances(gap, angle, gap if width is None else width, accuracy.size)
 
 
-def too_coarse(accuracy: float | None, length: float) -> str:
-    """Say why an accuracy, in block lengths of `length`, m, does not do; empty where it does."""
-    if accuracy is None or accuracy <= COARSEST:
-        return ""
-    return (
-        f"the faces that touch are good to about {millimetres(accuracy * length)} only; beyond "
-        f"{millimetres(COARSEST * length)} the load factor of blocks of {length:.3g} m may be off by more "
-        f"than 1 %: mend them with limitblocks.heal(blocks, {accuracy * length:.2g}), survey them better, or "
-        "give gap, angle and width to take them as they are"
-    )
+def too_coarse(accuracy: float | None, length: float, facets: int) -> str:
+    """Say why faces with an accuracy, in block lengths of `length`, m, do not do; empty where they do.
+
+    `facets` are those through which two blocks touch.
+    """
+    size = accuracy or 0.0
+    good = f"the faces that touch are good to about {millimetres(size * length)} only"
+    wrong = "the load factor may be off by more than 1 %"
+    remedy = "mend the blocks first (limitblocks.heal, import --heal), or give gap to take them as they are"
+    if size > COARSEST:
+        coarsest = f"{millimetres(COARSEST * length)} for blocks of {length:.3g} m"
+        return f"{good}; beyond {coarsest} {wrong}: {remedy}"
+    if size > _SMOOTH and facets >= _FACETS:
+        return f"{good}, and two blocks touch through {facets} facets, so that {wrong}: {remedy}"
+    return ""

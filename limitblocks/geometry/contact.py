@@ -23,10 +23,10 @@ from limitblocks.geometry.block import Block
 from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed
 from limitblocks.geometry.interface import Interface
+from limitblocks.geometry.kinds import sorted_by_kind
 from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
-from limitblocks.geometry.patches import Patches, covering, mean_width, patches, pieces_of
-from limitblocks.geometry.through import between
+from limitblocks.geometry.patches import Patches, mean_width, patches, pieces_of
 
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
@@ -132,28 +132,23 @@ def find_contacts(
     overlaps = find_overlaps(blocks, points, pairs, tolerance)
     faces = all_faces(blocks, points, tolerance / 2.0, used.angle / 2.0)
     turn = min(max(NEAR * ANGLE, NEARLY * used.angle), np.pi / 4)
-    seen = patches(faces, *opposed(faces, pairs, reach, turn), length)
-    size = np.abs(seen.gap)
-    touching = (size <= tolerance) & (seen.angle <= used.angle)
-    whole = shapely.area(seen.shape) > seen.least
-    wide = whole & ((mean_width(seen.shape) > used.width * length) | covering(faces, seen))
-    near = whole & (touching | (size <= reach))
-    third = np.full(len(near), -1)
-    third[near] = between(faces, seen.of(near), seen.of(touching & whole))
-    meant, apart = touching & wide & (third < 0), ~touching & near & (third < 0)
-    held = touching & wide & (third >= 0)
-    pieces = pieces_of(faces, seen.of(meant), np.array(names), tolerance)
-    tied = set(faces.block[np.concatenate([seen.a[meant], seen.b[meant]])].tolist())
+    seen = sorted_by_kind(
+        faces, patches(faces, *opposed(faces, pairs, reach, turn), length), used, length, reach
+    )
+    pieces = pieces_of(faces, seen.meant, np.array(names), tolerance)
+    ends = np.column_stack([faces.block[seen.meant.a], faces.block[seen.meant.b]])
+    tied = set(ends.ravel().tolist())
     return Contacts(
         _interfaces(names, centre, faces, pieces, joint),
-        _near_misses(names, faces, seen.of(apart), overlaps),
+        _near_misses(names, faces, seen.apart, overlaps),
         overlaps,
         tuple(name for k, name in enumerate(names) if k not in tied),
-        _slivers(names, faces, seen.of(touching & ~whole)),
-        strips=_slivers(names, faces, seen.of(touching & whole & ~wide)),
-        through=_through(names, faces, seen.of(held), third[held]),
+        _slivers(names, faces, seen.small),
+        strips=_slivers(names, faces, seen.narrow),
+        through=_through(names, faces, seen.held, seen.third),
         tolerances=used,
         length=length,
+        facets=int(np.median(np.unique(ends, axis=0, return_counts=True)[1])) if len(ends) else 0,
         chosen=gap is None,
     )
 

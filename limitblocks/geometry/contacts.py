@@ -137,6 +137,8 @@ class Contacts:
         Those that were used.
     length : float
         Block length, m; 0 of fewer than two blocks.
+    facets : int
+        Pairs of faces through which two blocks touch, the median over the blocks that do.
     chosen : bool
         Whether the gap was chosen by the accuracy, not given.
     """
@@ -150,6 +152,7 @@ class Contacts:
     through: tuple[Through, ...] = ()
     tolerances: Tolerances = _DEFAULT
     length: float = 0.0
+    facets: int = 0
     chosen: bool = True
 
     @property
@@ -172,7 +175,7 @@ class Contacts:
 
     @property
     def _coarse(self) -> str:
-        return too_coarse(self.tolerances.accuracy, self.length)
+        return too_coarse(self.tolerances.accuracy, self.length, self.facets)
 
     @property
     def accuracy(self) -> str:
