@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +14,8 @@ from limitblocks.cli.options import Force
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
+    from limitblocks.geometry import Tolerances
+    from limitblocks.io.imported import ImportedBlocks
     from limitblocks.joints import Joint
 
 BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
@@ -99,22 +102,33 @@ def import_blocks(
             found = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
             found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+        used: Tolerances | None = None
+        if heal:
+            found, used = _healed(found)
         model, contacts = model_of(
             found,
             joint=law,
             supports=supports,
             live=load,
-            gap=gap,
-            angle=angle,
-            width=width,
+            gap=used.gap if used and gap is None else gap,
+            angle=used.angle if used and angle is None else angle,
+            width=used.width if used and width is None else width,
             name=file.stem,
-            heal=heal,
         )
         notes = (*found.notes, contacts.accuracy, *contacts.nothing)
         for word, lines in (("note", notes), ("warning", contacts.warnings)):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
+
+
+def _healed(found: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
+    """Return the blocks mended within their accuracy, and the tolerances of the blocks as they were."""
+    from limitblocks.geometry import heal
+
+    mended = heal(found.blocks)
+    notes = (*found.notes, str(mended), *mended.notes)
+    return replace(found, blocks=mended.blocks, notes=notes), mended.tolerances
 
 
 def _joint(name: str, friction: float, slip: str | None) -> Joint:
