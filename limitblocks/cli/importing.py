@@ -89,6 +89,7 @@ def import_blocks(
 ) -> None:
     """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
     with clean_errors():
+        from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.dxf_outlines import read_drawing
         from limitblocks.io.formats import read_blocks
         from limitblocks.io.structure_file import model_of
@@ -116,7 +117,7 @@ def import_blocks(
             name=file.stem,
         )
         notes = (*found.notes, contacts.accuracy, *contacts.nothing)
-        for word, lines in (("note", notes), ("warning", contacts.warnings)):
+        for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")

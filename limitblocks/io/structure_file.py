@@ -6,6 +6,7 @@ import logging
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.io import faults, model_file
@@ -97,7 +98,7 @@ def read(
             width=width,
             name=path.stem,
         )
-    for line in (*found.notes, *contacts.warnings):
+    for line in (*found.notes, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.diagnosis import diagnose
+from limitblocks.analysis.magnitudes import questions
 from limitblocks.geometry.polygon import areas
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
@@ -88,7 +89,7 @@ def warnings(model: Model) -> list[str]:
         found.append(f"blocks without weight: {_some(weightless)}")
     if not model.dead.terms:
         found.append("no dead load: the structure has no weight to stabilise it")
-    return found
+    return found + questions(model)
 
 
 def _counted(words: Iterable[str]) -> dict[str, int]:
