@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from limitblocks.analysis.magnitudes import questions
@@ -17,6 +17,9 @@ from limitblocks.mechanics import Load, self_weight
 from limitblocks.model import Model
 
 Supports = str | Iterable[str] | Callable[[Block], bool]
+
+#: Gaps, in block lengths, that are tried where blocks have no interface.
+_WIDER = (0.01, 0.02, 0.05, 0.1)
 
 _log = logging.getLogger("limitblocks")
 
@@ -134,8 +137,24 @@ def model_of(
     contacts = find_contacts(found.blocks, joint, gap=gap, angle=angle, width=width)
     contacts.require()
     loads = self_weight() if dead is None else dead
-    model = Model(found.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+    try:
+        model = Model(found.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+    except ModelError as error:
+        raise ModelError(*error.problems, *_open_joints(contacts, found.blocks)) from None
     return model, contacts
+
+
+def _open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
+    """Return the line that says which gap lets blocks touch that have no interface; none where none does."""
+    for gap in _WIDER * bool(contacts.isolated):
+        wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
+        tied = len(contacts.isolated) - len(wide.isolated)
+        if tied > 0:
+            return [
+                f"{tied} blocks without any interface would touch with gap={gap:g} (block lengths, "
+                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open?"
+            ]
+    return []
 
 
 def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -62,6 +63,38 @@ def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
     wide = run(tmp_path / "gap.stl", *OPTIONS, "--supports", "base", "--gap", "0.01", "--force")
     assert "warning" not in wide.stderr
     assert "3 interfaces" in wide.stdout
+
+
+def test_joints_drawn_open_are_told_with_the_option(tmp_path):
+    """The distance, 10 mm, and the option that takes it; the advice works."""
+    stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
+    stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]
+    file = lb.write_blocks(stones, tmp_path / "open.obj")
+    refused = run(file, *OPTIONS, "--supports", "base")
+    assert refused.exit_code == 2
+    assert "4 blocks without any interface would touch with gap=0.05 (block lengths, " in refused.stderr
+    assert "import --gap 0.05): are the joints drawn open?" in refused.stderr
+    assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.05").exit_code == 0
+
+
+def test_noisy_meshes_are_refused_and_healed(tmp_path):
+    rng = np.random.default_rng(1)
+    clean = lb.structures.corner(lb.OrdunaLourenco(0.6), length=2.4, return_length=2.4, courses=4)
+    stones = [
+        lb.Block(b.name, b.vertices + rng.uniform(-3e-3, 3e-3, b.vertices.shape), b.triangles.tolist())
+        for b in clean.blocks
+    ]
+    file = lb.write_blocks(stones, tmp_path / "scan.obj")
+    options = ["--friction", "0.6", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
+    refused = run(file, *options)
+    assert refused.exit_code == 2
+    assert "import --heal" in refused.stderr
+    healed = run(file, *options, "--heal")
+    assert healed.exit_code == 0
+    assert "vertices moved by up to" in healed.stderr
+    model = lb.read(tmp_path / "scan.json")
+    assert model.tolerances.gap > 1e-2
+    assert lb.bounds(model).lower == pytest.approx(lb.bounds(clean).lower, rel=1e-2)
 
 
 WRONG = {
