@@ -53,6 +53,7 @@ class ResultDocument(Document):
     residuals: Any = None
     tolerance: Any = None
     how: Any = None
+    fixed_point_change: Any = None
     history: Any = None
     versions: Any = None
 
@@ -70,7 +71,11 @@ class BoundsDocument(Document):
     displacement_rates: Rows | None = None
     flow_multipliers: list[Number] | None = None
     dead_load_stresses: list[Number] | None = None
-    upper: Any = None
+    upper: Number | None = None
+    """Kinematic load factor, which the check judges."""
+    proven: bool = False
+    """Whether both are claimed to be theorems, rounding errors included."""
+    proof: Any = None
     gap: Any = None
     worth: Any = None
     residuals: Any = None

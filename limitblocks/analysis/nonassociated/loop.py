@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
-from limitblocks.analysis.nonassociated.loading import stages
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
-from limitblocks.analysis.nonassociated.path_record import Progress
-from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -17,6 +17,7 @@ from limitblocks.analysis.nonassociated.start import (
     flowing_state,
     load_scale,
     own_units,
+    refuse_jammed,
     refuse_unlimited,
     start_stresses,
 )
@@ -26,13 +27,10 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
-from limitblocks.evidence.results import Iteration, Nonassociated, Status
+from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
-STEPS = Settings(
-    budget=300
-)  # the other way along the load path; it closes walls on which the first one winds
 SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
 
 
@@ -43,8 +41,10 @@ def nonassociated(
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
+    method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
+    confirm: bool = True,
     throw: bool = True,
 ) -> Nonassociated:
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
@@ -70,29 +70,39 @@ def nonassociated(
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    method : {"path", "fixed point"}
+        The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
+        analyses, each with the friction of the last, from the associated state or `start` on. Often the
+        loop ends at another solution, and it may stall.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
-        of :func:`limitblocks.load_path` are tried.
+        Paths to follow in turn, until one ends at a solution.
     progress : callable, optional
         Called with each Iteration.
+    confirm : bool
+        Confirm the answer as a fixed point: with the flow frozen at it, the static and the kinematic program
+        of limit analysis give its load factor again (`fixed_point_change`); costs about half of bounds.
     throw : bool
         Raise NotConverged (which carries the best result); if false, return that result with its status.
 
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, or `start` belongs to another model or is no state of it.
+        If the dilatancy is out of range, the method unknown, or `start` belongs to another model or is no
+        state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
-        If the flow is associated everywhere and the live load can grow without limit.
+        If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
+        without limit.
     NotConverged
-        If no path ends within the tolerance.
+        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it.
     """
+    way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
+    refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     history: list[Iteration] = []
 
@@ -106,11 +116,15 @@ def nonassociated(
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     else:
-        x0 = start_stresses(model, problem, problem.compliance, start)
-        scale = load_scale(problem, enclosing.associated)
-        state, how = _reached(flow, x0, scale, means, tolerance, record)
+        first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
+        x0 = start_stresses(model, problem, problem.compliance, first)
+        if way is Method.FIXED_POINT:
+            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
+        else:
+            scale = load_scale(problem, enclosing.associated)
+            state, how = _reached(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm)
 
 
 def _reached(
@@ -122,35 +136,37 @@ def _reached(
     record: Callable[[Iteration], None],
 ) -> tuple[State, str]:
     """The state to which one way after the other leads, and which it was: both load paths come first."""
-    problem = flow.problem
-    smooth, weights = replace(flow, softening=SOFTENING), problem.compliance
+    smooth, weights = replace(flow, softening=SOFTENING), flow.problem.compliance
     met: list[tuple[State, str]] = []
-
-    def solved() -> bool:
-        return bool(met) and mcp_residuals(flow, met[-1][0]).worst.value <= tolerance
-
-    for k, one in enumerate(means):
+    for one in means:
         state, tracked = follow(
             smooth,
             x0,
             weights,
             means=[one],
-            power=scale / len(problem.blocks),
-            progress=lambda at: record(_point(problem, at)),
+            power=scale / len(flow.problem.blocks),
+            progress=lambda at: record(_point(flow.problem, at)),
         )
         met.append((polish(flow, state), tracked[-1].how))
-        if not solved() and k == 0 and len(means) > 1:
-            steps = stages(flow, x0, weights, tolerance, STEPS, scale)
-            met += [(polish(flow, stage.state), "implicit steps") for stage in steps[-1:]]
-        if solved():
+        if tracked[-1].interrupted:
+            break
+        if mcp_residuals(flow, met[-1][0]).worst.value <= tolerance:
             return met[-1]
-    return min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+    state, how = min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+    return state, f"{how}, {INTERRUPTED}" if tracked[-1].interrupted else how
 
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:
     """What a point of the path tells the user."""
     load_factor = at.load_factor / problem.units.live
     return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
+
+
+def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
+    """What a round of the outer loop tells the user."""
+    load_factor = state.load_factor / flow.problem.units.live
+    residuals = mcp_residuals(flow, state).to_dict()
+    return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)
 
 
 def _end(flow: Flow, state: State) -> Iteration:
@@ -167,13 +183,17 @@ def finished(
     how: str,
     tolerance: float,
     throw: bool,
+    confirm: bool = True,
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
     problem = flow.problem
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
+    converged = worst.value <= tolerance
+    change = fixed_point_change(flow, state) if confirm and converged else None
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
+    stopped = Status.INTERRUPTED if how.endswith(INTERRUPTED) else Status.OUT_OF_STEPS
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
@@ -184,19 +204,21 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
+        status=Status.CONVERGED if converged else stopped,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=locked_shear(flow, state),
+        remarks=locked_shear(flow, state) + unconfirmed(change),
         tolerance=tolerance,
         digest=model.digest,
+        fixed_point_change=change,
     )
     if throw and not result.converged:
+        why = INTERRUPTED if stopped is Status.INTERRUPTED else f"no solution within {tolerance:g}"
         raise NotConverged(
-            f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e} at load factor "
-            f"{result.load_factor:.6g}; the error's result holds that state",
+            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}; "
+            "the error's result holds that state",
             result,
         )
     return result
