@@ -168,7 +168,7 @@ class Contacts:
 
     def _remedy(self, overlap: Overlap) -> str:
         if overlap.tolerance < self.tolerances.gap * self.length:
-            return ", half the thickness of the thinner one; draw them apart"
+            return ", half the thickness of the thinner one; draw them apart, or as one"
         if overlap.depth > 0.05 * self.length:
             return "; draw them apart"
         return f"; draw them apart, or give gap={1.1 * overlap.depth / self.length:.2g} (block lengths)"
