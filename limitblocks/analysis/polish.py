@@ -137,7 +137,9 @@ def _diagonal_pivots(K: Any) -> Any:
     a threshold take .5 s and 2.4 million, the default ordering .07 s and 1.5 million.
     """
     options = {"SymmetricMode": True}
-    return linalg.splu(sparse.csc_array(K), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+    return linalg.splu(
+        sparse.csc_array(K), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
+    )
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:

@@ -52,6 +52,7 @@ class ResultDocument(Document):
     remarks: Any = None
     residuals: Any = None
     tolerance: Any = None
+    backward_error: Any = None
     how: Any = None
     fixed_point_change: Any = None
     history: Any = None

@@ -25,6 +25,7 @@ from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NotConverged
+from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
@@ -40,6 +41,7 @@ def nonassociated(
     dilatancy: float = 0.0,
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
+    backward_error: float | None = None,
     start: Start | None = None,
     method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
@@ -67,6 +69,9 @@ def nonassociated(
         where the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
+    backward_error : float, optional
+        Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
+        its status is then Status.NEARBY. By default only the tolerance counts.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
@@ -99,6 +104,7 @@ def nonassociated(
     """
     way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    limit = checked_limit(backward_error)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
@@ -124,7 +130,9 @@ def nonassociated(
             scale = load_scale(problem, enclosing.associated)
             state, how = _reached(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm)
+    return finished(
+        model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
+    )
 
 
 def _reached(
@@ -184,9 +192,14 @@ def finished(
     tolerance: float,
     throw: bool,
     confirm: bool = True,
+    limit: float | None = None,
 ) -> Nonassociated:
-    """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance.
+
+    With a `limit` of the backward error, unless that is within it.
+    """
     problem = flow.problem
+    state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
     converged = worst.value <= tolerance
@@ -194,6 +207,7 @@ def finished(
     found = enclosing.bounds
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     stopped = Status.INTERRUPTED if how.endswith(INTERRUPTED) else Status.OUT_OF_STEPS
+    near = Status.NEARBY if within(error, residuals, tolerance, limit) else stopped
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=enclosing.frictionless,
@@ -204,7 +218,8 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if converged else stopped,
+        backward_error=error,
+        status=Status.CONVERGED if converged else near,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
@@ -214,11 +229,11 @@ def finished(
         digest=model.digest,
         fixed_point_change=change,
     )
-    if throw and not result.converged:
+    if throw and not result.accepted:
         why = INTERRUPTED if stopped is Status.INTERRUPTED else f"no solution within {tolerance:g}"
         raise NotConverged(
-            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}; "
-            "the error's result holds that state",
+            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}, "
+            f"{error}; the error's result holds that state",
             result,
         )
     return result
