@@ -34,7 +34,16 @@ from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Snap, Status
 from limitblocks.evidence.stability_result import Stability, Standing
-from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.geometry import (
+    Block,
+    Contacts,
+    Healed,
+    Interface,
+    Tolerances,
+    find_contacts,
+    find_interfaces,
+    heal,
+)
 from limitblocks.io import (
     ImportedBlocks,
     model_schema,
@@ -88,6 +97,7 @@ __all__ = [
     "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "Healed",
     "ImportedBlocks",
     "Interface",
     "InterfaceStates",
@@ -118,6 +128,7 @@ __all__ = [
     "Standing",
     "Status",
     "Tilting",
+    "Tolerances",
     "UnlimitedLoad",
     "YieldRows",
     "added_mass",
@@ -130,6 +141,7 @@ __all__ = [
     "find_contacts",
     "find_interfaces",
     "force",
+    "heal",
     "interface",
     "interface_states",
     "line_load",

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.spatial import cKDTree
 
 from limitblocks.arrays import Array, Indices
+
+
+def neighbours(points: Sequence[Array], tolerance: float) -> Indices:
+    """Return the pairs (p, 2) of bodies, (n, 3) each, whose bounds, widened by `tolerance`, overlap."""
+    low = np.array([body.min(axis=0) for body in points])
+    high = np.array([body.max(axis=0) for body in points])
+    return overlapping_boxes(low - tolerance, high + tolerance)
 
 
 def overlapping_boxes(low: Array, high: Array) -> Indices:

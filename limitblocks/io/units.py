@@ -40,7 +40,10 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
     **dict.fromkeys(("pressure", "compressive_strength", "cohesion", "tensile_strength"), (1, -2)),
     "unit_weight": (1, -3),
     **dict.fromkeys(("axes", "faces", "direction", "facing", "factor", "coefficient"), (0, 0)),
-    **dict.fromkeys(("friction", "sides", "fineness", "points", "gap", "angle", "schema_version"), (0, 0)),
+    **dict.fromkeys(
+        ("friction", "sides", "fineness", "points", "gap", "angle", "width", "accuracy", "schema_version"),
+        (0, 0),
+    ),
 }
 
 

@@ -299,7 +299,7 @@ def test_import_of_an_elevation(tmp_path):
     path = drawn(tmp_path / "a.dxf", draw)
     options = ["--friction", "0.7", "--live", "1,0,0", "--unit-weight", "20e3", "--thickness", "0.5"]
     result = CliRunner().invoke(app, ["import", str(path), *options])
-    assert (result.exit_code, result.stderr) == (0, "")
+    assert (result.exit_code, "warning" in result.stderr) == (0, False)
     model = lb.read(tmp_path / "a.json")
     assert [block.volume for block in model.free_blocks] == pytest.approx([1.0 * 2.0 * 0.5])
     assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)

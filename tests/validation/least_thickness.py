@@ -83,6 +83,20 @@ def circular_half(thickness, *, radius=1.0, shift=0.0, embrace=np.pi, cuts=4001,
     return *ends, weight.sum(axis=1), moment.sum(axis=1)
 
 
+def vertical_half(thickness, *, cuts=4001):
+    """Right half of a semicircle of radius 1 with vertical cuts down to the intrados, then the springing."""
+    x = (1 - thickness / 2) * np.sin(np.linspace(0.0, np.pi / 2, cuts))
+    x = np.append(x, 1 + thickness / 2)  # all beyond the last vertical cut bears on the springing
+    ends, weight, moment = [], 0.0, 0.0
+    for r, sign in ((1 - thickness / 2, -1), (1 + thickness / 2, 1)):
+        at = np.minimum(x, r)
+        height = np.sqrt(np.maximum(r**2 - at**2, 0.0))
+        ends.append(np.column_stack([at, height]))
+        weight = weight + sign * (at * height + r**2 * np.arcsin(at / r)) / 2
+        moment = moment + sign * (r**3 - height**3) / 3
+    return *ends, weight, moment
+
+
 def elliptical_half(thickness, *, a, b, cuts=4001):
     """Right half of a ring about an ellipse of half axes a and b."""
     angle = np.linspace(0.0, np.pi / 2, cuts)

@@ -11,6 +11,7 @@ from least_thickness import (
     least_thickness,
     least_thickness_of_thrust_lines,
     stands,
+    vertical_half,
 )
 
 import limitblocks as lb
@@ -70,6 +71,22 @@ def test_thrust_lines_agree_with_the_published_least_thickness():
     centreline = least_thickness_of_thrust_lines(partial(circular_half, lumped=True), 0.09, 0.13)
     assert true == pytest.approx(0.1075, abs=5e-5)
     assert centreline == pytest.approx(0.107426, abs=1e-6)
+
+
+def test_vertical_joints_need_a_thicker_semicircle():
+    """t/R = 0.1095: Makris & Alexakis (2013), Arch. Appl. Mech. 83, 1511-1533, who let nothing slide."""
+    limit, counts = 0.1095, COUNTS[:2]
+    assert least_thickness_of_thrust_lines(vertical_half, 0.09, 0.13) == pytest.approx(limit, abs=5e-5)
+
+    def build(thickness, voussoirs):
+        joint = lb.PointContact(20.0)
+        return structures.arch(
+            joint, radius=1.0, thickness=thickness, voussoirs=voussoirs, stereotomy="vertical"
+        )
+
+    found = [least_thickness(partial(build, voussoirs=n), 1.05 * limit) for n in counts]
+    assert extrapolated(counts, found) == pytest.approx(limit, abs=1e-4)
+    assert found == pytest.approx([limit] * 2, rel=5e-3)  # 1 to 1.4 % with one chord over the last voussoir
 
 
 def shape(name, size):
