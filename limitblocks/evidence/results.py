@@ -54,16 +54,16 @@ class Nonassociated:
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
-    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at
-    least `frictionless`.
+    permanent loads. Every solution is at most `associated` and, where that is claimed, at least
+    `frictionless`.
 
     Attributes
     ----------
     load_factor : float
         Load factor at collapse.
     frictionless, associated : float
-        Associated load factors without friction and with it: the bracket (Drucker 1954). NaN where the
-        frictionless structure does not stand, infinite where the associated load is unlimited.
+        Associated load factors without friction and with it: the bracket (Drucker 1954). The first is NaN
+        where it is not claimed to be a lower end, the second infinite where the load is unlimited.
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface, local axes, N and N m; N <= 0 in compression.
     generalised_stresses : Array, shape (s,)
@@ -93,6 +93,8 @@ class Nonassociated:
         Largest residual of a converged solution.
     digest : str
         SHA-256 of the model.
+    unclaimed : str
+        Why `frictionless` is NaN, such as a turning with which joints can give power; else empty.
     """
 
     load_factor: float
@@ -112,6 +114,7 @@ class Nonassociated:
     remarks: tuple[str, ...]
     tolerance: float
     digest: str
+    unclaimed: str = ""
 
     @property
     def converged(self) -> bool:
@@ -121,10 +124,12 @@ class Nonassociated:
     def __str__(self) -> str:
         worst = self.residuals.worst
         word = "" if self.converged else f" ({self.status.value})"
+        least, said = f"between {self.frictionless:.6g} (frictionless) and", self.remarks
+        if np.isnan(self.frictionless):
+            least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         return (
-            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} "
-            f"(frictionless) and {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}){word}{''.join(f'; {r}' for r in self.remarks)}"
+            f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
+            f"worst residual {worst.value:.1e} ({worst.name}){word}{''.join(f'; {one}' for one in said)}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -133,6 +138,7 @@ class Nonassociated:
             "analysis": "nonassociated",
             "load_factor": self.load_factor,
             "frictionless": self.frictionless,
+            "unclaimed": self.unclaimed,
             "associated": self.associated,
             "status": self.status.value,
             "dilatancy": self.dilatancy,

@@ -47,6 +47,7 @@ class ResultDocument(Document):
     """What twisting under bending turns about."""
     # kept for the reader; no check believes a word of it
     frictionless: Any = None
+    unclaimed: Any = None
     associated: Any = None
     status: Any = None
     remarks: Any = None

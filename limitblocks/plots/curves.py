@@ -212,7 +212,7 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     drawn = np.where(finite, numbers, np.where(np.isposinf(numbers), 1.25 * longest, 0.0))
     ax.barh(order, drawn, height=0.6, color=[COLOURS[name] for name in order], edgecolor=BLACK, linewidth=0.6)
     for k, (number, end) in enumerate(zip(numbers.tolist(), drawn.tolist(), strict=True)):
-        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "does not stand"
+        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "not claimed"
         ax.annotate(
             said, (max(end, 0.0), k), (4, 0), textcoords="offset points", va="center", fontsize="small"
         )

@@ -96,6 +96,15 @@ class Flow:
         """Whether G is the same at every state."""
         return not self.pivot.any()
 
+    @property
+    def dissipative(self) -> bool:
+        """Whether no solution can lie below the associated load factor without friction.
+
+        Twists about the centroid only take up power; docs/nonassociated.md, "The bracket", has the proof.
+        Table 5 can give power.
+        """
+        return self.constant
+
     @cached_property
     def _centroid(self) -> sparse.csr_array:
         """G of a twist about the centroid."""

@@ -11,7 +11,7 @@ from limitblocks.report.sections import limits
 
 NOT_UNIQUE = (
     "The load factor without dilatancy is not unique: the equations may have other solutions, at other load "
-    "factors between the frictionless and the associated one, and which of them a structure reaches depends "
+    "factors up to the associated one, and which of them a structure reaches depends "
     "on how it was built and loaded."
 )
 _ASSOCIATED = "joints dilate by the friction angle: no solution is higher"

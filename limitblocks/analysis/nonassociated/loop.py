@@ -53,7 +53,8 @@ def nonassociated(
     solution, on which compliance and a barrier fade to nothing; it is followed through folds by arclength,
     and Newton's method on the rows that yield takes its end to rounding. The load factor of a non-associated
     structure is not unique: this is one solution, the one that loading leads to where the barrier is small
-    (`how` says which path it was), between the frictionless and the associated value.
+    (`how` says which path it was), at most the associated value and, where twists are about the centroid, at
+    least the frictionless one.
 
     Parameters
     ----------
@@ -172,11 +173,11 @@ def finished(
     problem = flow.problem
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     worst = residuals.worst
-    found = enclosing.bounds
+    found, claimed = enclosing.bounds, enclosing.of(flow)
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
         load_factor=si.load_factor,
-        frictionless=enclosing.frictionless,
+        frictionless=claimed.frictionless,
         associated=enclosing.associated,
         stress_resultants=resultants_of(problem, state.x),
         generalised_stresses=read_only(si.x),
@@ -192,6 +193,7 @@ def finished(
         remarks=locked_shear(flow, state),
         tolerance=tolerance,
         digest=model.digest,
+        unclaimed=claimed.unclaimed,
     )
     if throw and not result.converged:
         raise NotConverged(
