@@ -186,7 +186,8 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     Parameters
     ----------
     *results : Bounds, Nonassociated or LoadPath
-        Of one model. A non-associated result and a load path bring the frictionless and the associated value.
+        Of one model. A non-associated result and a load path bring the frictionless and the associated
+        value; the first is "not claimed" where one of them does not claim it.
     ax : Axes, optional
         Where to draw.
 
@@ -200,7 +201,10 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     values: dict[str, float] = {}
     digests = set()
     for result in results:
-        values = _load_factors(result) | values
+        one = _load_factors(result)
+        if np.isnan(one.get("frictionless", 0.0)):  # a lower end of all results drawn, or of none
+            values.pop("frictionless", None)
+        values = one | values
         digests.add(getattr(result, "collapse", result).digest)  # type: ignore[union-attr] # checked above
     if len(digests) > 1:
         raise LimitBlocksError("the results belong to different models; compare results of one")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isnan
 from typing import Any
 
 from limitblocks.evidence.associated import Bounds
@@ -29,6 +30,8 @@ def comparison(results: Iterable[Any]) -> tuple[tuple[str, str, str], ...]:
             end = result.collapse if isinstance(result, LoadPath) else result
             name, meaning = ("Non-associated", _NONASSOCIATED) if end is result else ("Load path", _PATH)
             unproven = "" if end.converged else "; not converged, so not proven"
+            if isnan(end.frictionless):  # a lower end of all results, or of none
+                found.pop("Frictionless", None)
             rows = (*limits(end), (name, f"{end.load_factor:#.7g}", meaning + unproven))
         elif isinstance(result, Bounds):
             rows = (("Associated", f"{result.lower:#.7g}", _ASSOCIATED),)

@@ -232,9 +232,18 @@ def test_bracket_draws_every_load_factor():
 
 
 def test_bracket_says_unlimited():
-    odd = dataclasses.replace(path().collapse, associated=np.inf, frictionless=np.nan)
+    odd = dataclasses.replace(path().collapse, associated=np.inf)
     ax = lb.plots.bracket(odd)
-    assert {"unlimited", "does not stand"} <= {text.get_text() for text in ax.texts}
+    assert "unlimited" in {text.get_text() for text in ax.texts}
+
+
+def test_bracket_claims_a_lower_end_for_all_results_or_for_none():
+    found = path().collapse
+    turned = dataclasses.replace(found, frictionless=np.nan, unclaimed="a joint can give power")
+    for results in ((turned,), (found, turned), (turned, found)):
+        said = {text.get_text() for text in lb.plots.bracket(*results).texts}
+        assert "not claimed" in said
+    assert "not claimed" not in {text.get_text() for text in lb.plots.bracket(found).texts}
 
 
 @pytest.mark.parametrize(

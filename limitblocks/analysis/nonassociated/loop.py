@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
+from limitblocks.analysis.nonassociated.means import MEANS, TURNED_MEANS, Means, follow
 from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
@@ -33,7 +33,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dila
 STEPS = Settings(
     budget=300
 )  # the other way along the load path; it closes walls on which the first one winds
-SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
+SOFTENING = 1e-6  # of the force of an interface: the epsilon of Table 5 along the path
 
 
 def nonassociated(
@@ -123,29 +123,52 @@ def _reached(
     record: Callable[[Iteration], None],
 ) -> tuple[State, str]:
     """The state to which one way after the other leads, and which it was: both load paths come first."""
-    problem = flow.problem
-    smooth, weights = replace(flow, softening=SOFTENING), problem.compliance
     met: list[tuple[State, str]] = []
-
-    def solved() -> bool:
-        return bool(met) and mcp_residuals(flow, met[-1][0]).worst.value <= tolerance
-
-    for k, one in enumerate(means):
-        state, tracked = follow(
-            smooth,
-            x0,
-            weights,
-            means=[one],
-            power=scale / len(problem.blocks),
-            progress=lambda at: record(_point(problem, at)),
-        )
-        met.append((polish(flow, state), tracked[-1].how))
-        if not solved() and k == 0 and len(means) > 1:
-            steps = stages(flow, x0, weights, tolerance, STEPS, scale)
-            met += [(polish(flow, stage.state), "implicit steps") for stage in steps[-1:]]
-        if solved():
+    for state, how in _ways(flow, x0, scale, means, tolerance, record):
+        met.append((state, how))
+        if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
-    return min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
+    # what solves all equations but gives power comes next
+    return min(met, key=lambda one: _left(flow, one[0], tolerance))
+
+
+def _ways(
+    flow: Flow,
+    x0: Array,
+    scale: float,
+    means: Sequence[Means],
+    tolerance: float,
+    record: Callable[[Iteration], None],
+) -> Iterator[tuple[State, str]]:
+    """Polished ends of one way after the other, and which way it was."""
+    problem, weights = flow.problem, flow.problem.compliance
+    smooth, power = replace(flow, softening=SOFTENING), scale / len(problem.blocks)
+
+    def tracked(one: Means, x: Array) -> tuple[State, str]:
+        state, (info,) = follow(
+            smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
+        )
+        return polish(flow, state), info.how
+
+    yield tracked(means[0], x0)
+    if len(means) == 1:
+        return
+    for stage in stages(flow, x0, weights, tolerance, STEPS, scale)[-1:]:
+        yield polish(flow, stage.state), "implicit steps"
+    if not flow.dissipative:
+        centroid = replace(flow, turning=Turning.CENTROID)
+        near, _ = _reached(centroid, x0, scale, means, tolerance, record)
+        for one in TURNED_MEANS:
+            state, how = tracked(one, near.x)
+            yield state, f"{how}, from the solution that twists about the centroid"
+    for one in means[1:]:
+        yield tracked(one, x0)
+
+
+def _left(flow: Flow, state: State, tolerance: float) -> tuple[bool, float]:
+    """Whether more than the dissipation is above the tolerance, and the worst residual."""
+    left = mcp_residuals(flow, state)
+    return any(one.name != "dissipation" for one in left.above(tolerance)), left.worst.value
 
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:

@@ -29,6 +29,13 @@ MEANS = (
     Means(Barrier(1.0, 2.0), 2, 500),
     Means(Barrier(3.0, 1.0), 1, 500),
 )
+# With a flow that can give power, from the solution that twists about the centroid: a solution that gives
+# power at an interface is none, and another seed leads to another one.
+TURNED_MEANS = tuple(
+    Means(barrier, seed, 200)
+    for barrier in (Barrier(), Barrier(0.1, 2.0), Barrier(1.0, 2.0), Barrier(3.0, 1.0))
+    for seed in (0, 1)
+)
 
 
 def follow(
