@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
 from limitblocks.evidence.claim import Claim, claim_of, real_number
+from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.residuals import (
@@ -124,7 +125,8 @@ def _checked(model: Model, claim: Claim, tolerance: float) -> Check:
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
     entries = (*mcp_residuals(flow, state).entries, _standing(problem, claim))
-    return Check(Residuals(entries), tolerance, found, locked_shear(flow, state), model.digest)
+    remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
+    return Check(Residuals(entries), tolerance, found, remarks, model.digest)
 
 
 def _state(model: Model, flow: Flow, claim: Claim) -> tuple[State, bool]:

@@ -20,6 +20,13 @@ class Status(Enum):
     OUT_OF_STEPS = (
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
     )
+    GIVES_POWER = (
+        "not converged: the state shown satisfies all equations, but interfaces give power in it, so that it is "
+        "no collapse"
+    )
+    NO_SOLUTION = (
+        "no solution exists, which is proven; the state shown is that of the largest load factor within yield"
+    )
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,16 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.means import MEANS, TURNED_MEANS, Means, follow
+from limitblocks.analysis.nonassociated.means import (
+    MEANS,
+    SOFTENING,
+    TURNED_MEANS,
+    TURNED_SOFTENING,
+    Means,
+    follow,
+)
 from limitblocks.analysis.nonassociated.path_record import Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
@@ -23,7 +31,8 @@ from limitblocks.analysis.nonassociated.start import (
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NotConverged
+from limitblocks.errors import NoSolution, NotConverged
+from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated, Status
@@ -33,7 +42,6 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dila
 STEPS = Settings(
     budget=300
 )  # the other way along the load path; it closes walls on which the first one winds
-SOFTENING = 1e-6  # of the force of an interface: the epsilon of Table 5 along the path
 
 
 def nonassociated(
@@ -88,7 +96,7 @@ def nonassociated(
     UnlimitedLoad
         If the flow is associated everywhere and the live load can grow without limit.
     NotConverged
-        If no path ends within the tolerance.
+        If no path ends within the tolerance; NoSolution, one of its kind, if it is proven that there is none.
     """
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
@@ -106,6 +114,8 @@ def nonassociated(
     state = flowing_state(model, flow, given)
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
+    elif (proven := state_without_solution(flow)) is not None:
+        state, how = proven, "statics alone"
     else:
         x0 = start_stresses(model, problem, problem.compliance, start)
         scale = load_scale(problem, enclosing.associated)
@@ -142,9 +152,10 @@ def _ways(
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of one way after the other, and which way it was."""
     problem, weights = flow.problem, flow.problem.compliance
-    smooth, power = replace(flow, softening=SOFTENING), scale / len(problem.blocks)
+    power = scale / len(problem.blocks)
 
-    def tracked(one: Means, x: Array) -> tuple[State, str]:
+    def tracked(one: Means, x: Array, softening: float = SOFTENING) -> tuple[State, str]:
+        smooth = replace(flow, softening=softening)
         state, (info,) = follow(
             smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
         )
@@ -159,7 +170,7 @@ def _ways(
         centroid = replace(flow, turning=Turning.CENTROID)
         near, _ = _reached(centroid, x0, scale, means, tolerance, record)
         for one in TURNED_MEANS:
-            state, how = tracked(one, near.x)
+            state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"{how}, from the solution that twists about the centroid"
     for one in means[1:]:
         yield tracked(one, x0)
@@ -208,20 +219,40 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=Status.CONVERGED if worst.value <= tolerance else Status.OUT_OF_STEPS,
+        status=_status(flow, state, tolerance),
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=locked_shear(flow, state),
+        remarks=given_power(flow, state, tolerance) + locked_shear(flow, state),
         tolerance=tolerance,
         digest=model.digest,
         unclaimed=claimed.unclaimed,
     )
-    if throw and not result.converged:
-        raise NotConverged(
-            f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e} at load factor "
-            f"{result.load_factor:.6g}; the error's result holds that state",
+    if not throw or result.converged:
+        return result
+    if result.status is Status.NO_SOLUTION:
+        names = dict.fromkeys(
+            problem.interfaces[k] for k in problem.member_interface[yielding(flow, state.x)]
+        )
+        raise NoSolution(
+            f"no solution exists: statics alone gives the stresses, {', '.join(names)} yields first, at load "
+            f"factor {result.load_factor:.6g}, and the live load does no work on its flow",
             result,
         )
-    return result
+    place = f" at {worst.where}" if worst.where else ""
+    raise NotConverged(
+        f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, load factor "
+        f"{result.load_factor:.6g}; the error's result holds that state",
+        result,
+    )
+
+
+def _status(flow: Flow, state: State, tolerance: float) -> Status:
+    equations_left, worst = _left(flow, state, tolerance)
+    if worst <= tolerance:
+        return Status.CONVERGED
+    if not equations_left:
+        return Status.GIVES_POWER
+    proven = state_without_solution(flow) is not None
+    return Status.NO_SOLUTION if proven else Status.OUT_OF_STEPS
