@@ -21,11 +21,11 @@ class Status(Enum):
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
     )
     GIVES_POWER = (
-        "not converged: the state shown satisfies all equations, but interfaces give power in it, so that it is "
-        "no collapse"
+        "not converged: the state shown satisfies all equations, but interfaces give power in it, so that "
+        "it is no collapse"
     )
     NO_SOLUTION = (
-        "no solution exists, which is proven; the state shown is that of the largest load factor within yield"
+        "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
     )
 
 

@@ -113,7 +113,15 @@ def test_nonassociated_prints_its_bracket_and_residuals(file, tmp_path):
     output = tmp_path / "out.json"
     done = run("nonassociated", file, "--dilatancy", 0.2, "--output", output)
     assert (done.exit_code, done.stderr) == (0, "")
-    for part in ("0.2000", "Frictionless", "not claimed", "nobody asked", "Associated", "others may solve too", "equilibrium"):
+    for part in (
+        "0.2000",
+        "Frictionless",
+        "not claimed",
+        "nobody asked",
+        "Associated",
+        "others may solve too",
+        "equilibrium",
+    ):
         assert part in done.stdout
     assert run("check", file, output).exit_code == 0
     printed = run("nonassociated", file, "--dilatancy", 0.2, "--json")

@@ -50,8 +50,8 @@ def without_shear(problem, random, count):
     normal = ~problem.resultants.toarray()[[0, 1, 5]].any(axis=0)
     middle = np.where(pressing(problem), -1.0, 0.0)
     held = problem.F @ middle + problem.g
-    for d in random.normal(size=(count, len(middle))) * normal:
-        d = d - middle * (d @ middle) / (middle @ middle)  # N stays
+    for drawn in random.normal(size=(count, len(middle))) * normal:
+        d = drawn - middle * (drawn @ middle) / (middle @ middle)  # N stays
         away = problem.cones.longest(held, problem.F @ d)
         yield middle + min(away, 1e3) * random.uniform() * d
 

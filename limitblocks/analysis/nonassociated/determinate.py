@@ -1,17 +1,19 @@
 """Proof that Eqs (54)-(59) have no solution, for structures whose stresses follow from statics alone.
 
-With C square and regular x = x0 + a x1 are the only stresses that balance dead + a live. Where the dead loads
-leave a margin to yield, so do all load factors between the two at which yield is first met, since K is convex:
-nothing flows there. At these two, only what yields can flow, and by virtual work a solution has
+With C square and regular x = x0 + a x1 are the only stresses that balance dead + a live. Where the dead
+loads leave a margin to yield, so do all load factors between the two at which yield is first met, since K is
+convex: nothing flows there. At these two, only what yields can flow, and by virtual work a solution has
 
     1 = live . u = x1 . C u = -x1 . G(x)^T y,
 
-which no y in K* satisfies if x1 does no work on the flow of any yielding row.
+which no y in K* satisfies if x1 does no work on the flow of any yielding row. Nor is it a solution if all
+that yields at an interface gives power as it flows.
 """
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 from scipy import sparse
 from scipy.sparse import linalg
 
@@ -45,20 +47,29 @@ def state_without_solution(flow: Flow) -> State | None:
     return State(a, x0 + a * x1, np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
 
 
-def yielding(flow: Flow, x: Array) -> Array:
+def yielding(flow: Flow, x: Array) -> npt.NDArray[np.bool_]:
     """Return which linear rows and cones are at yield, shape (degree,)."""
     p = flow.problem
     return np.asarray(p.cones.margin(p.F @ x + p.g) <= AT_YIELD)
 
 
 def _works(flow: Flow, x: Array, x1: Array) -> bool:
-    """Whether the stresses x1 may do work on what flows at x."""
+    """Whether the stresses x1 may do work on what can flow at x."""
     p, cones = flow.problem, flow.problem.cones
     G, s = flow.matrix(x), p.F @ x + p.g
     head = cones.identity > 0.0
     length = cones.norm(np.where(head, 0.0, s))[cones.member]
     y = np.where(head, 1.0, -s / np.where(length > 0.0, length, 1.0))  # s . y = 0 on the boundary of a cone
-    work = np.bincount(cones.member, weights=-(G @ x1) * y)
-    size = np.bincount(cones.member, weights=(abs(G) @ np.abs(x1)) * np.abs(y))
-    at_tip = (length[cones.heads] <= AT_YIELD) & (np.arange(cones.degree) >= cones.linear)  # any y of K
-    return bool((yielding(flow, x) & (at_tip | (work > NO_WORK * size))).any())
+
+    def share(stresses: Array) -> Array:
+        """Work of stresses on the flow of each linear row and cone, over the sizes of its terms."""
+        work = np.bincount(cones.member, weights=-(G @ stresses) * y)
+        size = np.bincount(cones.member, weights=(abs(G) @ np.abs(stresses)) * np.abs(y))
+        return np.asarray(work / np.where(size > 0.0, size, 1.0))
+
+    flows, at_tip = yielding(flow, x), length[cones.heads] <= AT_YIELD
+    at_tip[: cones.linear] = False  # at the tip of a cone any y of K may flow
+    taken = np.full(len(p.ends), -np.inf)  # an interface all of whose flows give power does not flow
+    np.maximum.at(taken, p.member_interface[flows], np.where(at_tip, 0.0, share(x))[flows])
+    flows &= taken[p.member_interface] >= -NO_WORK
+    return bool((flows & (at_tip | (share(x1) > NO_WORK))).any())

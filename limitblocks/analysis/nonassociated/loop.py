@@ -2,22 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
-from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.means import (
-    MEANS,
-    SOFTENING,
-    TURNED_MEANS,
-    TURNED_SOFTENING,
-    Means,
-    follow,
-)
-from limitblocks.analysis.nonassociated.path_record import Progress
-from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -28,20 +17,16 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
-from limitblocks.analysis.polish import polish
+from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated, Status
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
-
-STEPS = Settings(
-    budget=300
-)  # the other way along the load path; it closes walls on which the first one winds
+from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
 
 def nonassociated(
@@ -119,73 +104,9 @@ def nonassociated(
     else:
         x0 = start_stresses(model, problem, problem.compliance, start)
         scale = load_scale(problem, enclosing.associated)
-        state, how = _reached(flow, x0, scale, means, tolerance, record)
+        state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
     return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
-
-
-def _reached(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
-) -> tuple[State, str]:
-    """The state to which one way after the other leads, and which it was: both load paths come first."""
-    met: list[tuple[State, str]] = []
-    for state, how in _ways(flow, x0, scale, means, tolerance, record):
-        met.append((state, how))
-        if mcp_residuals(flow, state).worst.value <= tolerance:
-            return met[-1]
-    # what solves all equations but gives power comes next
-    return min(met, key=lambda one: _left(flow, one[0], tolerance))
-
-
-def _ways(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
-) -> Iterator[tuple[State, str]]:
-    """Polished ends of one way after the other, and which way it was."""
-    problem, weights = flow.problem, flow.problem.compliance
-    power = scale / len(problem.blocks)
-
-    def tracked(one: Means, x: Array, softening: float = SOFTENING) -> tuple[State, str]:
-        smooth = replace(flow, softening=softening)
-        state, (info,) = follow(
-            smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
-        )
-        return polish(flow, state), info.how
-
-    yield tracked(means[0], x0)
-    if len(means) == 1:
-        return
-    for stage in stages(flow, x0, weights, tolerance, STEPS, scale)[-1:]:
-        yield polish(flow, stage.state), "implicit steps"
-    if not flow.dissipative:
-        centroid = replace(flow, turning=Turning.CENTROID)
-        near, _ = _reached(centroid, x0, scale, means, tolerance, record)
-        for one in TURNED_MEANS:
-            state, how = tracked(one, near.x, TURNED_SOFTENING)
-            yield state, f"{how}, from the solution that twists about the centroid"
-    for one in means[1:]:
-        yield tracked(one, x0)
-
-
-def _left(flow: Flow, state: State, tolerance: float) -> tuple[bool, float]:
-    """Whether more than the dissipation is above the tolerance, and the worst residual."""
-    left = mcp_residuals(flow, state)
-    return any(one.name != "dissipation" for one in left.above(tolerance)), left.worst.value
-
-
-def _point(problem: LimitProblem, at: Progress) -> Iteration:
-    """What a point of the path tells the user."""
-    load_factor = at.load_factor / problem.units.live
-    return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
 
 
 def _end(flow: Flow, state: State) -> Iteration:
@@ -206,7 +127,6 @@ def finished(
     """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
     problem = flow.problem
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
-    worst = residuals.worst
     found, claimed = enclosing.bounds, enclosing.of(flow)
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
@@ -229,27 +149,33 @@ def finished(
         digest=model.digest,
         unclaimed=claimed.unclaimed,
     )
-    if not throw or result.converged:
-        return result
-    if result.status is Status.NO_SOLUTION:
-        names = dict.fromkeys(
-            problem.interfaces[k] for k in problem.member_interface[yielding(flow, state.x)]
-        )
-        raise NoSolution(
-            f"no solution exists: statics alone gives the stresses, {', '.join(names)} yields first, at load "
-            f"factor {result.load_factor:.6g}, and the live load does no work on its flow",
+    if throw and not result.converged:
+        raise _refused(flow, result)
+    return result
+
+
+def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
+    """The error that says why a result is no solution."""
+    problem, worst = flow.problem, result.residuals.worst
+    state = state_without_solution(flow)
+    if result.status is Status.NO_SOLUTION and state is not None:
+        first = problem.member_interface[yielding(flow, state.x)]
+        return NoSolution(
+            "no solution exists: statics alone gives the stresses, "
+            f"{', '.join(dict.fromkeys(problem.interfaces[k] for k in first))} yields first, at load factor "
+            f"{state.load_factor / problem.units.live:.6g}, and the live load does no work on what can flow",
             result,
         )
     place = f" at {worst.where}" if worst.where else ""
-    raise NotConverged(
-        f"no solution within {tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, load factor "
+    return NotConverged(
+        f"no solution within {result.tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, load factor "
         f"{result.load_factor:.6g}; the error's result holds that state",
         result,
     )
 
 
 def _status(flow: Flow, state: State, tolerance: float) -> Status:
-    equations_left, worst = _left(flow, state, tolerance)
+    equations_left, worst = left_over(flow, state, tolerance)
     if worst <= tolerance:
         return Status.CONVERGED
     if not equations_left:

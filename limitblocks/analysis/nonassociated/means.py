@@ -36,8 +36,8 @@ TURNED_MEANS = tuple(
     for barrier in (Barrier(), Barrier(0.1, 2.0), Barrier(1.0, 2.0), Barrier(3.0, 1.0))
     for seed in (0, 1)
 )
-# Epsilon of Table 5 along the path, of the force of an interface: paths from the permanent loads wind where it
-# is smaller, and those that start near a solution end at another one of the printed form where it is larger.
+# Epsilon of Table 5 along the path, of the force of an interface: paths from the permanent loads wind where
+# it is smaller; those that start near a solution end too far from the printed form where it is larger.
 SOFTENING, TURNED_SOFTENING = 1e-3, 1e-6
 
 
