@@ -168,8 +168,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
         )
     place = f" at {worst.where}" if worst.where else ""
     return NotConverged(
-        f"no solution within {result.tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, load factor "
-        f"{result.load_factor:.6g}; the error's result holds that state",
+        f"no solution within {result.tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, "
+        f"load factor {result.load_factor:.6g}; the error's result holds that state",
         result,
     )
 
