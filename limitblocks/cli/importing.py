@@ -83,13 +83,13 @@ def import_blocks(
         law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
         weight = _unit_weight(unit_weight)
         if thickness is None:
-            found = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
-            found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
         model, warnings = model_of(
-            found, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
+            imported, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
         )
-        for word, lines in (("note", found.notes), ("warning", warnings)):
+        for word, lines in (("note", imported.notes), ("warning", warnings)):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")

@@ -66,10 +66,10 @@ def find_interfaces(
         Blocks interpenetrate deeper than the gap tolerance, or than half the mean thickness of the thinner
         one; lists all such pairs.
     """
-    found = find_contacts(blocks, joint, gap=gap, angle=angle)
-    if found.overlaps:
-        raise GeometryError(*map(str, found.overlaps))
-    return found.interfaces
+    contacts = find_contacts(blocks, joint, gap=gap, angle=angle)
+    if contacts.overlaps:
+        raise GeometryError(*map(str, contacts.overlaps))
+    return contacts.interfaces
 
 
 def find_contacts(
@@ -136,8 +136,8 @@ def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None
         raise ModelError(*faults)
 
 
-def _ends(names: Sequence[str], faces: FaceTable, found: Patches) -> list[tuple[str, str]]:
-    blocks = faces.block[found.a].tolist(), faces.block[found.b].tolist()
+def _ends(names: Sequence[str], faces: FaceTable, patches: Patches) -> list[tuple[str, str]]:
+    blocks = faces.block[patches.a].tolist(), faces.block[patches.b].tolist()
     return [(names[i], names[j]) for i, j in zip(*blocks, strict=True)]
 
 
@@ -150,29 +150,29 @@ def _near_misses(
     return tuple(NearMiss(*ends, *values) for ends, values in rows if ends not in within)
 
 
-def _slivers(names: Sequence[str], faces: FaceTable, found: Patches) -> tuple[Sliver, ...]:
-    area = shapely.area(found.shape)
-    numbers = np.column_stack([area, 2.0 * area / shapely.length(found.shape)]).tolist()
-    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True))
+def _slivers(names: Sequence[str], faces: FaceTable, patches: Patches) -> tuple[Sliver, ...]:
+    area = shapely.area(patches.shape)
+    numbers = np.column_stack([area, 2.0 * area / shapely.length(patches.shape)]).tolist()
+    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, patches), numbers, strict=True))
 
 
 def _interfaces(
-    names: Sequence[str], centre: Array, faces: FaceTable, found: Patches, joint: object
+    names: Sequence[str], centre: Array, faces: FaceTable, patches: Patches, joint: object
 ) -> tuple[Interface, ...]:
     """Return an interface for each convex patch, in their order."""
-    rings = shapely.get_exterior_ring(found.shape)
+    rings = shapely.get_exterior_ring(patches.shape)
     rings = np.where(shapely.is_ccw(rings), rings, shapely.reverse(rings))
     points, owner = shapely.get_coordinates(rings, return_index=True)
     keep = np.diff(owner, append=-1) == 0  # the last vertex of a ring repeats its first
-    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(found.shape))
+    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(patches.shape))
     points, owner = polygon.clean(points[keep], owner[keep], tolerance)
-    counts = np.bincount(owner, minlength=len(found.a))
+    counts = np.bincount(owner, minlength=len(patches.a))
     made: list[tuple[int, Interface]] = []
     for n in np.unique(counts):
         group = np.flatnonzero(counts == n)
         stack = points[counts[owner] == n].reshape(-1, n, 2)
-        arrays = _local(stack, centre + found.origin[group], found.frame[group])
-        ends = faces.block[found.a[group]], faces.block[found.b[group]]
+        arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
+        ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
         for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
             made.append((k, Interface(names[i], names[j], c, t, p, joint)))
     return tuple(interface for _, interface in sorted(made, key=itemgetter(0)))

@@ -82,18 +82,25 @@ def read(
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     with faults.named(path):
         model, warnings = model_of(
-            found, joint=joint, supports=supports, live=live, dead=dead, gap=gap, angle=angle, name=path.stem
+            imported,
+            joint=joint,
+            supports=supports,
+            live=live,
+            dead=dead,
+            gap=gap,
+            angle=angle,
+            name=path.stem,
         )
-    for line in (*found.notes, *warnings):
+    for line in (*imported.notes, *warnings):
         _log.warning("%s: %s", path, line)
     return model
 
 
 def model_of(
-    found: ImportedBlocks,
+    imported: ImportedBlocks,
     *,
     joint: Joint | None,
     supports: Supports | None,
@@ -110,23 +117,23 @@ def model_of(
     ModelError
         An argument is missing, a support is unknown, or the model is wrong.
     """
-    supports = supports or found.supports or None
+    supports = supports or imported.supports or None
     if joint is None or supports is None or live is None:
         given = {"joint": joint, "supports": supports, "live": live}
         missing = (key for key, value in given.items() if value is None)
         raise ModelError(
             *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
         )
-    names = supports_of(found, supports)
+    names = supports_of(imported, supports)
     tolerances = {key: value for key, value in (("gap", gap), ("angle", angle)) if value is not None}
-    contacts = find_contacts(found.blocks, joint, **tolerances)
+    contacts = find_contacts(imported.blocks, joint, **tolerances)
     if contacts.overlaps:
         raise GeometryError(*map(str, contacts.overlaps))
     loads = self_weight() if dead is None else dead
-    return Model(found.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
+    return Model(imported.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
 
 
-def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
+def supports_of(imported: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
     """Return the names of the supports: blocks named, of named layers, or that a function picks.
 
     Raises
@@ -135,13 +142,13 @@ def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
         A name is neither that of a block nor that of a layer.
     """
     if callable(supports):
-        return tuple(block.name for block in found.blocks if supports(block))
+        return tuple(block.name for block in imported.blocks if supports(block))
     wanted = {supports} if isinstance(supports, str) else set(supports)
-    names, layers = set(found.layers), set(found.layers.values()) - {""}
+    names, layers = set(imported.layers), set(imported.layers.values()) - {""}
     unknown = sorted(wanted - names - layers)
     if unknown:
         raise ModelError(
             *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
               for name in unknown)
         )  # fmt: skip
-    return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)
+    return tuple(name for name, layer in imported.layers.items() if name in wanted or layer in wanted)

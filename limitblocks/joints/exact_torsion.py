@@ -129,7 +129,8 @@ class ExactTorsion(Queries):
             bending = np.column_stack([np.zeros((len(twist), 2)), np.tile(planes, (2, 1)), twist])
             tables["moment-twist"].append(bending / levers.sum())
         return [
-            frictional(mode, -_of_one_length(found)[shape_of], np.zeros(1)) for mode, found in tables.items()
+            frictional(mode, -_of_one_length(planes_of)[shape_of], np.zeros(1))
+            for mode, planes_of in tables.items()
         ]
 
     def _surfaces(self, polygon: Array) -> dict[str, tuple[Array, Array]]:

@@ -163,8 +163,8 @@ class Queries:
         problem = question.problem
         flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
         x = question.stresses(Q)
-        found = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)
-        return np.asarray(found / np.repeat([1.0, length], 3) + 0.0)  # -0.0 becomes 0.0
+        rates = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)
+        return np.asarray(rates / np.repeat([1.0, length], 3) + 0.0)  # -0.0 becomes 0.0
 
     def _question(self, interface: Interface, Q: Array) -> Question:
         """Rows of the interface in units of the root of its area and of the size of the stresses Q."""

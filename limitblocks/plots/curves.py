@@ -47,8 +47,8 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     LimitBlocksError
         If the result has no history.
     """
-    found = result.collapse if isinstance(result, LoadPath) else result
-    history = getattr(found, "history", ())
+    end = result.collapse if isinstance(result, LoadPath) else result
+    history = getattr(end, "history", ())
     if not history:
         raise LimitBlocksError(f"this {type(result).__name__} has no history to draw")
     ax = curve_axes(ax)
@@ -57,7 +57,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     for name, colour in zip(names, [c for c in CYCLE if c != BLACK] * len(names), strict=False):
         values = [max(one.residuals.get(name, np.nan), FLOOR) for one in history]
         ax.semilogy(steps, values, ".-", color=colour, linewidth=1.0, label=name)
-    ax.axhline(found.tolerance, color=PALE, linestyle=":", label="tolerance")
+    ax.axhline(end.tolerance, color=PALE, linestyle=":", label="tolerance")
     ax.set(xlabel="stage (–)", ylabel="residual (–)")
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     right = ax.twinx()
@@ -242,10 +242,10 @@ def _load_factors(result: Any) -> dict[str, float]:
         if result.gap < 1e-3:
             return {"associated": result.lower}
         return {"associated, static": result.lower, "associated, kinematic": result.upper}
-    found = result.collapse if isinstance(result, LoadPath) else result
-    if not isinstance(found, Nonassociated):
+    end = result.collapse if isinstance(result, LoadPath) else result
+    if not isinstance(end, Nonassociated):
         raise LimitBlocksError(
             f"{type(result).__name__} given; expected results of bounds, nonassociated or load_path"
         )
     name = "load path" if isinstance(result, LoadPath) else "non-associated"
-    return {"frictionless": found.frictionless, name: found.load_factor, "associated": found.associated}
+    return {"frictionless": end.frictionless, name: end.load_factor, "associated": end.associated}

@@ -156,6 +156,6 @@ class Flow:
     def dissipation(self, x: Array, y: Array) -> Array:
         """Return the power -x . G(x)^T y that each interface takes up, shape (m,); negative: it gives."""
         power = -x * (self.matrix(x).T @ y)
-        found = np.zeros(len(self.problem.ends))
-        np.add.at(found, self.problem.stress_interface, power)
-        return found
+        taken = np.zeros(len(self.problem.ends))
+        np.add.at(taken, self.problem.stress_interface, power)
+        return taken

@@ -23,7 +23,7 @@ _ORDER = ("Frictionless", "Non-associated", "Load path", "Associated")
 
 def comparison(results: Iterable[Any]) -> tuple[tuple[str, str, str], ...]:
     """Return name, value and meaning of each load factor; empty where there is nothing to compare."""
-    found: dict[str, tuple[str, str, str]] = {}
+    rows_by_name: dict[str, tuple[str, str, str]] = {}
     for result in results:
         rows: tuple[tuple[str, str, str], ...]
         if isinstance(result, Nonassociated | LoadPath):
@@ -31,11 +31,13 @@ def comparison(results: Iterable[Any]) -> tuple[tuple[str, str, str], ...]:
             name, meaning = ("Non-associated", _NONASSOCIATED) if end is result else ("Load path", _PATH)
             unproven = "" if end.converged else "; not converged, so not proven"
             if isnan(end.frictionless):  # a lower end of all results, or of none
-                found.pop("Frictionless", None)
+                rows_by_name.pop("Frictionless", None)
             rows = (*limits(end), (name, f"{end.load_factor:#.7g}", meaning + unproven))
         elif isinstance(result, Bounds):
             rows = (("Associated", f"{result.lower:#.7g}", _ASSOCIATED),)
         else:
             continue
-        found = {row[0]: row for row in rows} | found
-    return tuple(found[name] for name in _ORDER if name in found) if len(found) > 1 else ()
+        rows_by_name = {row[0]: row for row in rows} | rows_by_name
+    return (
+        tuple(rows_by_name[name] for name in _ORDER if name in rows_by_name) if len(rows_by_name) > 1 else ()
+    )

@@ -161,7 +161,7 @@ def _check(_model: Model, check: mcp.Check) -> Section:
     )
 
 
-def _stability(_model: Model, found: Stability) -> Section:
+def _stability(_model: Model, answer: Stability) -> Section:
     return Section(
         title="Stability under the dead loads",
         meaning=(
@@ -170,16 +170,16 @@ def _stability(_model: Model, found: Stability) -> Section:
             "it. It stands by itself where such stresses arise on unstressed blocks with slightly compliant "
             "joints that slide without lifting."
         ),
-        headline=found.kind.value.split(":")[0],
-        quantity=f"margin {found.margin:.3g} of the weight",
+        headline=answer.kind.value.split(":")[0],
+        quantity=f"margin {answer.margin:.3g} of the weight",
         values=(
-            ("Answer", found.kind.value.split(": ")[1], ""),
-            ("Margin", f"{found.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
-            ("Blocks that move", _some(list(found.blocks)) or "none", ""),
+            ("Answer", answer.kind.value.split(": ")[1], ""),
+            ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
+            ("Blocks that move", _some(list(answer.blocks)) or "none", ""),
         ),
-        checks=_checks(found.residuals, ARISEN),
+        checks=_checks(answer.residuals, ARISEN),
         tolerance=ARISEN,
-        rates=found.displacement_rates,
+        rates=answer.displacement_rates,
     )
 
 

@@ -30,9 +30,9 @@ class Profile(NamedTuple):
         normal = np.column_stack([np.sin(angles), np.cos(angles)])
         a = np.array(self.half_axes)
         reach = np.linalg.norm(a * normal, axis=1)[:, None]
-        found = a**2 / reach * normal + offset * normal
-        found[:, 0] -= self.shift * np.sign(angles)
-        return np.asarray(found)
+        ellipse = a**2 / reach * normal + offset * normal
+        ellipse[:, 0] -= self.shift * np.sign(angles)
+        return np.asarray(ellipse)
 
     def apex(self, offset: float = 0.0) -> float:
         """Angle at which the right half of a pointed arch meets the left one; 0 if it is not pointed."""

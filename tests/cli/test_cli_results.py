@@ -195,9 +195,9 @@ def test_stability_is_code_0_only_for_what_stands_by_itself(document, code, kind
     assert (done.exit_code, done.stderr) == (code, "")
     assert kind in done.stdout
     assert ("stone" in done.stdout) is bool(code)
-    found = json.loads(run("stability", file, "--json").stdout)
-    assert (found["kind"], found["stands"]) == (kind, code == 0)
-    assert found == json.loads(output.read_text())
+    answer = json.loads(run("stability", file, "--json").stdout)
+    assert (answer["kind"], answer["stands"]) == (kind, code == 0)
+    assert answer == json.loads(output.read_text())
     refused = run("check", file, output)
     assert refused.exit_code == 2
     assert "no load factor" in refused.stderr
@@ -221,8 +221,8 @@ def test_check_of_an_honest_result_passes(file, result):
     done = run("check", file, result)
     assert (done.exit_code, done.stderr) == (0, "")
     assert all(part in done.stdout for part in ("passed", "complementarity", "Eq. (59)", "as claimed"))
-    found = json.loads(run("check", file, result, "--json").stdout)
-    assert (found["analysis"], found["passed"], found["mechanism_found"]) == ("check", True, False)
+    said = json.loads(run("check", file, result, "--json").stdout)
+    assert (said["analysis"], said["passed"], said["mechanism_found"]) == ("check", True, False)
     assert run("check", file, result, "--tolerance", 1e-16).exit_code == 1
 
 
@@ -248,9 +248,9 @@ def test_check_names_the_residual_of_every_mutilation(changes, residual, file, r
     (line,) = done.stderr.splitlines()
     assert line.startswith("error: above 1e-08:")
     assert f"{residual} " in line
-    found = run("check", file, result, "--json")
-    assert found.exit_code == 1
-    assert json.loads(found.stdout)["passed"] is False
+    answer = run("check", file, result, "--json")
+    assert answer.exit_code == 1
+    assert json.loads(answer.stdout)["passed"] is False
 
 
 def test_yield_violation_is_named(file, result):

@@ -80,12 +80,12 @@ def powers(joint, polygon, share=0.0, turning=Turning.CENTROID):
     problem = problem_of(joint, polygon)
     flow = Flow(problem, share * MU, turning)
     smooth = np.array(list(without_shear(problem, random, STATES)))
-    found = []
+    values = []
     for x, y in flowing(problem, random, STATES):
         dq = -flow.matrix(x).T @ y
         size = np.linalg.norm(x) * np.linalg.norm(dq)
-        found.append((x @ dq - smooth @ dq) / size)
-    return np.concatenate(found)
+        values.append((x @ dq - smooth @ dq) / size)
+    return np.concatenate(values)
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=repr)
@@ -146,7 +146,7 @@ def test_a_joint_without_friction_has_neither_cohesion_nor_tension():
     ]
     interfaces = lb.find_interfaces(blocks, joint)
     model = lb.Model(blocks, ["ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    found = lb.nonassociated(model)
-    assert found.load_factor == pytest.approx(1.5 - MU)
-    assert np.isnan(found.frictionless)
-    assert found.unclaimed.startswith("without friction the dead loads do not stand")
+    result = lb.nonassociated(model)
+    assert result.load_factor == pytest.approx(1.5 - MU)
+    assert np.isnan(result.frictionless)
+    assert result.unclaimed.startswith("without friction the dead loads do not stand")
