@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 
@@ -155,11 +156,7 @@ class Nonassociated:
             "tolerance": self.tolerance,
             "how": self.how,
             "history": [asdict(iteration) for iteration in self.history],
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            **as_lists(self),
             "model_digest": self.digest,
         }
 

@@ -155,12 +155,18 @@ class Queries:
         Raises
         ------
         ModelError
-            If the dilatancy is out of range or the turning unknown.
+            If the dilatancy is out of range or the turning unknown, or the rows act on forces of points: only
+            rigid motions of all points are strain rates.
         """
         Q = _six(Q, "Q")
         length = float(np.sqrt(areas(interface.polygon)))
         question = self._question(interface, Q if Q.any() else np.array([0, 0, -1.0, 0, 0, 0]))
         problem = question.problem
+        if problem.resultants.nnz > problem.resultants.shape[1]:
+            raise ModelError(
+                f"{type(self).__name__} has no flow directions in stress resultants; its rows act on the "
+                "forces of points"
+            )
         flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
         x = question.stresses(Q)
         rates = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)

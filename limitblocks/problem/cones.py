@@ -89,7 +89,7 @@ class Cones:
         a, b = v[: self.linear], dv[: self.linear]
         t = float(np.min(np.maximum(a[b < 0.0], 0.0) / -b[b < 0.0], initial=np.inf))
         for index in self.groups:
-            t = min(t, float(_reach(v[index], dv[index]).min(initial=np.inf)))
+            t = min(t, float(_longest(v[index], dv[index]).min(initial=np.inf)))
         return t
 
     def share(self, held: Array, rest: Array, noise: float = 0.0) -> Array:
@@ -178,7 +178,7 @@ def _determinant(v: Array) -> Array:
     return np.asarray(v[:, 0] ** 2 - (v[:, 1:] ** 2).sum(axis=1))
 
 
-def _reach(v: Array, d: Array) -> Array:
+def _longest(v: Array, d: Array) -> Array:
     """Largest t with v + t d in each cone (k, size), in closed form; every v is in it."""
     a, z, b, w = v[:, 0], v[:, 1:], d[:, 0], d[:, 1:]
     # A t^2 + 2 B t + C, which is at least zero inside

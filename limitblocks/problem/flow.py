@@ -122,8 +122,8 @@ class Flow:
         rows = np.flatnonzero(self.pivot)
         k, turn = p.row_interface[rows], self.pivot[rows]
         _, M1, M2, N = self._held(x)
-        reach = FARTHEST * p.half_sides
-        e1, e2 = np.clip(np.stack([-M2 / N, M1 / N], axis=1), -reach, reach)[k].T
+        farthest = FARTHEST * p.half_sides
+        e1, e2 = np.clip(np.stack([-M2 / N, M1 / N], axis=1), -farthest, farthest)[k].T
         entries = np.concatenate([-turn * e2, turn * e1])  # ds = dthn (e2, -e1), Table 5
         places = np.concatenate([rows, rows]), np.concatenate([6 * k, 6 * k + 1])
         shape = (len(p.pivot), p.resultants.shape[0])

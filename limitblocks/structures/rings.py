@@ -29,8 +29,8 @@ class Profile(NamedTuple):
         """Return points (n, 2) at `offset` outside the centreline, on its normals at `angles` (n,)."""
         normal = np.column_stack([np.sin(angles), np.cos(angles)])
         a = np.array(self.half_axes)
-        reach = np.linalg.norm(a * normal, axis=1)[:, None]
-        ellipse = a**2 / reach * normal + offset * normal
+        size = np.linalg.norm(a * normal, axis=1)[:, None]
+        ellipse = a**2 / size * normal + offset * normal
         ellipse[:, 0] -= self.shift * np.sign(angles)
         return np.asarray(ellipse)
 
