@@ -42,9 +42,9 @@ class Bracket:
     """
 
     frictionless: float
-    unclaimed: str
     associated: float
     bounds: Bounds | None
+    unclaimed: str = ""
 
     def of(self, flow: Flow) -> Bracket:
         """Return what is claimed of the solutions of a flow rule: no lower end where it can give power."""
@@ -57,7 +57,7 @@ def bracket(model: Model) -> Bracket:
     upper = found.upper if found else np.inf
     lower, unclaimed = _frictionless(model)
     noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
-    return Bracket(0.0 if noise else lower, unclaimed, upper, found)
+    return Bracket(0.0 if noise else lower, upper, found, unclaimed)
 
 
 def _frictionless(model: Model) -> tuple[float, str]:
