@@ -115,6 +115,14 @@ EXPECTED = {
         "vertical force over weight": (1, 1e-6),
         "margin on the slope": ((0.6 - np.array([0.5, 0.55, 0.7])) / np.hypot(1, [0.5, 0.55, 0.7]), 1e-6),
     },
+    "21_three_answers_all_checked": {  # Ferris & Tin-Loi (2001); wall 4 has other solutions than theirs
+        "associated": ([0.64286, 0.58000, 0.40369, 0.33195], 1e-5),
+        "path over published": (1, 0.01),
+        "fixed point over published, walls 1 to 3": (1, 0.01),
+        "fixed point over associated, at most 1": (1, 1e-6),
+        "worst residual": (0, 1e-8),
+        "what a round changes": (0, 1e-6),
+    },
 }
 
 

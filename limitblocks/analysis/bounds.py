@@ -1,4 +1,8 @@
-"""Static and kinematic bounds for the associated flow, each solved by itself and proven by residuals."""
+"""Static and kinematic bounds for the associated flow, each proven by residuals of its own.
+
+Stresses and mechanism are the primal and the dual solution of one convex program: an interior-point method
+finds both together. By itself the kinematic program is solved less accurately, and costs as much again.
+"""
 
 from __future__ import annotations
 
@@ -7,22 +11,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from limitblocks.analysis.certified import certified
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.known import known
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
-    Solution,
     jamming_program,
-    kinematic_program,
-    remeasured,
     solved,
     solvers,
     static_program,
 )
-from limitblocks.analysis.stability import balanced, dead_load_state
+from limitblocks.analysis.scales import Scaled, balanced, repaired, scaled, unmoved
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import (
     Residuals,
     bounds_residuals,
@@ -32,6 +37,10 @@ from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
 TOLERANCE = 1e-6  # largest residual, gap and worth of a pair of bounds
+UNLIMITED = (
+    "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
+    "its direction, or use the non-associated analysis"
+)
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
 
@@ -41,7 +50,7 @@ class _Pair:
 
     problem: LimitProblem
     state: State
-    solvers: tuple[str, str]
+    solver: str
 
     @property
     def upper(self) -> float:
@@ -73,11 +82,19 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         If the live load can grow without limit.
     SolverFailure
         If no solver gives a pair of bounds within the tolerance.
+
+    Notes
+    -----
+    Solved once for each model and tolerance: asked for again, the same result comes back.
     """
+    return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance))
+
+
+def _bounds(model: Model, tolerance: float) -> Bounds:
     dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair = _solved(model.problem, dead, tolerance)
+    pair, proof = _proven(pair_of_bounds(model.problem, dead, tolerance), dead, tolerance)
     problem, si = pair.problem, pair.problem.in_si(pair.state)
-    upper = pair.upper / problem.units.live
+    upper = proof.upper if proof.complete else pair.upper / problem.units.live
     return Bounds(
         lower=si.load_factor,
         upper=upper,
@@ -89,13 +106,25 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
         flow_multipliers=read_only(si.y),
         dead_load_stresses=read_only(dead * model.problem.stress_units),
         residuals=pair.residuals,
-        solvers=pair.solvers,
+        proof=proof,
+        solvers=(pair.solver, pair.solver),
         tolerance=tolerance,
         digest=model.digest,
     )
 
 
-def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
+def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
+    """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
+    state, proof = certified(pair.problem, pair.state, dead)
+    if proof.width <= tolerance:
+        return replace(pair, state=state), proof
+    if proof.complete:
+        wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
+        proof = Proof(-np.inf, np.inf, wide, wide)
+    return pair, proof
+
+
+def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
     for pair in _pairs(problem, dead, tolerance, said):
@@ -103,58 +132,56 @@ def _solved(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
         if worst.value <= tolerance:
             return pair
         place = f" at {worst.where}" if worst.where else ""
-        said.append(f"{' and '.join(pair.solvers)}, {worst.name} residual {worst.value:.1e}{place}")
+        said.append(f"{pair.solver}, {worst.name} residual {worst.value:.1e}{place}")
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
 
 
 def _pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:
-    """Pairs of solutions by one solver after the other, each as it is, polished, and in better units."""
-    explained = False
-    standing = State(0.0, dead, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))
-    resting = remeasured(problem, standing)  # where a solver finds nothing: units of the dead loads alone
+    """Pairs of solutions by one solver after the other: as they are, repaired, polished, in better units."""
+    flow, explained = Flow(problem, ASSOCIATED), False
+    resting = scaled(problem).measured(unmoved(problem, 0.0, dead))  # units where a solver finds nothing
     for solver in solvers(bool(problem.cones.second_order)):
-        measured: LimitProblem | None = problem
+        measured: Scaled | None = scaled(problem)
         for _ in range(ROUNDS):
             if measured is None:
                 break
-            problem = measured
-            static = solved(static_program(problem), solver)
-            kinematic = solved(kinematic_program(problem), solver)
-            state = _state(static, kinematic)
-            if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
-                said.append(f"{solver.name} {static.status} and {kinematic.status}")
+            found = solved(static_program(measured), solver)
+            u, *rows = found.duals
+            load_factor, x, y = *found.values, np.concatenate(rows)
+            if not all(np.isfinite(part).all() for part in (load_factor, x, u, y)):
+                said.append(f"{solver.name} {found.status}")
                 if not explained:
-                    explain(problem)
+                    explain(problem, dead)
                     explained = True
                 measured, resting = resting, None
                 continue
-            pair = _Pair(problem, state, (static.solver, kinematic.solver))
-            yield pair
-            polished = polish(Flow(problem, ASSOCIATED), state, until=tolerance / 10)
+            state = State(float(load_factor), x, u, y)
+            yield _Pair(problem, measured.in_problem(state), solver.name)
+            state = measured.in_problem(repaired(measured, state))
+            yield _Pair(problem, state, solver.name)
+            polished = polish(flow, state, until=tolerance / 10)
             if polished is not state:
-                yield _Pair(problem, polished, pair.solvers)
-            measured = remeasured(problem, polished)
+                yield _Pair(problem, polished, solver.name)
+            measured = measured.measured(polished)
 
 
-def _state(static: Solution, kinematic: Solution) -> State:
-    return State(float(static.values[0]), static.values[1], *kinematic.values)
+def explain(problem: LimitProblem, dead: Array) -> None:
+    """Raise UnlimitedLoad where stresses carry the live load alone, or with a little of the dead loads.
 
-
-def explain(problem: LimitProblem) -> None:
-    """Raise UnlimitedLoad where a recomputed certificate proves it; else return."""
-    none = np.zeros_like(problem.g)
-    pushed = replace(problem, dead=problem.live, g=none)  # any multiple of the live load
-    for _ in range(ROUNDS):
-        for solver in solvers(bool(problem.cones.second_order)):
-            (x,) = solved(jamming_program(pushed), solver).values
-            x = balanced(pushed, 0.0, x)
-            if Residuals(static_residuals(pushed, 0.0, x)).worst.value <= CERTIFIED:
-                raise UnlimitedLoad(
-                    "the live load can grow without limit: a stress state within the yield surface balances "
-                    "it alone; check its direction, or use the non-associated analysis"
-                )
-        found = np.isfinite(x).all()
-        better = remeasured(pushed, State(0.0, x, np.zeros(pushed.C.shape[1]), none)) if found else None
-        if better is None:
-            return
-        pushed = better
+    The stresses `dead` carry those: what the live load does not reach is judged by them, not by rounding.
+    """
+    pushed = replace(problem, dead=problem.live, g=np.zeros_like(problem.g))  # any multiple of the live load
+    loaded = replace(pushed, dead=problem.live + CERTIFIED * problem.dead)
+    for solver in solvers(bool(problem.cones.second_order)):
+        measured: Scaled | None = scaled(pushed)
+        for _ in range(ROUNDS):
+            if measured is None:
+                break
+            (x,) = solved(jamming_program(measured), solver).values
+            if not np.isfinite(x).all():
+                break
+            x = measured.stress * balanced(measured, measured.dead, x)
+            for loads, stresses in ((pushed, x), (loaded, x + CERTIFIED * dead)):
+                if Residuals(static_residuals(loads, 0.0, stresses)).worst.value <= CERTIFIED:
+                    raise UnlimitedLoad(UNLIMITED)
+            measured = measured.measured(unmoved(problem, 0.0, x))

@@ -31,15 +31,11 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 
-PROXIMAL = 1e-7  # delta
-REGULAR = 1e-11  # eps of the quasidefinite system
-SOLVED = 1e-6  # part of a right-hand side that may be left unsolved
+PROXIMAL = 1e-6  # delta
 REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
-LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
-ROUNDS = 4  # of reading the yielding rows off the state
-CONVERGING = 0.1  # part of the residual that a step of Newton's method may leave
-STEPS = 8  # of Newton's method in a round
+STEPS = 20  # of Newton's method
+PATIENCE = 4  # steps in turn that do not better the best state
 
 
 class Kind(IntEnum):
@@ -79,7 +75,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-def polish(flow: Flow, state: State, *, until: float = ROUNDING, rounds: int = ROUNDS) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -90,97 +86,60 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING, rounds: int = R
         A state near a solution, dimensionless.
     until : float
         Residual that is small enough.
-    rounds : int
-        How often the yielding rows may be read off.
     """
-    best, least = state, defect(flow, state)
-    now = state
-    for _ in range(rounds):
-        if least <= until:
+    p, now = flow.problem, state
+    best, least, failed = state, defect(flow, state), 0
+    for _ in range(STEPS):
+        if least <= until or failed == PATIENCE:
             break
-        active = classified(flow.problem.cones, flow.problem.F @ now.x + flow.problem.g, now.y)
-        found = _newton(flow, now, active, until)
-        if found is None:
+        s = p.F @ now.x + p.g
+        sigma = float(np.linalg.norm(s) / max(np.linalg.norm(now.y), 1e-300))
+        try:
+            now = _step(flow, now, classified(p.cones, s, sigma * now.y))
+        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
             break
-        worst = defect(flow, found)
+        inside = _admissible(p.cones, now)
+        worst = defect(flow, inside)
+        failed = failed + 1 if worst >= least else 0
         if worst < least:
-            best, least = found, worst
-        again = classified(flow.problem.cones, flow.problem.F @ found.x + flow.problem.g, found.y)
-        if np.array_equal(again.kind, active.kind):
-            break
-        now = found
+            best, least = inside, worst
     return best
 
 
-def _newton(flow: Flow, state: State, active: Active, until: float) -> State | None:
-    """Newton's method on the equations of one set of yielding rows; the best state it meets."""
-    y = np.zeros_like(state.y)
-    y[active.rows] = state.y[active.rows]
-    now = State(state.load_factor, state.x, state.u, y)
-    found, least = None, np.inf
-    for _ in range(STEPS):
-        try:
-            now = _step(flow, now, active)
-        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
-            break
-        inside = _admissible(flow.problem.cones, now)
-        worst = defect(flow, inside)
-        if not worst < CONVERGING * least:
-            if worst < least:
-                found = inside
-            break
-        found, least = inside, worst
-        if least <= until:
-            break
-    return found
-
-
 def _step(flow: Flow, now: State, active: Active) -> State:
-    """One Newton step."""
+    """One Newton step on the equations of a set of yielding rows."""
     p = flow.problem
+    y = np.zeros_like(now.y)
+    y[active.rows] = now.y[active.rows]
+    now = State(now.load_factor, now.x, now.u, y)
     residual, J = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
     d = _proximal_solution(J, -residual, n)
-    if d is None:
-        d = _scaled_least_solution(J, -residual, now.y[active.rows])
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
 
 
-def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array | None:
-    """Solution of J d = r from J + delta I with refinement; the first n equations negated. None if none."""
+def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
+    """Solution of J d = r from J + delta I with refinement; the first n equations negated."""
     sign = np.where(np.arange(len(r)) < n, -1.0, 1.0)
-    K = sparse.csc_array(sparse.diags_array(sign) @ J + PROXIMAL * sparse.eye_array(len(r)))
-    lu = linalg.splu(K, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.001)
+    lu = _diagonal_pivots(sparse.diags_array(sign) @ J + PROXIMAL * sparse.eye_array(len(r)))
     d = lu.solve(sign * r)
     for _ in range(REFINEMENTS):
         d = d + lu.solve(sign * (r - J @ d))
-    solved = float(np.abs(J @ d - r).max()) <= SOLVED * float(np.abs(r).max(initial=0.0)) + ROUNDING
-    return np.asarray(d) if solved else None
+    return np.asarray(d)
 
 
-def _scaled_least_solution(J: sparse.csr_array, r: Array, y: Array) -> Array:
-    """Step of least norm, multipliers measured by their size so that small ones stay positive."""
-    size = np.maximum(np.abs(y), LEAST_MULTIPLIER * np.abs(y).max(initial=1e-12))
-    columns = np.concatenate([np.ones(J.shape[1] - len(y)), size / size.max(initial=1e-12)])
-    scaled = sparse.csr_array(J @ sparse.diags_array(columns))
-    length = np.sqrt(np.asarray(scaled.multiply(scaled).sum(axis=1)).ravel())
-    rows = 1.0 / np.where(length > 0.0, length, 1.0)
-    return columns * _least_solution(sparse.csr_array(sparse.diags_array(rows) @ scaled), rows * r)
+def _diagonal_pivots(K: Any) -> Any:
+    """Factors of a matrix that is skew or quasidefinite but for what refinement mends: no row exchanges.
 
-
-def _least_solution(J: sparse.csr_array, r: Array) -> Array:
-    """Least-norm least-squares solution of J p = r, with refinement."""
-    m, n = J.shape
-    eps = sparse.diags_array(np.full(m, -REGULAR))
-    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = linalg.splu(K)
-    right = np.concatenate([np.zeros(n), r])
-    z = lu.solve(right)
-    for _ in range(2):
-        z = z + lu.solve(right - K @ z)
-    return np.asarray(z[:n])
+    Of 10,409 equations (facade of 160 blocks) it takes .018 s and leaves 180,000 entries where exchanges by
+    a threshold take .5 s and 2.4 million, the default ordering .07 s and 1.5 million.
+    """
+    options = {"SymmetricMode": True}
+    return linalg.splu(
+        sparse.csc_array(K), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options
+    )
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import cvxpy as cp
 import numpy as np
 
+from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Cones, LimitProblem, State
@@ -53,12 +54,12 @@ SOLVERS = (
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """What a solver claims: its word, the variables' values and the first constraint's dual; no evidence."""
+    """What a solver claims: its word, values of the variables and duals of the constraints; no evidence."""
 
     solver: str
     status: str
     values: tuple[Array, ...]
-    dual: Array
+    duals: tuple[Array, ...]
 
 
 @dataclass(frozen=True)
@@ -69,24 +70,16 @@ class Program:
     variables: tuple[cp.Variable, ...]
 
 
-def static_program(problem: LimitProblem) -> Program:
-    """Largest load factor in equilibrium within the yield set, Eqs (56)-(57). Variables: load factor, x."""
+def static_program(problem: Scaled) -> Program:
+    """Largest load factor in equilibrium within the yield set, Eqs (56)-(57). Variables: load factor, x.
+
+    Its duals solve the kinematic program: u and y with C u = -F^T y, y in K*, live.u = 1, whose load factor
+    g.y - dead.u is least.
+    """
     load_factor, x = cp.Variable(), cp.Variable(problem.C.shape[0])
-    balance = problem.C.T @ x - problem.live * load_factor == problem.dead
+    balance = problem.live * load_factor + problem.dead == problem.C.T @ x
     inside = in_cone(problem.F @ x + problem.g, problem.cones)
     return Program(cp.Problem(cp.Maximize(load_factor), [balance, *inside]), (load_factor, x))
-
-
-def kinematic_program(problem: LimitProblem) -> Program:
-    """Least load factor over all mechanisms of the associated flow. Variables: u, y.
-
-    The load factor is g.y - dead.u, with C u = -F^T y, y in K*, live.u = 1.
-    """
-    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
-    flow = problem.C @ u + problem.F.T @ y == 0
-    power = problem.g @ y - problem.dead @ u
-    constraints = [flow, problem.live @ u == 1, *in_cone(y, problem.cones)]
-    return Program(cp.Problem(cp.Minimize(power), constraints), (u, y))
 
 
 def falling_program(problem: LimitProblem, loads: Array) -> Program:
@@ -101,7 +94,7 @@ def falling_program(problem: LimitProblem, loads: Array) -> Program:
     return Program(cp.Problem(cp.Maximize(surplus), constraints), (u, y))
 
 
-def jamming_program(problem: LimitProblem) -> Program:
+def jamming_program(problem: Scaled) -> Program:
     """Stress state that balances the dead load and can grow without yielding. Variable: x."""
     x = cp.Variable(problem.C.shape[0])
     unbalanced = cp.norm(problem.C.T @ x - problem.dead, "inf")
@@ -136,9 +129,16 @@ def solved(program: Program, solver: Solver) -> Solution:
         except (cp.SolverError, ValueError, ArithmeticError) as error:
             status = f"{type(error).__name__}: {error}"
     log.info("%s: %s", solver.name, status)
-    first = program.problem.constraints[0]
     values = tuple(_number(variable.value, variable.shape) for variable in program.variables)
-    return Solution(solver.name, status, values, _number(first.dual_value, first.shape))
+    return Solution(solver.name, status, values, tuple(map(_dual, program.problem.constraints)))
+
+
+def _dual(constraint: cp.Constraint) -> Array:
+    """Dual of a constraint in the order of its rows: (t, z) of each cone."""
+    if not isinstance(constraint, cp.SOC):
+        return _number(constraint.dual_value, constraint.shape).ravel()
+    t, z = constraint.dual_value
+    return np.full(constraint.size, np.nan) if t is None else np.vstack([t, z]).T.ravel()
 
 
 def _number(value: Array | None, shape: tuple[int, ...]) -> Array:

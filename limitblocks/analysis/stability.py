@@ -8,18 +8,18 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.known import known
 from limitblocks.analysis.programs import (
     ROUNDS,
     Program,
     in_cone,
-    remeasured,
     solved,
     solvers,
 )
+from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
@@ -34,8 +34,8 @@ from limitblocks.evidence.stability_result import (
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
+WEDGED = 1e4  # mean of the rows in their units: a self-stress without bounds leaves no digits to the loads
 
 
 def stability(model: Model) -> Stability:
@@ -159,10 +159,14 @@ def dead_load_state(problem: LimitProblem) -> Array:
     SolverFailure
         If neither is proven.
     """
+    return known(problem, "dead-load state", lambda: _dead_load_state(problem))
+
+
+def _dead_load_state(problem: LimitProblem) -> Array:
     said = []
     for x, worst in _states(problem, 0.0):
         if worst.value <= TOLERANCE:
-            return x
+            return read_only(x)
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
     fallen = falls(problem, problem.dead)
     if fallen:
@@ -173,40 +177,29 @@ def dead_load_state(problem: LimitProblem) -> Array:
 def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin of one solver after the other, with the worst of their residuals.
 
-    Each is found again in units of what acts on the blocks in the one before.
+    Each is found again in the units of the one before.
     """
     for solver in solvers(bool(problem.cones.second_order)):
-        measured: LimitProblem | None = problem
+        measured: Scaled | None = scaled(problem)
         for _ in range(ROUNDS):
             if measured is None:
                 break
-            factor = load_factor * measured.units.live / problem.units.live
-            _, x = solved(_standing_program(measured, measured.dead + factor * measured.live), solver).values
-            x = balanced(measured, factor, x)
-            state = State(factor, x, np.zeros(measured.C.shape[1]), np.zeros(len(measured.g)))
-            worst = Residuals(static_residuals(measured, factor, x)).worst
-            yield x * measured.stress_units / problem.stress_units, worst
-            measured = remeasured(measured, state) if np.isfinite(x).all() else None
+            loads = (problem.dead + load_factor * problem.live) / measured.equation
+            _, x = solved(_standing_program(measured, loads), solver).values
+            found = np.isfinite(x).all()
+            x = measured.stress * (balanced(measured, loads, x) if found else x)
+            yield x, Residuals(static_residuals(problem, load_factor, x)).worst
+            measured = measured.measured(unmoved(problem, load_factor, x)) if found else None
 
 
-def balanced(problem: LimitProblem, load_factor: float, x: Array) -> Array:
-    """Return the nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
-    if not np.isfinite(x).all():
-        return x
-    K = problem.C.T @ problem.C + sparse.eye_array(problem.C.shape[1]) * REGULAR
-    lu = linalg.splu(sparse.csc_array(K))
-    for _ in range(2):
-        x = x + problem.C @ lu.solve(problem.dead + load_factor * problem.live - problem.C.T @ x)
-    return np.asarray(x)
-
-
-def _standing_program(problem: LimitProblem, loads: Array) -> Program:
+def _standing_program(problem: Scaled, loads: Array) -> Program:
     """The largest margin t and its stresses. Variables: t, x."""
     t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.C.T @ x == loads
-    lowered = problem.cones.identity / problem.units.row  # every interface by its own unit of force
-    inside = in_cone(problem.F @ x + problem.g - t * lowered, problem.cones)
-    return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *inside]), (t, x))
+    rows = problem.F @ x + problem.g
+    inside = in_cone(rows - t * problem.margin, problem.cones)
+    bounded = problem.cones.identity @ rows <= WEDGED * problem.cones.degree
+    return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, bounded, *inside]), (t, x))
 
 
 def _own_loads(problem: LimitProblem) -> Array:

@@ -30,11 +30,13 @@ from limitblocks.cli.options import (
     Tolerance,
     Turns,
     Version,
+    Way,
     WithNonassociated,
     WithPath,
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged, UnlimitedLoad
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
@@ -99,6 +101,7 @@ def nonassociated(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
+    method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -107,7 +110,7 @@ def nonassociated(
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
         flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
+        _answer(analyses.nonassociated, model, as_json, output, force, method=method, **flow)
 
 
 @app.command()

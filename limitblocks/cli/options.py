@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
@@ -16,6 +17,7 @@ OwnTolerance = Annotated[
 ]
 Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under bending turns about.")]
+Way = Annotated[Method, typer.Option("--method", help="How a solution is looked for.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="RESULT", help="Also write the result as JSON.")

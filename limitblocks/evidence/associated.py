@@ -7,6 +7,7 @@ from typing import Any
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.claim import as_lists
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import ASSOCIATED, Turning
 
@@ -21,7 +22,8 @@ class Bounds:
     Attributes
     ----------
     lower, upper : float
-        Static and kinematic load factor; equal up to `gap`.
+        Static and kinematic load factor; equal up to `gap`. Where `proven`, ``lower <= load factor <= upper``
+        is a theorem about the numbers of the limit problem, rounding errors included.
     gap : float
         Difference relative to the load factor; where that is less than the rounding errors of the power of
         all forces, relative to those.
@@ -41,6 +43,8 @@ class Bounds:
         Generalised stresses, N and N m, that carry the dead loads alone.
     residuals : Residuals
         Recomputed from the limit problem without the solver; all at most `tolerance`.
+    proof : Proof
+        What is proven, and why a side is not where it is not.
     solvers : tuple of str
         Solver of the static and of the kinematic program.
     tolerance : float
@@ -59,6 +63,7 @@ class Bounds:
     flow_multipliers: Array
     dead_load_stresses: Array
     residuals: Residuals
+    proof: Proof
     solvers: tuple[str, str]
     tolerance: float
     digest: str
@@ -78,11 +83,17 @@ class Bounds:
         """Of no account where the flow is associated."""
         return Turning.CENTROID
 
+    @property
+    def proven(self) -> bool:
+        """Whether the bounds are theorems, rounding errors included."""
+        return self.proof.complete
+
     def __str__(self) -> str:
         worst = self.residuals.worst
+        word = "proven" if self.proven else "not proven"
         return (
             f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
-            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name})"
+            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -93,6 +104,8 @@ class Bounds:
             "upper": self.upper,
             "gap": self.gap,
             "worth": self.worth,
+            "proven": self.proven,
+            "proof": self.proof.to_dict(),
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "solvers": list(self.solvers),

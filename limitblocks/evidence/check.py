@@ -13,10 +13,12 @@ from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
+from limitblocks.evidence.proof import proof_of
 from limitblocks.evidence.residuals import (
     TOLERANCE,
     Residual,
     Residuals,
+    bounds_residuals,
     mcp_residuals,
     residual,
     static_residuals,
@@ -124,9 +126,26 @@ def _checked(model: Model, claim: Claim, tolerance: float) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
-    entries = (*mcp_residuals(flow, state).entries, _standing(problem, claim))
+    bounds = claim.upper is not None and flow.associated
+    judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
+    entries = (*judged.entries, _standing(problem, claim))
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
     return Check(Residuals(entries), tolerance, found, remarks, model.digest)
+
+
+def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:
+    """Residuals of both theorems; and whether the states prove the bounds, if that is claimed."""
+    problem, upper = flow.problem, claim.upper
+    assert upper is not None  # the caller saw to it
+    judged = bounds_residuals(flow, state, upper * problem.units.live)
+    if not claim.proven:
+        return judged
+    dead = claim.dead_load_stresses
+    proof = proof_of(problem, problem.in_si(state), state.x * problem.stress_units if dead is None else dead)
+    beyond = max(claim.load_factor - proof.lower, proof.upper - upper)
+    said = proof.static or proof.kinematic or f"proven are {proof.lower!r} and {proof.upper!r}"
+    proven = Residual("proof", np.inf if beyond > 0.0 else 0.0, f"bounds that are theorems; {said}")
+    return Residuals((*judged.entries, proven))
 
 
 def _state(model: Model, flow: Flow, claim: Claim) -> tuple[State, bool]:

@@ -36,6 +36,10 @@ class Claim:
         Tangent of the dilatancy angle of the flow; infinite for the associated flow.
     turning : {"centroid", "centre of pressure"}
         What twisting under bending turns about.
+    upper : float, optional
+        Of bounds: the load factor that the mechanism is to show.
+    proven : bool
+        Of bounds: whether they are claimed to be theorems, rounding errors included.
     digest : str
         SHA-256 of the model it belongs to; empty if unknown.
     """
@@ -48,6 +52,8 @@ class Claim:
     dead_load_stresses: Array | None = None
     dilatancy: float = 0.0
     turning: Turning | str = Turning.CENTROID
+    upper: float | None = None
+    proven: bool = False
     digest: str = ""
 
 
@@ -93,8 +99,11 @@ def claim_of(model: Model, result: Any) -> Claim:
         raise ModelError(f"dilatancy is {dilatancy!r}, expected 0 or more; infinite means associated flow")
     if shapes["stress_resultants"] is None:
         raise ModelError("stress_resultants are missing, and a load factor alone cannot be checked")
+    upper = getattr(result, "upper", None)
     return Claim(
         load_factor=real_number("load_factor", result.load_factor),
+        upper=None if upper is None else real_number("upper", upper),
+        proven=bool(getattr(result, "proven", False)),
         dilatancy=dilatancy,
         turning=turning_of(getattr(result, "turning", Turning.CENTROID)),
         digest=digest,

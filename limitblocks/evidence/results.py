@@ -9,9 +9,26 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
+
+
+class Method(Enum):
+    """How the non-associated analysis looks for a solution: one tracked path, or the outer loop alone."""
+
+    PATH = "path"
+    FIXED_POINT = "fixed point"
+
+
+def method_of(word: Method | str) -> Method:
+    """Return the method that `word` names, or raise ModelError."""
+    try:
+        return Method(word)
+    except ValueError:
+        choices = " or ".join(repr(method.value) for method in Method)
+        raise ModelError(f"method is {word!r}, expected {choices}") from None
 
 
 class Status(Enum):
@@ -28,21 +45,24 @@ class Status(Enum):
     NO_SOLUTION = (
         "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
     )
+    INTERRUPTED = "interrupted: the state shown is the best one reached until then, and no solution"
 
 
 @dataclass(frozen=True)
 class Iteration:
-    """One point of the tracked path, or one step of the load path.
+    """One point of the tracked path, one round of the fixed-point loop, or one step of the load path.
 
     Attributes
     ----------
     load_factor : float
         Load factor.
     kind : str
-        "path" (a point of the tracked path), "polish" (its end); of the load path "step" (quasi-static),
-        "jump" (across a snap, with viscosity) or "fixed point".
+        "path" (a point of the tracked path), "fixed point" (a round of convex programs), "polish" (the end
+        of either); of the load path "step" (quasi-static), "jump" (across a snap, with viscosity) or
+        "fixed point".
     step_size : float
-        Dimensionless; the work of the live load. Of a path theta, what is left of compliance and barrier.
+        Dimensionless; the work of the live load. Of a path theta, what is left of compliance and barrier;
+        of a round of the loop how far its friction envelopes are rotated.
     residuals : dict
         All residuals of Eqs (54)-(59); of a point of a path theta.
     inner, failures : int
@@ -88,7 +108,7 @@ class Nonassociated:
     how : str
         Which path led there, in words.
     history : tuple of Iteration
-        Points of the tracked path and its end, or steps of the load path.
+        Points of the tracked path or rounds of the loop and their end, or steps of the load path.
     dead_load_stresses : Array, shape (s,)
         Generalised stresses, N and N m, that carry the dead loads alone.
     dilatancy : float
@@ -103,6 +123,10 @@ class Nonassociated:
         SHA-256 of the model.
     unclaimed : str
         Why `frictionless` is NaN, such as a turning with which joints can give power; else empty.
+    fixed_point_change : float, optional
+        What a round of the fixed point, limit analysis with the flow frozen at this state, changes in the
+        load factor, over it; zero but for rounding at a solution, whatever its mechanism, infinite where
+        the round has no answer. None where it was not asked for, or the analysis did not converge.
     """
 
     load_factor: float
@@ -123,6 +147,7 @@ class Nonassociated:
     tolerance: float
     digest: str
     unclaimed: str = ""
+    fixed_point_change: float | None = None
 
     @property
     def converged(self) -> bool:
@@ -132,12 +157,15 @@ class Nonassociated:
     def __str__(self) -> str:
         worst = self.residuals.worst
         word = "" if self.converged else f" ({self.status.value})"
+        change = self.fixed_point_change
+        confirmed = "" if change is None else f", fixed point within {change:.1e}"
         least, said = f"between {self.frictionless:.6g} (frictionless) and", self.remarks
         if np.isnan(self.frictionless):
             least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         return (
             f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}){word}{''.join(f'; {one}' for one in said)}"
+            f"worst residual {worst.value:.1e} ({worst.name}){confirmed}{word}"
+            f"{''.join(f'; {one}' for one in said)}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -155,6 +183,7 @@ class Nonassociated:
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "how": self.how,
+            "fixed_point_change": self.fixed_point_change,
             "history": [asdict(iteration) for iteration in self.history],
             **as_lists(self),
             "model_digest": self.digest,

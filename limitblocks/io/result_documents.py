@@ -60,6 +60,7 @@ class ResultDocument(StateDocument):
     status: Any = None
     remarks: Any = None
     how: Any = None
+    fixed_point_change: Any = None
     history: Any = None
 
 
@@ -69,7 +70,11 @@ class BoundsDocument(StateDocument):
     analysis: Literal["bounds"]
     lower: Number
     """Static load factor, which the check judges."""
-    upper: Any = None
+    upper: Number | None = None
+    """Kinematic load factor, which the check judges."""
+    proven: bool = False
+    """Whether both are claimed to be theorems, rounding errors included."""
+    proof: Any = None
     gap: Any = None
     worth: Any = None
     solvers: Any = None

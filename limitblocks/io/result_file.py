@@ -125,6 +125,8 @@ def _claim(document: ResultDocument | BoundsDocument, model: Model | None) -> Cl
         dead_load_stresses=_array(document.dead_load_stresses),
         dilatancy=document.dilatancy,
         turning=turning_of(document.turning),
+        upper=getattr(document, "upper", None),
+        proven=getattr(document, "proven", False),
         digest=digest,
     )
 

@@ -111,13 +111,13 @@ def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, 
     own, push = magnitude(dead), magnitude(live)
     own = np.where(own > 0.0, own, push * (own.sum() / push.sum() or 1.0))
     ends = _ends(free, interfaces)
-    block = carried(own, ends)
+    block = power_of_two(carried(own, ends))
     return Units(
         block_force=read_only(block),
         block_length=read_only(length),
         interface_force=read_only(np.where(ends >= 0, block[ends], np.inf).min(axis=1)),
         interface_length=read_only(power_of_two(np.array([np.abs(i.polygon).max() for i in interfaces]))),
-        live=float((push / block).sum()),
+        live=float(power_of_two((push / block).sum())),
         row=np.ones(0),
     )
 

@@ -40,6 +40,32 @@ def quotient(cones: Cones, s: Array, q: Array) -> Array:
     return rows
 
 
+def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
+    """Return s and y in int K with s - y = v and s o y = products, multiples (R,) of the identity.
+
+    They are smooth in v, as the positive parts of v and -v are not: Fukushima, Luo & Tseng (2002), Smoothing
+    functions for second-order-cone complementarity problems, SIAM J. Optimization 12, Section 4.
+    """
+    k = slice(0, cones.linear)
+    s, y = np.empty_like(v), np.empty_like(v)
+    s[k], y[k] = _halves(v[k], products[k])
+    for index in cones.groups:
+        w, product = v[index], products[index[:, 0]]
+        size = np.linalg.norm(w[:, 1:], axis=1)
+        axis = w[:, 1:] / np.where(size > 0.0, size, 1.0)[:, None]
+        large, small = _halves(w[:, 0] + size, product), _halves(w[:, 0] - size, product)
+        for found, a, b in zip((s, y), large, small, strict=True):
+            found[index] = np.column_stack([(a + b) / 2.0, ((a - b) / 2.0)[:, None] * axis])
+    return s, y
+
+
+def _halves(v: Array, product: Array) -> tuple[Array, Array]:
+    """Return positive a and b with a - b = v and this product, without cancellation."""
+    large = (np.abs(v) + np.sqrt(v * v + 4.0 * product)) / 2.0
+    small = product / large
+    return np.where(v > 0.0, large, small), np.where(v > 0.0, small, large)
+
+
 def slope(cones: Cones, s: Array, y: Array, rows: Array) -> Array:
     """Return L(s)^-1 L(y) applied to rows, shape (R, k): how multipliers fall with the slack."""
     k = slice(0, cones.linear)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -44,9 +45,9 @@ def _six(force: Array, length: Array) -> Array:
     return np.repeat(force, 6) * np.stack([np.ones_like(length)] * 3 + [length] * 3, axis=1).ravel()
 
 
-def power_of_two(values: Array) -> Array:
-    """Return the nearest powers of two: units that many blocks and interfaces share."""
-    return np.asarray(np.exp2(np.round(np.log2(values))))
+def power_of_two(values: Any) -> Any:
+    """Return the nearest powers of two: units that change no digit, and that many blocks share."""
+    return np.exp2(np.round(np.log2(values)))
 
 
 def tied(ends: Indices, count: int) -> Indices:
@@ -198,9 +199,9 @@ class LimitProblem:
             Forces to measure the blocks by, in N, positive.
         """
         old = self.units
-        block = block_force
+        block = power_of_two(block_force)  # changes no digit of any number
         at_ends = np.where(self.ends >= 0, block[self.ends], np.inf).min(axis=1)
-        live = old.live * float(np.abs(self.live * np.repeat(old.block_force / block, 6)).sum())
+        live = power_of_two(old.live * float(np.abs(self.live * np.repeat(old.block_force / block, 6)).sum()))
         units = replace(old, block_force=block, interface_force=at_ends, live=live)
         loads, stresses = old.loads / units.loads, at_ends / old.interface_force
         columns, rows = stresses[self.stress_interface], stresses[self.row_interface]

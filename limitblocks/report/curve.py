@@ -59,6 +59,7 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
 def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
     """Return theta of each point of a tracked path, or the largest residual of each step, by decades."""
     tracked = any(stage.kind == "path" for stage in history)
+    rounds = bool(history) and history[0].kind == "fixed point"
     worst = [max(stage.residuals.values(), default=np.nan) for stage in history]
     shown = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
     if len(shown) < 2:
@@ -76,7 +77,7 @@ def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
     what = "Theta is what is left of compliance and barrier" if tracked else "The last one is the collapse"
     words = (
         title,
-        f"{title}, from the permanent loads on. {what}.",
+        f"{title}, from the {'associated state' if rounds else 'permanent loads'} on. {what}.",
         "stage",
         "theta" if tracked else "residual",
     )

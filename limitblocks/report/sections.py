@@ -9,6 +9,7 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
@@ -72,6 +73,7 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
             ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
+            ("Proven", *_proven(bounds.proof)),
         ),
         checks=_checks(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
@@ -96,6 +98,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
             ("Way", result.how, "which path led to this solution"),
+            *_confirmation(result),
         ),
         checks=_checks(result.residuals, result.tolerance),
         tolerance=result.tolerance,
@@ -183,9 +186,24 @@ def _stability(_model: Model, answer: Stability) -> Section:
     )
 
 
+def _proven(proof: Proof) -> tuple[str, str]:
+    """Whether the bounds are theorems, and what that means, or why not."""
+    if proof.complete:
+        return "yes", "theorems about the numbers of the limit problem, rounding errors included"
+    return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
+
+
 def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
     entries = residuals.entries
     return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
+
+
+def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
+    """The row of the table that says whether the state is a fixed point, where that is known."""
+    change = result.fixed_point_change
+    if change is None:
+        return ()
+    return (("Fixed point", f"{change:.1e}", "change of the load factor with the flow frozen here"),)
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:

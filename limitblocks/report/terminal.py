@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as ProgressBar
 from rich.table import Table
 from rich.text import Text
 
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
 from limitblocks.report.sections import section
@@ -66,10 +70,16 @@ def shown_progress() -> Iterator[Callable[[Iteration], None] | None]:
     if not console.is_terminal:
         yield None
         return
-    with console.status("solving") as status:
+    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    with ProgressBar(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("solving", total=None)
 
         def show(iteration: Iteration) -> None:
-            worst = max(iteration.residuals.values(), default=float("nan"))
-            status.update(f"load factor {iteration.load_factor:.6g}, largest residual {worst:.1e}")
+            left = max(iteration.residuals.values(), default=float("nan"))
+            text = f"{iteration.kind}: load factor {iteration.load_factor:.6g}"
+            if left > 0.0:  # a bar by the decades of theta, or of the largest residual, down to the tolerance
+                share = min(1.0, math.log10(min(left, 1.0)) / math.log10(TOLERANCE))
+                bar.update(task, total=1.0, completed=share)
+            bar.update(task, description=text)
 
         yield show

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.results import Iteration, LoadPath, Method, Nonassociated, PathStep, Status
 from limitblocks.problem import Turning
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
@@ -34,7 +34,14 @@ def run(*arguments):
 
 
 def solved(
-    model, *, dilatancy=0.2, turning="centroid", tolerance=1e-8, progress=None, status=Status.CONVERGED
+    model,
+    *,
+    dilatancy=0.2,
+    turning="centroid",
+    method="path",
+    tolerance=1e-8,
+    progress=None,
+    status=Status.CONVERGED,
 ):
     """The associated solution: it satisfies Eqs (54)-(59) where the dilatancy is the friction."""
     bounds = lb.bounds(model)
@@ -49,7 +56,7 @@ def solved(
         associated=bounds.upper,
         residuals=bounds.residuals,
         status=status,
-        how="by hand",
+        how=f"by hand, {Method(method).value}",
         history=(iteration,),
         dilatancy=dilatancy,
         turning=Turning(turning),
@@ -152,6 +159,15 @@ def test_turning_is_an_option_and_is_kept_in_the_file(verb, file, tmp_path):
     refused = run(verb, file, "--turning", "table 5")
     assert refused.exit_code == 2
     assert "centre of pressure" in refused.stderr
+
+
+@pytest.mark.usefixtures("solver")
+def test_method_is_an_option(file):
+    done = run("nonassociated", file, "--method", "fixed point", "--json")
+    assert json.loads(done.stdout)["how"] == "by hand, fixed point"
+    refused = run("nonassociated", file, "--method", "luck")
+    assert refused.exit_code == 2
+    assert "fixed point" in refused.stderr
 
 
 def test_bounds_are_checked_with_associated_flow(file, tmp_path):

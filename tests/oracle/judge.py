@@ -10,6 +10,9 @@ from random_models import Case
 import limitblocks as lb
 
 RELATIVE = 1e-6  # what the library promises
+PROVEN = (
+    1e-14  # of the load factor: the truth is that of the geometry, the proof that of the assembled numbers
+)
 ROUNDING = 1e-14  # load factors are per weight: some 50 units in the last place of an equilibrium of weights
 RECORD = Path(__file__).with_name("truths.json")
 WRONG = (
@@ -27,10 +30,14 @@ WRONG = (
 
 @dataclass(frozen=True)
 class Verdict:
-    """`outcome` is "right", one of `WRONG`, "wide", "refused", "not converged", "crashed" or "undecided"."""
+    """`outcome` is "right", one of `WRONG`, "wide", "refused", "not converged", "crashed" or "undecided".
+
+    `width` is that of a proven interval over the load factor; None where nothing is proven.
+    """
 
     outcome: str
     said: str = ""
+    width: float | None = None
 
 
 def truth_of(case: Case, record: dict[str, dict] | None = None) -> Truth:
@@ -73,14 +80,16 @@ def judged(model: lb.Model, expected: Truth) -> Verdict:
     if expected.verdict != "number":
         return Verdict(f"number for {expected.verdict}", said)
     value = expected.load_factor
-    slack = RELATIVE * value + ROUNDING
+    slack = (PROVEN if result.proven else RELATIVE) * value + ROUNDING
     said += f", truth {value:.12g}"
     if result.lower > value + slack:
         return Verdict("lower too high", said)
     if result.upper < value - slack:
         return Verdict("upper too low", said)
+    width = result.upper - result.lower
     # bounds that hold but lie farther apart than the library promises
-    return Verdict("wide" if result.upper - result.lower > 2 * slack else "right", said)
+    wide = width > 2 * (RELATIVE * value + ROUNDING)
+    return Verdict("wide" if wide else "right", said, width / value if result.proven and value else None)
 
 
 def judged_nonassociated(case: Case, expected: Truth) -> Verdict:

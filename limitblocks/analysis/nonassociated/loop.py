@@ -6,7 +6,10 @@ from collections.abc import Callable, Sequence
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.means import MEANS, Means
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -14,6 +17,7 @@ from limitblocks.analysis.nonassociated.start import (
     flowing_state,
     load_scale,
     own_units,
+    refuse_jammed,
     refuse_unlimited,
     start_stresses,
 )
@@ -24,7 +28,7 @@ from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
-from limitblocks.evidence.results import Iteration, Nonassociated, Status
+from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
@@ -36,8 +40,10 @@ def nonassociated(
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
     start: Start | None = None,
+    method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
     progress: Callable[[Iteration], None] | None = None,
+    confirm: bool = True,
     throw: bool = True,
 ) -> Nonassociated:
     """Return a solution of Eqs (54)-(59) reached from the permanent loads, flow of Tables 3, 5 and 6.
@@ -64,29 +70,40 @@ def nonassociated(
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    method : {"path", "fixed point"}
+        The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
+        analyses, each with the friction of the last, from the associated state or `start` on. Often the
+        loop ends at another solution, and it may stall.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution; after the first of several the implicit steps
-        of :func:`limitblocks.load_path` are tried.
+        Paths to follow in turn, until one ends at a solution.
     progress : callable, optional
         Called with each Iteration.
+    confirm : bool
+        Confirm the answer as a fixed point: with the flow frozen at it, the static and the kinematic program
+        of limit analysis give its load factor again (`fixed_point_change`); costs about half of bounds.
     throw : bool
         Raise NotConverged (which carries the best result); if false, return that result with its status.
 
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, or `start` belongs to another model or is no state of it.
+        If the dilatancy is out of range, the method unknown, or `start` belongs to another model or is no
+        state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
-        If the flow is associated everywhere and the live load can grow without limit.
+        If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
+        without limit.
     NotConverged
-        If no path ends within the tolerance; NoSolution, one of its kind, if it is proven that there is none.
+        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it; NoSolution,
+        one of its kind, if it is proven that there is none.
     """
+    way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
+    refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     history: list[Iteration] = []
 
@@ -102,11 +119,22 @@ def nonassociated(
     elif (proven := state_without_solution(flow)) is not None:
         state, how = proven, "statics alone"
     else:
-        x0 = start_stresses(model, problem, problem.compliance, start)
-        scale = load_scale(problem, enclosing.associated)
-        state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
+        first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
+        x0 = start_stresses(model, problem, problem.compliance, first)
+        if way is Method.FIXED_POINT:
+            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
+        else:
+            scale = load_scale(problem, enclosing.associated)
+            state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw)
+    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm)
+
+
+def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
+    """What a round of the outer loop tells the user."""
+    load_factor = state.load_factor / flow.problem.units.live
+    residuals = mcp_residuals(flow, state).to_dict()
+    return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)
 
 
 def _end(flow: Flow, state: State) -> Iteration:
@@ -123,10 +151,13 @@ def finished(
     how: str,
     tolerance: float,
     throw: bool,
+    confirm: bool = True,
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
     problem = flow.problem
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
+    status = _status(flow, state, how, tolerance)
+    change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
     found, claimed = enclosing.bounds, enclosing.of(flow)
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
     result = Nonassociated(
@@ -139,15 +170,16 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
-        status=_status(flow, state, tolerance),
+        status=status,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=given_power(flow, state, tolerance) + locked_shear(flow, state),
+        remarks=given_power(flow, state, tolerance) + locked_shear(flow, state) + unconfirmed(change),
         tolerance=tolerance,
         digest=model.digest,
         unclaimed=claimed.unclaimed,
+        fixed_point_change=change,
     )
     if throw and not result.converged:
         raise _refused(flow, result)
@@ -167,17 +199,21 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
             result,
         )
     place = f" at {worst.where}" if worst.where else ""
+    interrupted = result.status is Status.INTERRUPTED
+    why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
     return NotConverged(
-        f"no solution within {result.tolerance:g}: {worst.name} residual {worst.value:.1e}{place}, "
-        f"load factor {result.load_factor:.6g}; the error's result holds that state",
+        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}; "
+        "the error's result holds that state",
         result,
     )
 
 
-def _status(flow: Flow, state: State, tolerance: float) -> Status:
+def _status(flow: Flow, state: State, how: str, tolerance: float) -> Status:
     equations_left, worst = left_over(flow, state, tolerance)
     if worst <= tolerance:
         return Status.CONVERGED
+    if how.endswith(INTERRUPTED):
+        return Status.INTERRUPTED
     if not equations_left:
         return Status.GIVES_POWER
     proven = state_without_solution(flow) is not None

@@ -21,27 +21,26 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Point,
     distance,
     inner,
+    moved,
     moved_on,
     residuals,
-    room,
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
-from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
+from limitblocks.analysis.nonassociated.path_start import centred, path_from, settled
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
-CUT, GROWTH = 0.35, 2.0  # of the length after a failure, and after at most one corrector
-BOUNDARY = 0.95  # of the way to the boundary of the cone
-CORRECTORS, HALVINGS = 5, 6
+CUT = 0.35  # of the length after a failure
+PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
+CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, DECADE, LAST = 1e-6, 0.1, 1e-12  # mu where the polish is tried first, how often, and last
-CLOSED = TOLERANCE  # residual of a solution
-TRIES = 2  # rounds of the polish on the way
+TRIED, DECADE, LAST = 1e-3, 0.1, 1e-11  # theta where the polish is tried first, how often, and last
+DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
 
@@ -97,9 +96,7 @@ def track(
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
         walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
-        best = walk.best
-        if best is None:
-            best = polish(flow, walk.state) if walk.points else walk.state
+        best = walk.best or walk.state
     found = Tracked(
         walk.path.barrier,
         seed,
@@ -110,6 +107,11 @@ def track(
         tuple(walk.points),
     )
     return best, found
+
+
+def state_of(z: Point) -> State:
+    """Return a point as a state."""
+    return State(z.load_factor, z.x, z.u, z.y)
 
 
 class _Walk:
@@ -123,11 +125,12 @@ class _Walk:
         self.factorisations = self.failures = 0
         self.points: list[Progress] = []
         self.best: State | None = None
+        self.left = np.inf  # worst residual of the best state
 
     @property
     def state(self) -> State:
-        """The point as a state."""
-        return State(self.z.load_factor, self.z.x, self.z.u, self.z.y)
+        """The last accepted point as a state."""
+        return state_of(self.base.point if self.base else self.z)
 
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
@@ -144,31 +147,37 @@ class _Walk:
             return str(lost)
         except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
             return "singular start"
-        return "closed"
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        return CLOSED
 
     def _advance(self) -> None:
         """Correct the point, or accept it and predict the next one."""
         left = residuals(self.path, self.z)
         off = distance(self.path, self.z, left)
-        if not np.isfinite(off) or (off > 1.0 and self.correctors >= CORRECTORS):
+        if np.isnan(off) or (off > 1.0 and self.correctors == CORRECTORS):
             self._retreat()
             return
         self.factorisations += 1
         try:
             newton = Newton(self.path, self.z)
-            step = newton.solve(left.negative())
-            turn = replace(newton.solve(theta_slope(self.path, self.z).negative()), theta=1.0)
+            slope = theta_slope(self.path, self.z)
+            step, turn = newton.solve(left.negative(), slope.negative())
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
             self._retreat()
             return
+        turn = replace(turn, theta=1.0)
         length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
         if not (np.isfinite(length) and length > 0.0 and newton.sign):
             self._retreat()
             return
         tangent = turn.scaled(self._heading(newton.sign, turn) / length)
         correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
-        if off > 1.0:
-            self._correct(correction, off)
+        if off <= 1.0 and self._returns(tangent):
+            self._retreat()
+        elif off > 1.0:
+            self.correctors += 1
+            self.z = moved(self.path, self.z, 1.0, correction)
         else:
             self._accept(newton.sign, correction, tangent)
 
@@ -176,18 +185,13 @@ class _Walk:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
         return -sign * (self.points[0].sign if self.points else sign)
 
-    def _correct(self, d: Point, off: float) -> None:
-        """Move along a correction as far as it brings the point nearer to the path."""
-        self.correctors += 1
-        t = min(1.0, BOUNDARY * room(self.path.cones, self.z, d))
-        for _ in range(HALVINGS):
-            z = self.z.moved(t, d)
-            nearer = distance(self.path, z, residuals(self.path, z))
-            if nearer <= max(1.0, (1.0 - 0.1 * t) * off):
-                self.z = z
-                return
-            t *= 0.5
-        self._retreat()
+    def _returns(self, tangent: Point) -> bool:
+        """Whether the corrector fell back behind the base: the step went across a fold."""
+        if self.base is None or self.length < FIRST * CUT**4:
+            return False
+        step = self.z.moved(-1.0, self.base.point)
+        ahead = inner(self.path.cones, self.z, step, tangent)
+        return min(ahead, inner(self.path.cones, self.base.point, step, self.base.tangent)) < 0.0
 
     def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
         """Go on from a point near the path."""
@@ -196,8 +200,8 @@ class _Walk:
             self.progress(self.points[-1])
         if self.z.theta > RETURNED:
             raise _Lost("returned")
-        if self.base is not None and self.correctors <= 1:
-            self.length = min(GROWTH * self.length, LONGEST)
+        if self.base is not None:
+            self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)
         self.path = moved_on(self.path, self.z)
         self.base = _Base(self.z, correction, tangent)
         self._predict()
@@ -213,23 +217,28 @@ class _Walk:
     def _predict(self) -> None:
         assert self.base is not None
         z, correction, tangent = self.base
-        z = z.moved(min(1.0, 0.5 * room(self.path.cones, z, correction)), correction)
-        self.z = z.moved(min(self.length, BOUNDARY * room(self.path.cones, z, tangent)), tangent)
+        z = moved(self.path, z, 1.0, correction)
+        self.z = moved(self.path, z, self.length, tangent)
         self.correctors = 0
 
     def _closed(self) -> bool:
-        """Whether the polish of a base far down the path is a solution; tried once a decade of mu."""
-        if self.base is None:
+        """Whether the polish of a base far down the path is a solution; tried once a decade of theta."""
+        if self.base is None or self.base.point.theta >= self.tried:
             return False
         z = self.base.point
-        mu = self.path.barrier.size * z.theta
-        if mu >= self.tried:
-            return False
-        if mu < LAST:
+        if z.theta < LAST:
             raise _Lost("no solution at the end")
-        self.tried = DECADE * mu
-        state = polish(self.path.flow, State(z.load_factor, z.x, z.u, z.y), rounds=TRIES)
-        residual = defect(self.path.flow, state)
-        if self.best is None or residual < defect(self.path.flow, self.best):
-            self.best = state
-        return residual < CLOSED
+        self.tried = DECADE * z.theta
+        self._keep(polish(self.path.flow, self.state))
+        here = mcp_residuals(self.path.flow, self.state)
+        if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
+            for point in settled(self.path, z):
+                self.factorisations += 1
+                self._keep(state_of(point))
+        return self.left < TOLERANCE
+
+    def _keep(self, state: State) -> None:
+        """Keep a state as the best one met, unless it belongs to another path."""
+        reached, residual = self.state.load_factor, defect(self.path.flow, state)
+        if abs(state.load_factor - reached) <= DRIFT * abs(reached) and residual < self.left:
+            self.best, self.left = state, residual

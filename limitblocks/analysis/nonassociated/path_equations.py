@@ -5,7 +5,9 @@
 
 At theta = 1 it is a small step of rigid blocks on joints of compliance W from the stresses x0, at theta = 0
 Eqs (54)-(59). The weights w of rows and cones are random: they break the symmetry of structures whose paths
-would branch (Chow, Mallet-Paret & Yorke 1978, Math. of Computation 32). Where rho has reached its floor, x0
+would branch (Chow, Mallet-Paret & Yorke 1978, Math. of Computation 32). Every point satisfies the products
+exactly: a move changes v = s / sigma - sigma y and takes s and y back from it, so that a row that starts or
+stops to yield is no boundary of the step. Where rho has reached its floor, x0
 moves on with x, else the stresses of rigid parts lose their equations; r carries the jump that this would
 make and fades with theta.
 """
@@ -19,8 +21,10 @@ import numpy as np
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.arrays import Array
 from limitblocks.problem import Cones, Flow
-from limitblocks.problem.barrier import relative, spread
+from limitblocks.problem.barrier import central, relative, spread
 
+LEAST_THETA = 0.05  # part of theta that a move leaves
+MOST_THETA = 3.0  # and its largest growth
 WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
 FLOW = 0.05  # of theta: how far off the flow may be
 
@@ -119,8 +123,8 @@ def residuals(path: Path, z: Point) -> Equations:
     p = path.flow.problem
     elastic = path.rho(z.theta) * path.elastic * (z.x - path.x0)
     return Equations(
-        elastic - p.C @ z.u - path.flow.matrix(z.x).T @ z.y - z.theta * path.carried,
-        p.dead + z.load_factor * p.live - p.C.T @ z.x,
+        elastic - p.C @ z.u - path.layout.potential(z.x) @ z.y - z.theta * path.carried,
+        p.dead + z.load_factor * p.live - path.layout.balance @ z.x,
         float(p.live @ z.u - 1.0),
         p.F @ z.x + p.g - z.s,
         p.cones.product(z.s, z.y) - path.target(z.theta),
@@ -136,9 +140,21 @@ def theta_slope(path: Path, z: Point) -> Equations:
 
 
 def distance(path: Path, z: Point, left: Equations) -> float:
-    """Return how far a point is from the path; at most one is near."""
+    """Return how far a point is from the path, products by the slack F x + g; at most one is near."""
     off = float(np.abs(left.flow).max()) / (FLOW * z.theta)
-    return max(off, spread(path.cones, z.s, z.y, path.target(z.theta)) / WIDE)
+    return max(off, spread(path.cones, z.s + left.slack, z.y, path.target(z.theta)) / WIDE)
+
+
+def moved(path: Path, z: Point, t: float, d: Point) -> Point:
+    """Return the point moved by t along d, or as far as theta may change, on the products of its theta."""
+    if d.theta:
+        change = (LEAST_THETA if d.theta < 0.0 else MOST_THETA) - 1.0
+        t = min(t, change * z.theta / d.theta)
+    ahead = z.moved(t, d)
+    # balances the sizes of slacks and multipliers, which decides what counts as large
+    sigma = float(np.sqrt(np.linalg.norm(z.s) / np.linalg.norm(z.y)))
+    s, y = central(path.cones, ahead.s / sigma - sigma * ahead.y, path.target(ahead.theta))
+    return replace(ahead, s=sigma * s, y=y / sigma)
 
 
 def moved_on(path: Path, z: Point) -> Path:
@@ -153,9 +169,3 @@ def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:
     """Return the product of two directions: mean of the relative changes of s and y, and that of theta."""
     changes = relative(cones, z.s, a.s, b.s) + relative(cones, z.y, a.y, b.y)
     return changes / cones.degree + a.theta * b.theta / z.theta**2
-
-
-def room(cones: Cones, z: Point, d: Point) -> float:
-    """Return the largest t for which z + t d keeps s and y in K and theta at least zero."""
-    t = min(cones.longest(z.s, d.s), cones.longest(z.y, d.y))
-    return min(t, z.theta / -d.theta) if d.theta < 0.0 else t

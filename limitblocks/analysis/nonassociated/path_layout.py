@@ -12,9 +12,12 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import Flow, LimitProblem
+
+DIAGONAL = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # no row exchanges
 
 
 def _places(owner: Indices, m: int) -> Indices:
@@ -30,7 +33,33 @@ def _places(owner: Indices, m: int) -> Indices:
 class Layout:
     """Index maps of a limit problem; interfaces with fewer stresses, rows or free blocks are padded."""
 
-    problem: LimitProblem
+    flow: Flow
+
+    @property
+    def problem(self) -> LimitProblem:
+        """The limit problem."""
+        return self.flow.problem
+
+    @cached_property
+    def balance(self) -> sparse.csr_array:
+        """C^T, shape (6 n, s)."""
+        return sparse.csr_array(self.problem.C.T)
+
+    @cached_property
+    def _constant(self) -> tuple[sparse.csr_array, Array]:
+        return self._potentials(np.zeros(len(self.stress_place)))
+
+    def _potentials(self, x: Array) -> tuple[sparse.csr_array, Array]:
+        G = self.flow.matrix(x)
+        return sparse.csr_array(G.T), np.swapaxes(self.by_interface(self.rows(G)), 1, 2)
+
+    def potential(self, x: Array) -> sparse.csr_array:
+        """Return G(x)^T, shape (s, R)."""
+        return (self._constant if self.flow.constant else self._potentials(x))[0]
+
+    def potential_parts(self, x: Array) -> Array:
+        """Return G(x)^T of each interface, shape (m, k, r)."""
+        return (self._constant if self.flow.constant else self._potentials(x))[1]
 
     @cached_property
     def interfaces(self) -> int:
@@ -104,8 +133,8 @@ class Layout:
         return found
 
     @cached_property
-    def _pattern(self) -> tuple[Any, Indices, Indices, Indices]:
-        """Pattern of [[-K, live], [live^T, 0]], and the places of K's parts and of live in its data."""
+    def _pattern(self) -> tuple[Any, Indices, Indices, Indices, Indices]:
+        """Ordered pattern of [[-K, live], [live^T, 0]], places of K's parts and live in it, the ordering."""
         n, d = self.problem.C.shape[1], self.rates.shape[1]
         shape = (self.interfaces, d, d)
         i = np.broadcast_to(self.rates[:, :, None], shape).ravel()
@@ -115,24 +144,40 @@ class Layout:
         end = np.full(len(loaded), n)
         row = np.concatenate([i[inside], np.arange(n + 1), loaded, end])
         column = np.concatenate([j[inside], np.arange(n + 1), end, loaded])
-        places, at = np.unique(column * (n + 1) + row, return_inverse=True)
+        order = self._ordering(row, column)
+        places, at = np.unique(order[column] * (n + 1) + order[row], return_inverse=True)
         pattern = sparse.csc_array(
             (np.ones(len(places)), (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1)
         )
-        return pattern, inside, at[: len(inside)], at[len(inside) + n + 1 :]
+        return pattern, inside, at[: len(inside)], at[len(inside) + n + 1 :], order
 
-    def condensed(self, parts: Array) -> Any:
-        """Return [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d), csc."""
-        pattern, inside, at, border = self._pattern
+    def _ordering(self, row: Indices, column: Indices) -> Indices:
+        """Where each unknown goes so that factors stay sparse, found once for all points of a path."""
+        n = int(row.max()) + 1
+        matrix = sparse.coo_array((np.ones(len(row)), (row, column)), shape=(n, n)).tocsc()
+        dominant = sparse.csc_array(matrix + abs(matrix).sum() * sparse.eye_array(n))
+        return np.asarray(linalg.splu(dominant, permc_spec="MMD_AT_PLUS_A", **DIAGONAL).perm_c)
+
+    def factors(self, parts: Array) -> Any:
+        """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
+        pattern, inside, at, border, _ = self._pattern
         data = -np.bincount(at, weights=parts.ravel()[inside], minlength=pattern.nnz)
         live = self.problem.live[self.problem.live != 0.0]
         data[border] = np.concatenate([live, live])
-        return sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
+        matrix = sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
+        return linalg.splu(matrix, permc_spec="NATURAL", **DIAGONAL)
+
+    def solved(self, lu: Any, right: Array) -> Array:
+        """Return the solution of those factors for right-hand sides (6 n + 1, c)."""
+        order = self._pattern[-1]
+        ordered = np.empty_like(right)
+        ordered[order] = right
+        return np.asarray(lu.solve(ordered)[order])
 
     def per_interface(self, x: Array) -> Array:
-        """Return stresses (s,) by interface, shape (m, k)."""
-        return np.append(x, 0.0)[self.stresses]
+        """Return stresses (s,) or (s, c) by interface, shape (m, k) or (m, k, c)."""
+        return np.concatenate([x, np.zeros_like(x[:1])])[self.stresses]
 
     def per_stress(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, k) as stresses (s,)."""
+        """Return what stands by interface (m, k, ...) as stresses (s, ...)."""
         return np.asarray(blocks[self.problem.stress_interface, self.stress_place])

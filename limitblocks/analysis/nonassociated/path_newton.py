@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
@@ -9,6 +11,19 @@ from scipy.sparse import linalg
 from limitblocks.analysis.nonassociated.path_equations import Equations, Path, Point
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import quotient, slope
+
+
+REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
+
+
+class _Columns(NamedTuple):
+    """Right-hand sides of the five equations as columns, products divided by s; or directions in (x, u, a, s, y)."""
+
+    flow: Array
+    balance: Array
+    work: Array
+    slack: Array
+    product: Array
 
 
 class Newton:
@@ -21,65 +36,69 @@ class Newton:
     def __init__(self, path: Path, z: Point) -> None:
         self.path, self.z = path, z
         p, layout = path.flow.problem, path.layout
-        G = path.flow.matrix(z.x)
-        self.GT = G.T.tocsr()
-        self.elastic = path.rho(z.theta) * path.elastic
-        self.turn = None if path.flow.constant else path.flow.derivative(z.x, z.y)
-        potential = layout.by_interface(layout.rows(G))
+        self.GT = layout.potential(z.x)
         stiff = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
-        H = layout.padding + np.swapaxes(potential, 1, 2) @ stiff
+        H = layout.padding + layout.potential_parts(z.x) @ stiff
         diagonal = np.arange(H.shape[1])
-        H[:, diagonal, diagonal] += layout.per_interface(self.elastic)
-        if self.turn is not None:
-            t = self.turn.tocoo()
+        elastic = path.rho(z.theta) * path.elastic
+        H[:, diagonal, diagonal] += layout.per_interface(elastic)
+        self.stiff = sparse.csr_array(sparse.diags_array(elastic))
+        if not path.flow.constant:
+            t = path.flow.derivative(z.x, z.y).tocoo()
+            self.stiff = sparse.csr_array(self.stiff + t)
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
         self.flexibility = np.linalg.inv(H)
         C = layout.compatibility
-        self.lu = linalg.splu(
-            layout.condensed(np.swapaxes(C, 1, 2) @ self.flexibility @ C),
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.001,
-            options={"SymmetricMode": True},
-        )
-        self.sign = float(np.prod(np.linalg.slogdet(H)[0])) * _sign(self.lu)
+        self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
+        self.sign = float(np.prod(np.sign(np.linalg.det(H)))) * _sign(self.lu)
 
-    def solve(self, q: Equations) -> Point:
-        """Return the direction d with J d = q, refined once on the full equations."""
+    def solve(self, *right: Equations) -> tuple[Point, ...]:
+        """Return the directions d with J d = q for each q, refined once far down the path.
+
+        Before, the corrector mends what elimination loses; there it is as large as what the path allows.
+        """
+        q = self._columns(right)
         d = self._eliminated(q)
-        return d.moved(1.0, self._eliminated(self._left(q, d)))
-
-    def _left(self, q: Equations, d: Point) -> Equations:
-        """What a direction leaves of q."""
-        p, z = self.path.flow.problem, self.z
-        elastic = self.elastic * d.x if self.turn is None else self.elastic * d.x + self.turn @ d.x
-        return Equations(
-            q.flow - elastic + p.C @ d.u + self.GT @ d.y,
-            q.balance + p.C.T @ d.x - d.load_factor * p.live,
-            q.work - float(p.live @ d.u),
-            q.slack - p.F @ d.x + d.s,
-            q.product - p.cones.product(z.y, d.s) - p.cones.product(z.s, d.y),
+        if self.z.theta < REFINED:
+            d = _Columns(*(a + b for a, b in zip(d, self._eliminated(self._left(q, d)), strict=True)))
+        return tuple(
+            Point(d.flow[:, k], d.balance[:, k], float(d.work[0, k]), d.slack[:, k], d.product[:, k], 0.0)
+            for k in range(len(right))
         )
 
-    def _eliminated(self, q: Equations) -> Point:
-        p, z = self.path.flow.problem, self.z
-        h = q.flow + self.GT @ quotient(p.cones, z.s, q.product + p.cones.product(z.y, q.slack))
-        free = self._flexed(h)
-        w = self.lu.solve(np.append(q.balance + p.C.T @ free, q.work))
+    def _eliminated(self, q: _Columns) -> _Columns:
+        """Directions by x, u, a, s, y as columns."""
+        p, z, layout = self.path.flow.problem, self.z, self.path.layout
+        free = self._flexed(q.flow + self.GT @ (q.product + slope(p.cones, z.s, z.y, q.slack)))
+        w = layout.solved(self.lu, np.vstack([q.balance + layout.balance @ free, q.work]))
         dx = free + self._flexed(p.C @ w[:-1])
         ds = p.F @ dx - q.slack
-        dy = quotient(p.cones, z.s, q.product - p.cones.product(z.y, ds))
-        return Point(dx, w[:-1], float(w[-1]), ds, dy, 0.0)
+        return _Columns(dx, w[:-1], w[-1:], ds, q.product - slope(p.cones, z.s, z.y, ds))
+
+    def _left(self, q: _Columns, d: _Columns) -> _Columns:
+        """What directions leave of q; slacks and products are exact."""
+        p, layout = self.path.flow.problem, self.path.layout
+        flow = q.flow - self.stiff @ d.flow + p.C @ d.balance + self.GT @ d.product
+        balance = q.balance + layout.balance @ d.flow - p.live[:, None] * d.work
+        none = np.zeros_like(q.slack)
+        return _Columns(flow, balance, q.work - p.live @ d.balance, none, none)
+
+    def _columns(self, right: tuple[Equations, ...]) -> _Columns:
+        products = [quotient(self.path.cones, self.z.s, q.product) for q in right]
+        parts = [[q.flow for q in right], [q.balance for q in right], [[q.work] for q in right]]
+        return _Columns(*(np.stack(part, axis=1) for part in [*parts, [q.slack for q in right], products]))
 
     def _flexed(self, v: Array) -> Array:
         layout = self.path.layout
-        return layout.per_stress((self.flexibility @ layout.per_interface(v)[:, :, None])[:, :, 0])
+        return layout.per_stress(self.flexibility @ layout.per_interface(v))
 
 
 def _sign(lu: linalg.SuperLU) -> float:
     """Sign of a determinant: of the pivots and of the two permutations."""
     pivots = float(np.prod(np.sign(lu.U.diagonal())))
-    return pivots * _parity(lu.perm_r) * _parity(lu.perm_c)
+    same = np.array_equal(lu.perm_r, lu.perm_c)
+    return pivots if same else pivots * _parity(lu.perm_r) * _parity(lu.perm_c)
 
 
 def _parity(permutation: Indices) -> float:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 
-CLOSED = "closed"
+CLOSED, INTERRUPTED = "closed", "interrupted"
 
 
 class Progress(NamedTuple):
@@ -40,6 +40,11 @@ class Tracked:
     def closed(self) -> bool:
         """Whether the path ended at a solution."""
         return self.end == CLOSED
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether the user stopped it."""
+        return self.end == INTERRUPTED
 
     @property
     def how(self) -> str:

@@ -2,27 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 import numpy as np
-from scipy.sparse import linalg
 
 from limitblocks.analysis.nonassociated.path_equations import (
-    WIDE,
     Barrier,
     Path,
     Point,
+    distance,
+    moved,
     residuals,
-    room,
 )
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow
-from limitblocks.problem.barrier import inverse, spread
+from limitblocks.problem.barrier import quotient
 
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary
-EXACT = 1e-9  # of the linear equations and the flow at the start
 ITERATIONS = 60
+ROUNDS = 4  # of the proximal point method at the end
 
 
 def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int, power: float = 1.0) -> Path:
@@ -43,14 +45,14 @@ def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int
     power : float
         Unit of the barrier's size and of the first load factor, dimensionless.
     """
-    p, layout = flow.problem, Layout(flow.problem)
+    p, layout = flow.problem, Layout(flow)
     stiffness = layout.padding.copy()
     diagonal = np.arange(stiffness.shape[1])
     stiffness[:, diagonal, diagonal] += layout.per_interface(1.0 / weights)
     C = layout.compatibility
-    K = layout.condensed(np.swapaxes(C, 1, 2) @ stiffness @ C)
+    lu = layout.factors(np.swapaxes(C, 1, 2) @ stiffness @ C)
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
-    rho0 = float(linalg.splu(K).solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
+    rho0 = float(layout.solved(lu, np.append(np.zeros(p.C.shape[1]), 1.0)[:, None])[-1, 0]) / power
     logarithms = np.zeros(p.cones.degree)
     if seed:
         logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
@@ -63,15 +65,26 @@ def centred(path: Path) -> tuple[Point | None, int]:
     p, cones = path.flow.problem, path.cones
     rows = p.F @ path.x0 + p.g
     s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
-    z = Point(
-        path.x0, np.zeros(p.C.shape[1]), 0.0, s, path.barrier.size * path.power * inverse(cones, s), 1.0
-    )
+    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, quotient(cones, s, path.target(1.0)), 1.0)
     for k in range(ITERATIONS):
         left = residuals(path, z)
-        parts = (left.flow, left.balance, left.work, left.slack)
-        worst = max(float(np.max(np.abs(part))) for part in parts)
-        if worst < EXACT and spread(cones, z.s, z.y, path.target(1.0)) < WIDE:
+        if k and distance(path, z, left) <= 1.0:
             return z, k
-        d = Newton(path, z).solve(left.negative())
-        z = z.moved(min(1.0, 0.9 * room(cones, z, d)), d)
+        (d,) = Newton(path, z).solve(left.negative())
+        z = moved(path, z, 1.0, d)
     return None, ITERATIONS
+
+
+def settled(path: Path, z: Point) -> Iterator[Point]:
+    """Yield what rounds of the proximal point method make of a point: its flow without compliance.
+
+    Each starts from the stresses of the one before, so that the compliance left has no share in the flow.
+    """
+    for _ in range(ROUNDS):
+        path = replace(path, x0=z.x, carried=np.zeros_like(z.x))
+        try:
+            (d,) = Newton(path, z).solve(residuals(path, z).negative())
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+            return
+        z = moved(path, z, 1.0, d)
+        yield z

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
@@ -52,7 +53,11 @@ class Bracket:
 
 
 def bracket(model: Model) -> Bracket:
-    """Solve for the associated load factors that enclose every non-associated one."""
+    """Return the associated load factors that enclose every non-associated one."""
+    return known(model, "bracket", lambda: _bracket(model))
+
+
+def _bracket(model: Model) -> Bracket:
     found = _limited(model)
     upper = found.upper if found else np.inf
     lower, unclaimed = _frictionless(model)
@@ -92,10 +97,11 @@ def _limited(model: Model) -> Bounds | None:
 
 def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     """The limit problem in units of what acts on its blocks at the associated load, where that is known."""
-    if enclosing.bounds is None:
+    found = enclosing.bounds
+    if found is None:
         return model.problem
-    state = _state_of(model, model.problem, enclosing.bounds)
-    return remeasured(model.problem, state) or model.problem
+    state = _state_of(model, model.problem, found)
+    return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
 
 
 def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None:
@@ -120,6 +126,19 @@ def load_scale(problem: LimitProblem, associated: float) -> float:
     return limit if 0.0 < limit < np.inf else (dead or 1.0) / float(np.linalg.norm(problem.live))
 
 
+def refuse_jammed(enclosing: Bracket) -> None:
+    """Raise UnlimitedLoad where no mechanism of any flow rule exists: without friction nothing limits the load.
+
+    Then normal forces x alone balance the live load, and G x in K as shear and torsion are zero. A mechanism
+    C u = -G^T y with live.u = 1 would give 1 = x.C u = -(G x).y <= 0.
+    """
+    if np.isinf(enclosing.associated) and np.isinf(enclosing.frictionless):
+        raise UnlimitedLoad(
+            "the live load can grow without limit: normal forces alone balance it, without any friction, so "
+            "that no mechanism does positive work with it; check its direction"
+        )
+
+
 def refuse_unlimited(flow: Flow, associated: float) -> None:
     """Raise UnlimitedLoad where the flow is associated and nothing limits the load."""
     if np.isinf(associated) and flow.associated:
@@ -136,8 +155,9 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
     """
     if start is not None:
         return _given(model, problem, start)
-    dead_load_state(problem)  # a least-norm state of what falls may look like one
-    x = permanent_state(problem, weights)
+    dead_load_state(model.problem)  # a least-norm state of what falls may look like one
+    ratios = np.round(weights / problem.compliance, 9).tobytes()
+    x = known(problem, ("permanent state", ratios), lambda: permanent_state(problem, weights))
     if x is None:
         raise SolveError("no state of the permanent loads was found, though they stand")
     return x

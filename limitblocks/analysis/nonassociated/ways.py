@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from limitblocks.analysis.nonassociated.loading import stages
 from limitblocks.analysis.nonassociated.means import (
     SOFTENING,
     TURNED_MEANS,
@@ -13,16 +12,12 @@ from limitblocks.analysis.nonassociated.means import (
     Means,
     follow,
 )
-from limitblocks.analysis.nonassociated.path_record import Progress
-from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.polish import polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
-
-# the other way along the load path; it closes walls on which the first one winds
-STEPS = Settings(budget=300)
 
 
 def first_to_solve(
@@ -33,14 +28,18 @@ def first_to_solve(
     tolerance: float,
     record: Callable[[Iteration], None],
 ) -> tuple[State, str]:
-    """The state to which one way after the other leads, and which it was: both load paths come first."""
+    """The state to which one way after the other leads, and which it was: the load path comes first."""
     met: list[tuple[State, str]] = []
     for state, how in _ways(flow, x0, scale, means, tolerance, record):
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
+        if how.endswith(INTERRUPTED):
+            break
     # what solves all equations but gives power comes next
-    return min(met, key=lambda one: left_over(flow, one[0], tolerance))
+    state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
+    interrupted = how.endswith(INTERRUPTED) and not way.endswith(INTERRUPTED)
+    return state, f"{way}, {INTERRUPTED}" if interrupted else way
 
 
 def _ways(
@@ -60,19 +59,19 @@ def _ways(
         state, (info,) = follow(
             smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
         )
-        return polish(flow, state), info.how
+        return polish(flow, state), f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
 
     yield tracked(means[0], x0)
     if len(means) == 1:
         return
-    for stage in stages(flow, x0, weights, tolerance, STEPS, scale)[-1:]:
-        yield polish(flow, stage.state), "implicit steps"
     if not flow.dissipative:
         centroid = replace(flow, turning=Turning.CENTROID)
-        near, _ = first_to_solve(centroid, x0, scale, means, tolerance, record)
+        near, way = first_to_solve(centroid, x0, scale, means, tolerance, record)
+        if way.endswith(INTERRUPTED):
+            yield near, way
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
-            yield state, f"{how}, from the solution that twists about the centroid"
+            yield state, f"from the solution that twists about the centroid, {how}"
     for one in means[1:]:
         yield tracked(one, x0)
 

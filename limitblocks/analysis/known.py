@@ -1,0 +1,30 @@
+"""What is known of a model already: an analysis solves no program twice.
+
+Models and limit problems are frozen, so that an answer of theirs stays true. It is kept beside them, for as
+long as they live: copies, also pickled ones, and changed models start without.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar
+from weakref import WeakKeyDictionary
+
+from limitblocks.model import Model
+from limitblocks.problem import LimitProblem
+
+Answer = TypeVar("Answer")
+
+_KNOWN: WeakKeyDictionary[Model | LimitProblem, dict[Hashable, Any]] = WeakKeyDictionary()
+
+
+def known(of: Model | LimitProblem, name: Hashable, solve: Callable[[], Answer]) -> Answer:
+    """Return the answer `name` of a model or a problem, solved where it is asked for first.
+
+    The answer must be frozen, and must not hold `of`. What is raised is not kept.
+    """
+    answers = _KNOWN.setdefault(of, {})
+    if name not in answers:
+        answers.setdefault(name, solve())  # two threads may solve, and get one answer
+    found: Answer = answers[name]
+    return found

@@ -1,0 +1,171 @@
+"""The outer loop alone: one associated limit analysis after the other, each with the friction of the last.
+
+Gilbert, Casapulla & Ahmed (2006), Computers & Structures 84, 873-887, freeze the friction of every contact at
+the normal force N_k of the last analysis, solve the associated problem that this gives, and repeat until the
+load factor stands still. Here every row whose flow is not its gradient is frozen, as in
+:mod:`limitblocks.analysis.nonassociated.frozen_flow`. Three things keep the rounds from wandering, the first
+two theirs:
+
+- the envelope is rotated about the point of N_k a little beyond zero dilatancy, so that a joint under more
+  pressure than N_k carries less: rows F_k = G - r (F - G), for Coulomb |V| <= (1 + r) mu |N_k| - r mu |N|,
+  with a rotation r that fades;
+- under-relaxation, x_k+1 = beta x + (1 - beta) x_k;
+- a little cohesion, in proportion to r, where frozen friction would be nothing: without it contacts with
+  N_k = 0 leave the next analysis without a solution.
+
+No proof says that the rounds converge, or where to. A load factor that stands still is no solution yet:
+friction may be off by 1e-2 then. The two programs of :mod:`limitblocks.analysis.nonassociated.fixed_point`,
+which change the stresses no more than they must, close it, and the residuals of Eqs (54)-(59) decide.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import cvxpy as cp
+import numpy as np
+
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
+from limitblocks.analysis.polish import polish
+from limitblocks.analysis.programs import Program, in_cone, solved, solvers
+from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.problem import Flow, State
+
+
+@dataclass(frozen=True)
+class Rounds:
+    """How the loop goes on; `rotation` and `relaxation` start as in Gilbert et al. (2006).
+
+    Attributes
+    ----------
+    rotation, fading : float
+        First rotation r of the envelopes over the friction coefficient, and its factor from round to round.
+    relaxation : float
+        Part beta of the new stresses in those that friction is frozen at.
+    cohesion : float
+        Friction where there is none, over r times the largest frozen one.
+    still : float
+        Relative change of the load factor from which on the round is closed.
+    drift : float
+        Relative change of the load factor up to which what closes a round belongs to it; farther solutions
+        are kept in case no round does better.
+    near : float
+        Residual from which on Newton's method takes over from the two programs.
+    most, closing : int
+        Rounds, and those of the two programs that close one.
+    """
+
+    rotation: float = 0.3
+    fading: float = 0.7
+    relaxation: float = 0.6
+    cohesion: float = 0.1
+    still: float = 1e-4
+    drift: float = 1e-3
+    near: float = 1e-6
+    most: int = 60
+    closing: int = 5
+
+
+@dataclass(frozen=True, eq=False)
+class FrozenAnalysis:
+    """Limit analysis with frozen flow: compiled once, then only its data change, unless G depends on x."""
+
+    flow: Flow
+
+    @cached_property
+    def _program(self) -> tuple[Program, cp.Parameter, cp.Parameter]:
+        return self._at(np.zeros(self.flow.problem.C.shape[0]))
+
+    def _at(self, x: Array) -> tuple[Program, cp.Parameter, cp.Parameter]:
+        """The kinematic program, u and y, of the flow at x; parameters: h, and the rotation."""
+        p, G = self.flow.problem, self.flow.matrix(x)
+        u, y = cp.Variable(p.C.shape[1]), cp.Variable(len(p.g))
+        h, rotation = cp.Parameter(len(p.g)), cp.Parameter(nonneg=True)
+        flow = p.C @ u + G.T @ y - rotation * ((p.F - G).T @ y) == 0
+        constraints = [flow, p.live @ u == 1, *in_cone(y, p.cones)]
+        return Program(cp.Problem(cp.Minimize(h @ y - p.dead @ u), constraints), (u, y)), h, rotation
+
+    def find(self, x: Array, rotation: float, cohesion: float) -> State | None:
+        """Limit load, stresses (its dual) and mechanism with the flow frozen at x; None if none is found."""
+        p, conic = self.flow.problem, bool(self.flow.problem.cones.second_order)
+        program, h, rotated = self._program if self.flow.constant else self._at(x)
+        held = (p.F - self.flow.matrix(x)) @ x
+        slack = cohesion * rotation * np.abs(held).max() * p.cones.identity * self._frictional
+        rotated.value, h.value = rotation, p.g + (1.0 + rotation) * held + slack
+        for solver in solvers(conic):
+            found = solved(program, solver)
+            u, y = found.values
+            stresses = found.duals[0]
+            if all(np.isfinite(part).all() for part in (u, y, stresses)):
+                return State(float(h.value @ y - p.dead @ u), stresses, u, y)
+        return None
+
+    @cached_property
+    def _frictional(self) -> Array:
+        """One for the rows whose flow is not their gradient, and for their whole cones, else zero; (R,)."""
+        p = self.flow.problem
+        differs = abs(p.F - self.flow.matrix(np.zeros(p.C.shape[0]))).sum(axis=1)
+        of_member = np.bincount(p.cones.member, weights=differs, minlength=p.cones.degree)
+        return np.asarray(1.0 * (of_member > 0.0)[p.cones.member])
+
+
+def outer_loop(
+    flow: Flow,
+    x: Array,
+    tolerance: float,
+    record: Callable[[State, float, int], None],
+    rounds: Rounds = Rounds(),
+) -> tuple[State, str]:
+    """Return the solution that the rounds lead to, or their state of least residual, and how it was found.
+
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule.
+    x : Array, shape (s,)
+        Stresses that friction is first frozen at: those of the associated limit load.
+    tolerance : float
+        Largest residual of a solution.
+    record : callable
+        Called with the state, the rotation and the number of each round.
+    rounds : Rounds
+        Settings.
+    """
+    problem = flow.problem
+    analysis, nearest = FrozenAnalysis(flow), NearestStresses(problem, problem.compliance)
+    rotation, last = rounds.rotation, np.inf
+    met = [State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
+    closed: list[tuple[float, State, int]] = []  # drift of the load factor, solution, round
+    for k in range(1, rounds.most + 1):
+        found = analysis.find(x, rotation, rounds.cohesion)
+        if found is None:
+            break
+        met.append(found)
+        record(found, rotation, k)
+        size = abs(found.load_factor)
+        if abs(found.load_factor - last) <= rounds.still * size:
+            state = _closed(nearest, found, flow, tolerance, rounds)
+            if state is not None:
+                drift = abs(state.load_factor - found.load_factor)
+                closed.append((drift, state, k))
+                if drift <= rounds.drift * size:
+                    break
+        last, rotation = found.load_factor, rotation * rounds.fading
+        x = rounds.relaxation * found.x + (1.0 - rounds.relaxation) * x
+    if closed:
+        _, state, k = min(closed, key=lambda one: one[0])
+        return state, f"fixed point, {k} rounds"
+    best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
+    return best, f"fixed point, not closed in {len(met) - 1} rounds"
+
+
+def _closed(
+    nearest: NearestStresses, found: State, flow: Flow, tolerance: float, rounds: Rounds
+) -> State | None:
+    """The solution that the two programs and Newton's method make of a round, None if it is none."""
+    near, _ = fixed_point(nearest, found, flow, max(tolerance, rounds.near), rounds.closing)
+    state = polish(flow, found if near is None else near)
+    return state if mcp_residuals(flow, state).worst.value <= tolerance else None

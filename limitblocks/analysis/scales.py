@@ -1,0 +1,181 @@
+"""Units in which the programs of limit analysis are solved: every number near one in the solution.
+
+Friction 1e-6 leaves shears, level forces and vertical rates a millionth of all others: absolute tolerances
+of a solver take them for zero, and the load factor with them. Shears are therefore measured in friction times
+the force of their interface; and, once a state is known, each interface by its own force, each equation of
+equilibrium by what acts in it, the load factor by itself. The rates are dual to that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse import linalg
+
+from limitblocks.arrays import Array
+from limitblocks.evidence.measure import ROUNDING, Measure
+from limitblocks.problem import Cones, LimitProblem, State, power_of_two
+
+REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
+UNLOADED = 1e-3  # of what acts on the lesser block: the least unit of force of an interface
+IDLE = 1e-6  # of what acts on a block: the least unit of one of its equations
+COARSER = 16.0  # a unit off by more is changed, and the programs solved again
+
+
+@dataclass(frozen=True, eq=False)
+class Scaled:
+    """The numbers of a limit problem with x, equations and load factor in units of their own.
+
+    Attributes
+    ----------
+    problem : LimitProblem
+        In its own units, in which states are given and returned.
+    force : Array, shape (m,)
+        Unit of force of each interface.
+    equation : Array, shape (6 n,)
+        Unit of each equation of equilibrium.
+    load_factor : float
+        Unit of the load factor.
+    """
+
+    problem: LimitProblem
+    force: Array
+    equation: Array
+    load_factor: float
+
+    @cached_property
+    def stress(self) -> Array:
+        """Unit of each generalised stress, shape (s,)."""
+        return self.force[self.problem.stress_interface] * frictional(self.problem)
+
+    @cached_property
+    def row(self) -> Array:
+        """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
+        p = self.problem
+        largest = np.zeros(p.cones.degree)
+        entries = abs(p.F @ sparse.diags_array(self.stress)).max(axis=1).toarray().ravel()
+        np.maximum.at(largest, p.cones.member, entries)
+        return unit(largest)[p.cones.member]
+
+    @cached_property
+    def C(self) -> sparse.csr_array:
+        """Compatibility matrix, shape (s, 6 n)."""
+        scaled = sparse.diags_array(self.stress) @ self.problem.C @ sparse.diags_array(1.0 / self.equation)
+        return sparse.csr_array(scaled)
+
+    @cached_property
+    def F(self) -> sparse.csr_array:
+        """Yield rows, shape (R, s)."""
+        return sparse.csr_array(
+            sparse.diags_array(1.0 / self.row) @ self.problem.F @ sparse.diags_array(self.stress)
+        )
+
+    @cached_property
+    def g(self) -> Array:
+        """Constant terms of the yield rows, shape (R,)."""
+        return self.problem.g / self.row
+
+    @cached_property
+    def dead(self) -> Array:
+        """Dead loads, shape (6 n,)."""
+        return self.problem.dead / self.equation
+
+    @cached_property
+    def live(self) -> Array:
+        """Live loads, shape (6 n,)."""
+        return self.problem.live * self.load_factor / self.equation
+
+    @property
+    def cones(self) -> Cones:
+        """The cone K, the same in all units."""
+        return self.problem.cones
+
+    @cached_property
+    def margin(self) -> Array:
+        """One in the unit of force of each interface, at the centre of the cone, shape (R,)."""
+        p = self.problem
+        return p.cones.identity * self.force[p.row_interface] / (p.units.row * self.row)
+
+    def in_problem(self, state: State) -> State:
+        """Return a state of these numbers in the units of the problem."""
+        return State(
+            state.load_factor * self.load_factor,
+            state.x * self.stress,
+            state.u * self.load_factor / self.equation,
+            state.y * self.load_factor / self.row,
+        )
+
+    def measured(self, state: State) -> Scaled | None:
+        """Return the problem in the units of a state; None where its units are so already."""
+        p, measure = self.problem, Measure(self.problem, state)
+        acting = abs(p.C).T @ np.abs(state.x) + np.abs(p.dead) + np.abs(state.load_factor * p.live)
+        least = IDLE * np.repeat(measure.block, 6)
+        carried = np.zeros(len(p.interfaces))
+        np.maximum.at(carried, p.stress_interface, np.abs(state.x) / frictional(p))
+        found = Scaled(
+            p,
+            unit(np.maximum(carried, UNLOADED * measure.interface)),
+            unit(np.maximum(acting, least)),
+            float(unit(np.array([measure.load_factor]))[0]),
+        )
+        pairs = ((found.force, self.force), (found.equation, self.equation))
+        off = [np.abs(np.log2(a / b)).max() for a, b in pairs]
+        off.append(abs(np.log2(found.load_factor / self.load_factor)))
+        return found if max(off) > np.log2(COARSER) else None
+
+
+def unmoved(problem: LimitProblem, load_factor: float, x: Array) -> State:
+    """Return stresses as a state without a mechanism."""
+    return State(load_factor, x, np.zeros(problem.C.shape[1]), np.zeros(problem.F.shape[0]))
+
+
+def unit(sizes: Array) -> Array:
+    """Return the nearest powers of two; one for nothing."""
+    return np.asarray(power_of_two(np.where(sizes > 0.0, sizes, 1.0)))
+
+
+def scaled(problem: LimitProblem) -> Scaled:
+    """Return the problem in the units known before any solution: shears by friction."""
+    return Scaled(problem, np.ones(len(problem.interfaces)), np.ones(problem.C.shape[1]), 1.0)
+
+
+def frictional(problem: LimitProblem) -> Array:
+    """Return the friction where it limits a stress that has no part in N, M1, M2, and is below one; (s,)."""
+    pressing = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(problem.interfaces))
+    tangential = abs(problem.resultants).T @ pressing == 0.0
+    friction = unit(np.clip(problem.friction, ROUNDING, 1.0))
+    return np.where(tangential, friction[problem.stress_interface], 1.0)
+
+
+def balanced(p: Scaled, loads: Array, x: Array) -> Array:
+    """Return the nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
+    lu = _factors(p.C.T @ p.C)
+    for _ in range(2):
+        x = x + p.C @ lu.solve(loads - p.C.T @ x)
+    return np.asarray(x)
+
+
+def compatible(p: Scaled, u: Array, y: Array) -> Array:
+    """Return the nearest multipliers that follow the rates, brought into K by their heads.
+
+    The head of a cone of friction opens the joint friction times as much as it bounds the slip: raising it
+    disturbs the flow least.
+    """
+    lu = _factors(p.F.T @ p.F)
+    for _ in range(2):
+        y = y - p.F @ lu.solve(p.C @ u + p.F.T @ y)
+    y[p.cones.heads] -= np.minimum(p.cones.margin(y), 0.0)
+    return y
+
+
+def repaired(p: Scaled, state: State) -> State:
+    """Return the state with stresses in equilibrium and multipliers that follow the rates."""
+    a = state.load_factor
+    return State(a, balanced(p, p.dead + a * p.live, state.x), state.u, compatible(p, state.u, state.y))
+
+
+def _factors(K: sparse.csr_array) -> linalg.SuperLU:
+    return linalg.splu(sparse.csc_array(K + sparse.eye_array(K.shape[0]) * REGULAR))

@@ -1,0 +1,137 @@
+"""Bounds on the associated load factor that are theorems, rounding errors included; numpy and scipy only."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.evidence.measure import Measure
+from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
+from limitblocks.evidence.rounding import EPS, TINY, UP, scalar_product
+from limitblocks.evidence.spanning_tree import spanning_tree
+from limitblocks.problem import LimitProblem, State
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What is proven of the associated load factor of a limit problem in floating-point numbers.
+
+    Attributes
+    ----------
+    lower, upper : float
+        ``lower <= load factor <= upper`` is a theorem about the numbers of the limit problem; infinite where
+        nothing is proven.
+    static, kinematic : str
+        Why a side is not proven; empty where it is.
+    """
+
+    lower: float
+    upper: float
+    static: str = ""
+    kinematic: str = ""
+
+    @property
+    def complete(self) -> bool:
+        """True if both sides are proven."""
+        return not (self.static or self.kinematic)
+
+    @property
+    def width(self) -> float:
+        """Distance of the bounds over the load factor; infinite where a side is not proven."""
+        size = max(abs(self.lower), abs(self.upper))
+        return (self.upper - self.lower) / size if np.isfinite(size) and size > 0.0 else np.inf
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the proof as numbers (None where there is none) and text."""
+        sides = {"lower": self.lower, "upper": self.upper}
+        numbers = {name: value if np.isfinite(value) else None for name, value in sides.items()}
+        return {**numbers, "static": self.static, "kinematic": self.kinematic}
+
+    def __str__(self) -> str:
+        if self.complete:
+            return f"proven: {self.lower!r} <= load factor <= {self.upper!r}"
+        sides = [self.static or f"proven: load factor >= {self.lower!r}"]
+        sides += [self.kinematic or f"proven: load factor <= {self.upper!r}"]
+        return "; ".join(sides)
+
+
+def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0) -> Proof:
+    """Prove what a static and a kinematic solution show of the associated load factor.
+
+    Parameters
+    ----------
+    problem : LimitProblem
+        ``model.problem``. Its units are powers of two: measured in others, every digit stays.
+    si : State
+        Load factor and generalised stresses of the static solution, displacement rates and multipliers of
+        the kinematic one, in SI units.
+    dead : Array, shape (s,)
+        Any generalised stresses, N and N m, such as those of the dead loads: where they are far within yield
+        is the way on which what is unbalanced is carried to the supports.
+    reserve : float
+        How many times the room must exceed the need: more than 1 so that a machine which sums in another
+        order proves the same.
+
+    Notes
+    -----
+    Static theorem: stresses x + dx that balance dead + a live exactly and with F (x + dx) + g in K prove
+    that the load factor is at least a. Kinematic theorem: with C u + F^T (y + dy) = 0 exactly and y + dy in
+    K, every state in equilibrium within yield has a (live.u) <= g.(y + dy) - dead.u. For dx and dy see
+    :mod:`limitblocks.evidence.reach`.
+    """
+    p = own_units(problem, problem.dimensionless(si))
+    state = p.dimensionless(si)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what is undefined proves nothing
+        tree = spanning_tree(p, room_of(p, dead / p.stress_units))
+        static = static_reach(p, state.load_factor, state.x, tree).times(reserve)
+        kinematic = kinematic_reach(p, state.u, state.y).times(reserve)
+        upper = _upper(p, state, kinematic) / p.units.live if kinematic.proven else np.inf
+    return Proof(
+        lower=float(si.load_factor) if static.proven else -np.inf,
+        upper=float(upper),
+        static=_why("lower bound", "stresses", p, static),
+        kinematic=_why("upper bound", "multipliers", p, kinematic)
+        or ("" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"),
+    )
+
+
+def own_units(problem: LimitProblem, state: State) -> LimitProblem:
+    """Return the problem in units of what acts on each block in the state; no digit changes."""
+    acting = Measure(problem, state).block
+    usable = np.isfinite(acting) & (acting > TINY)
+    return problem.measured(np.where(usable, acting, 1.0) * problem.units.block_force)
+
+
+def room_of(problem: LimitProblem, x: Array) -> Array:
+    """Least distance to yield of the rows of each interface, shape (m,)."""
+    room = np.full(len(problem.interfaces), np.inf)
+    margin = problem.cones.margin(problem.F @ x + problem.g)
+    np.minimum.at(room, problem.member_interface, margin)
+    return room
+
+
+def _upper(problem: LimitProblem, state: State, reach: Reach) -> float:
+    """(g.(y + dy) - dead.u) / (live.u), rounded up; infinite where the live load does no work on u."""
+    work, off = scalar_product(problem.live, state.u)
+    power, more = scalar_product(
+        np.concatenate([problem.g, problem.dead]), np.concatenate([state.y, -state.u])
+    )
+    power += (more + float(np.abs(problem.g) @ reach.change)) * UP
+    power += EPS * abs(power)
+    least = work - off * UP if power > 0.0 else work + off * UP
+    if not work - off * UP > 0.0:
+        return np.inf
+    ratio = power / (least - np.copysign(EPS * abs(least), power))
+    return float(ratio + EPS * abs(ratio) + TINY)
+
+
+def _why(bound: str, what: str, problem: LimitProblem, reach: Reach) -> str:
+    """Why a bound is not proven: the interface that lacks most."""
+    if reach.proven:
+        return ""
+    lack = np.nan_to_num(reach.need - reach.room, nan=np.inf)
+    name = problem.interfaces[problem.member_interface[int(lack.argmax())]]
+    return f"no {bound} proven: exact {what} may lie outside the cone at {name}"

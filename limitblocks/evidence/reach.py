@@ -1,0 +1,158 @@
+"""How far the exact state may lie from a computed one, and whether it has the room in the cone.
+
+The theorems of limit analysis ask for exact equilibrium and for mechanisms that satisfy the flow rule
+exactly; a state in floating point does neither, but is shown to lie near one that does:
+
+- *static*. What the stresses x leave unbalanced, rounding errors included, is carried to the supports along
+  a spanning tree: dx with C^T (x + dx) = dead + a live exists, and its size is bounded block by block.
+- *kinematic*. What C u + F^T y leaves at an interface is made up by multipliers dy of its own rows.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.rounding import EPS, UP, product, products
+from limitblocks.evidence.spanning_tree import Tree
+from limitblocks.problem import LimitProblem
+
+POOREST = 1e-3  # error of a right inverse beyond which nothing is claimed of it
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """`need` of each linear row and each cone, over the `room` it has; `change` bounds dx or dy in size.
+
+    Where the room is at least the need everywhere, the exact state is admissible.
+    """
+
+    need: Array
+    room: Array
+    change: Array
+
+    @property
+    def proven(self) -> bool:
+        """True if the exact state is admissible."""
+        return bool((self.room >= self.need).all())
+
+    def times(self, reserve: float) -> Reach:
+        """The same with `reserve` times the need."""
+        return Reach(reserve * self.need, self.room, reserve * self.change)
+
+
+def static_reach(problem: LimitProblem, load_factor: float, x: Array, tree: Tree) -> Reach:
+    """Return how far stresses in exact equilibrium with dead + load_factor live may lie from x (s,)."""
+    p, push = problem, load_factor * problem.live
+    residual, off = product(sparse.csr_array(p.C.T), -x, p.dead, push)
+    unbalanced = (np.abs(residual) + off + EPS * np.abs(push)) * UP
+    change = carried_to_supports(p, unbalanced.reshape(-1, 6), tree)
+    s, off = product(p.F, x, p.g)
+    return Reach(*_in_cones(p, s, (abs(p.F) @ change + off) * UP), change)
+
+
+def kinematic_reach(problem: LimitProblem, u: Array, y: Array) -> Reach:
+    """Return how far multipliers that satisfy the associated flow rule exactly with u may lie from y (R,)."""
+    both = sparse.csr_array(sparse.hstack([problem.C, problem.F.T]))
+    strain, off = product(both, np.concatenate([u, y]))
+    change = made_up(problem, (np.abs(strain) + off) * UP)
+    return Reach(*_in_cones(problem, y, change), change)
+
+
+def carried_to_supports(problem: LimitProblem, unbalanced: Array, tree: Tree) -> Array:
+    """Bound the size of stresses (s,) that carry forces within +-`unbalanced` (n, 6) along the tree."""
+    places, on_block, on_parent = _tree_matrices(problem, tree)
+    right, share = _right_inverse(on_block)  # stresses that put a force on the block
+    behind, off = products(on_parent, right)
+    behind = (np.abs(behind) + off) * UP
+    force = unbalanced.copy()
+    for depth in range(int(tree.depth.max()), 0, -1):
+        k = np.flatnonzero(tree.depth == depth)
+        force[k] = _exactly(force[k], share[k])
+        inner = k[tree.parent[k] >= 0]
+        np.add.at(force, tree.parent[inner], np.einsum("kij,kj->ki", behind[inner], force[inner]))
+        force *= UP
+    change = np.zeros(problem.C.shape[0] + 1)
+    change[places] = np.einsum("kij,kj->ki", np.abs(right), force) * UP
+    return change[:-1]
+
+
+def made_up(problem: LimitProblem, defect: Array) -> Array:
+    """Bound the size of multipliers (R,) with F^T dy within +-`defect` (s,), interface by interface."""
+    p, m = problem, len(problem.interfaces)
+    rows, row = _places(p.row_interface, m)
+    columns, column = _places(p.stress_interface, m)
+    F, change = p.F.tocoo(), np.zeros(len(p.g) + 1)
+    shapes = np.stack([(rows < len(p.g)).sum(axis=1), (columns < len(defect)).sum(axis=1)], axis=1)
+    for r, c in np.unique(shapes, axis=0):
+        these = np.flatnonzero((shapes == (r, c)).all(axis=1))
+        index = np.full(m, -1)
+        index[these] = np.arange(len(these))
+        k = index[p.row_interface[F.row]]
+        matrix = np.zeros((len(these), c, r))
+        matrix[k[k >= 0], column[F.col[k >= 0]], row[F.row[k >= 0]]] = F.data[k >= 0]
+        right, share = _right_inverse(matrix)
+        strain = _exactly(defect[columns[these, :c]], share)
+        change[rows[these, :r]] = np.einsum("kij,kj->ki", np.abs(right), strain) * UP
+    return change[:-1]
+
+
+def _right_inverse(matrix: Array) -> tuple[Array, Array]:
+    """Right inverses R of a stack of matrices A, and |e| / (1 - |e|) of the error e = A R - 1, row sums."""
+    right: Array = np.asarray(np.linalg.pinv(matrix), dtype=float)
+    identity, off = products(matrix, right)
+    error = (np.abs(identity - np.eye(matrix.shape[1])) + off).sum(axis=2).max(axis=1) * UP
+    share = np.where(error < POOREST, error / (1.0 - np.minimum(error, POOREST)) * UP, np.inf)
+    return right, np.asarray(share, dtype=float)
+
+
+def _exactly(size: Array, share: Array) -> Array:
+    """Bound (A R)^-1 v for all |v| <= size (k, d): v, and `share` (k,) of its largest entry (Neumann)."""
+    most = size.max(axis=1)
+    more = np.zeros_like(most)
+    np.multiply(share, most, out=more, where=most > 0.0)
+    return np.asarray((size + more[:, None]) * UP)
+
+
+def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, Array]:
+    """Places (n, S) of the stresses of the tree's interfaces, and what they put on block and parent."""
+    p, n = problem, len(problem.blocks)
+    places, position = _places(p.stress_interface, len(p.interfaces))
+    child = np.full(len(p.interfaces), -1)
+    child[tree.interface] = np.arange(n)
+    C = p.C.tocoo()
+    k, block = child[p.stress_interface[C.row]], C.col // 6
+    matrices = []
+    for whose in (np.arange(n), tree.parent):
+        matrix = np.zeros((n, 6, places.shape[1]))
+        its = (k >= 0) & (whose[k] == block)
+        matrix[k[its], C.col[its] % 6, position[C.row[its]]] = C.data[its]
+        matrices.append(matrix)
+    return places[tree.interface], matrices[0], matrices[1]
+
+
+def _places(owner: Indices, count: int) -> tuple[Indices, Indices]:
+    """Places (count, most) of what each interface owns, len(owner) beyond it; the position of each (len,)."""
+    own = np.bincount(owner, minlength=count)
+    order = np.argsort(owner, kind="stable")
+    position = np.empty(len(owner), dtype=np.int64)
+    position[order] = np.arange(len(owner)) - np.repeat(np.cumsum(own) - own, own)
+    places = np.full((count, int(own.max())), len(owner))
+    places[owner, position] = np.arange(len(owner))
+    return places, position
+
+
+def _in_cones(problem: LimitProblem, rows: Array, reach: Array) -> tuple[Array, Array]:
+    """Need and room of each linear row and each cone where rows move by at most `reach`."""
+    cones = problem.cones
+    need, room = [reach[: cones.linear]], [rows[: cones.linear]]
+    for index in cones.groups:
+        t, norm = rows[index[:, 0]], np.linalg.norm(rows[index[:, 1:]], axis=1)
+        moved = reach[index[:, 0]] + np.linalg.norm(reach[index[:, 1:]], axis=1)
+        rounding = np.where(norm > 0.0, EPS * (np.abs(t) + (index.shape[1] + 4) * norm), 0.0)
+        need.append((moved + rounding) * UP)
+        room.append(t - norm)
+    return np.concatenate(need), np.concatenate(room)

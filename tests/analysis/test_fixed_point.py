@@ -1,0 +1,194 @@
+"""Solutions are fixed points of limit analysis with frozen flow; the outer loop alone finds some of them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import loop
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
+from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.problem import Flow, State, Turning
+
+MU = 0.6
+FERRIS_TIN_LOI = {1: 0.640, 2: 0.563, 3: 0.356, 4: 0.264}  # (2001), zero dilatancy
+JOINTS = [lb.OrdunaLourenco, lb.PointContact]
+
+
+def flat_block(joint):
+    """A block 1 x 1 x 0.5 m: it slides at mu < b/h."""
+    stones = [
+        lb.Block.box("base", (3.0, 3.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("stone", (1.0, 1.0, 0.5), (0, 0, 0.25), 20e3),
+    ]
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    return lb.Model(stones, ["base"], lb.find_interfaces(stones, joint), lb.self_weight(), push)
+
+
+def lintel(kind):
+    return lb.structures.eccentric_lintel(kind(MU), eccentricity=0.1, direction=(1.0, 0.0, 0.0))
+
+
+def pushed(load_factor):
+    """The stresses of the flat block under a push, by statics: V = a W, N = -W, M = a W h/2."""
+    problem = flat_block(lb.OrdunaLourenco(MU)).problem
+    W, axes = 10e3, flat_block(lb.OrdunaLourenco(MU)).interfaces[0].axes
+    force = np.array([load_factor * W, 0.0, -W])  # on the stone
+    moment = np.cross([0.0, 0.0, 0.25], force)  # of the loads about the joint
+    x = np.concatenate([axes @ force, axes @ moment])
+    none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    for sign in (1.0, -1.0):
+        state = problem.dimensionless(State(load_factor, sign * x, *none))
+        unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ state.x
+        if np.abs(unbalanced).max() < 1e-12:
+            return Flow(problem), state
+    raise AssertionError("not in equilibrium")
+
+
+@pytest.mark.parametrize("share", [0.25, 0.5, 1.0])
+def test_frozen_friction_of_a_block_is_mu_times_its_weight(share):
+    """Below mu a round changes the load factor to mu; at mu, the solution, it changes nothing."""
+    flow, state = pushed(share * MU)
+    assert fixed_point_change(flow, state) == pytest.approx(1.0 / share - 1.0, abs=1e-7)
+
+
+def test_frozen_rows_are_the_true_ones_at_their_state():
+    model = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(MU))
+    flow, x = Flow(model.problem), np.random.default_rng(0).normal(size=model.problem.C.shape[0])
+    at = frozen(flow, x)
+    true = model.problem.F @ x + model.problem.g
+    np.testing.assert_allclose(at.F @ x + at.g, true, atol=1e-12)
+    np.testing.assert_array_equal(at.F.toarray(), flow.matrix(x).toarray())
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+def test_the_associated_state_is_no_fixed_point(kind):
+    """A state within yield at load factor a: frozen at it, the limit load is at least a, here more."""
+    model = lb.structures.ferris_tin_loi_wall(4, kind(0.65))
+    problem, found = model.problem, lb.bounds(model)
+    x = found.generalised_stresses / problem.stress_units
+    none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    state = State(found.lower * problem.units.live, x, *none)
+    assert fixed_point_change(Flow(problem), state) > 0.01
+    assert fixed_point_change(Flow(problem, 0.65), state) < 1e-6  # but one of its own flow
+
+
+@pytest.mark.parametrize("kind", JOINTS)
+@pytest.mark.parametrize("turning", list(Turning))
+def test_every_answer_is_confirmed(kind, turning):
+    model = lintel(kind)
+    found = lb.nonassociated(model, method="fixed point", turning=turning)
+    assert found.fixed_point_change <= 1e-7
+    assert f"fixed point within {found.fixed_point_change:.1e}" in str(found)
+    assert found.to_dict()["fixed_point_change"] == found.fixed_point_change
+    assert not found.remarks
+
+
+def test_confirmation_of_one_of_many_solutions():
+    """Jammed without preload: every load factor from mu on is a solution, and the associated one is none."""
+    stones = [
+        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(friction=0.3))
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    model = lb.Model(stones, ["floor", "ceiling"], interfaces, lb.self_weight(), push)
+    for method in ("path", "fixed point"):
+        found = lb.nonassociated(model, method=method)
+        assert found.load_factor >= 0.3 - 1e-8
+        assert found.fixed_point_change <= 1e-7
+
+
+def test_confirmation_is_an_option_and_only_of_answers():
+    model = flat_block(lb.OrdunaLourenco(MU))
+    alone = lb.nonassociated(model, confirm=False)
+    assert alone.fixed_point_change is None
+    assert "fixed point" not in str(alone)
+    wall = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
+    means = [lb.Means(lb.Barrier(), seed=0, budget=1)]
+    stopped = lb.nonassociated(wall, means=means, tolerance=1e-18, throw=False)
+    assert not stopped.converged
+    assert stopped.fixed_point_change is None
+
+
+@pytest.mark.parametrize(
+    ("change", "remark"),
+    [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")],
+)
+def test_an_answer_that_is_not_confirmed_says_so(change, remark, monkeypatch):
+    monkeypatch.setattr(loop, "fixed_point_change", lambda flow, state: change)
+    found = lb.nonassociated(flat_block(lb.OrdunaLourenco(MU)))
+    assert remark in "".join(found.remarks)
+    assert remark in str(found)
+
+
+@pytest.mark.parametrize("number", [1, 4])  # the others in lesson 21
+def test_the_loop_alone_finds_the_published_values(number):
+    model = lb.structures.ferris_tin_loi_wall(number, lb.OrdunaLourenco(0.65))
+    found = lb.nonassociated(model, method="fixed point")
+    assert found.load_factor == pytest.approx(FERRIS_TIN_LOI[number], rel=0.01)
+    assert found.how.startswith("fixed point, ")
+    assert lb.check_mcp(model, found).passed
+    assert found.fixed_point_change <= 1e-7
+    rounds = [stage for stage in found.history if stage.kind == "fixed point"]
+    assert [stage.inner for stage in rounds] == list(range(1, len(rounds) + 1))
+    assert [stage.step_size for stage in rounds[:2]] == pytest.approx([0.3, 0.21])
+
+
+def test_a_load_factor_that_stands_still_is_not_enough():
+    """The last round changed the load factor by less than 1e-4; its residuals are far above the tolerance."""
+    model = lb.structures.ferris_tin_loi_wall(3, lb.PointContact(0.65))
+    found = lb.nonassociated(model, method="fixed point")
+    *_, before, last, _ = found.history
+    assert abs(last.load_factor / before.load_factor - 1.0) <= 1e-4
+    assert max(last.residuals.values()) > 1e-4
+    assert found.residuals.worst.value <= 1e-8
+
+
+def test_a_loop_that_is_not_closed_raises_with_its_best_state():
+    model = flat_block(lb.PointContact(MU))
+    with pytest.raises(lb.NotConverged) as stopped:
+        lb.nonassociated(model, method="fixed point", tolerance=1e-30)
+    best = stopped.value.result
+    assert "not closed" in best.how
+    assert not best.converged
+    assert len(best.history) > 10
+
+
+def test_the_loop_starts_where_it_is_told():
+    model = lintel(lb.PointContact)
+    permanent = lb.bounds(model).dead_load_stresses
+    found = [lb.nonassociated(model, method="fixed point", start=start) for start in (None, permanent)]
+    first, second = (one.history[0].load_factor for one in found)
+    assert abs(second - first) > 0.01 * first
+
+
+def test_an_unknown_method_is_refused():
+    with pytest.raises(lb.ModelError, match="'luck', expected 'path' or 'fixed point'"):
+        lb.nonassociated(flat_block(lb.PointContact(MU)), method="luck")
+
+
+def rounds_of(model, **changed):
+    """Load factor and residual that the loop ends at with other settings."""
+    problem, bounds = model.problem, lb.bounds(model)
+    flow, x = Flow(problem), bounds.generalised_stresses / problem.stress_units
+    state, _ = outer_loop(flow, x, 1e-8, lambda *_: None, replace(Rounds(), **changed))
+    return state.load_factor / problem.units.live, mcp_residuals(flow, state).worst.value
+
+
+def test_without_rotation_the_loop_ends_far_above_the_published_value():
+    model = lb.structures.ferris_tin_loi_wall(4, lb.OrdunaLourenco(0.65))
+    with_rotation, worst = rounds_of(model)
+    without, worst_without = rounds_of(model, rotation=0.0)
+    assert max(worst, worst_without) <= 1e-8  # both are solutions
+    assert with_rotation == pytest.approx(FERRIS_TIN_LOI[4], rel=0.01)
+    assert without > 1.05 * FERRIS_TIN_LOI[4]
+
+
+def test_without_cohesion_open_contacts_leave_a_round_without_solution():
+    model = lb.structures.ferris_tin_loi_wall(3, lb.PointContact(0.65))
+    assert rounds_of(model)[1] <= 1e-8
+    assert rounds_of(model, cohesion=0.0)[1] > 1e-3

@@ -1,0 +1,115 @@
+"""What is known of a model is not solved again, and nothing carries it further than it is true."""
+
+import gc
+import pickle
+import weakref
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import cvxpy as cp
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.known import known
+from limitblocks.analysis.nonassociated.start import bracket
+from limitblocks.analysis.stability import dead_load_state
+
+
+def column(push=(1.0, 0.0, 0.0)):
+    joint = lb.OrdunaLourenco(friction=0.6)
+    stones = [
+        lb.Block.box("base", (2.0, 2.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("stone", (0.5, 0.8, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, joint)
+    return lb.Model(stones, ["base"], interfaces, lb.self_weight(), lb.mass_proportional(push))
+
+
+@pytest.fixture
+def programs(monkeypatch):
+    """Programs that cvxpy was asked to solve."""
+    solved, solve = [], cp.Problem.solve
+
+    def counted(self, *settings, **named):
+        solved.append(self)
+        return solve(self, *settings, **named)
+
+    monkeypatch.setattr(cp.Problem, "solve", counted)
+    return solved
+
+
+def test_five_lines_of_the_readme_solve_no_program_twice(programs):
+    """Margin and bounds with friction and without; the permanent loads; two confirmations."""
+    model = column()
+    stands = lb.stability(model)
+    bounds, result = lb.bounds(model), lb.nonassociated(model)
+    path = lb.load_path(model)
+    check = lb.check_mcp(model, result)
+    _ = lb.report(model, stands, bounds, result, path, check).html
+    assert check.passed
+    assert len(programs) == 3 + 3 + 1 + 2 * 2
+    assert lb.bounds(model) is bounds
+    assert len(programs) == 3 + 3 + 1 + 2 * 2
+
+
+def test_each_tolerance_and_each_model_has_its_own_bounds():
+    model, tight = column(), 1e-7
+    bounds = lb.bounds(model)
+    assert lb.bounds(model, tolerance=tight) is not bounds
+    assert lb.bounds(model, tolerance=tight).tolerance == tight
+    assert lb.bounds(column()) is not bounds
+
+
+def test_a_changed_model_starts_without():
+    model = column()
+    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)  # b/h along X
+    turned = replace(model, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    assert lb.bounds(turned).lower == pytest.approx(0.6, abs=1e-6)  # slides at mu along Y
+    assert bracket(turned).associated == lb.bounds(turned).upper
+
+
+def test_a_pickled_model_carries_nothing(programs):
+    model = column()
+    lb.nonassociated(model)
+    copy = pickle.loads(pickle.dumps(model))
+    before = len(programs)
+    assert lb.bounds(copy) is not lb.bounds(model)
+    assert len(programs) == before + 3
+
+
+def test_what_is_known_lives_as_long_as_the_model():
+    model = column()
+    lb.nonassociated(model)
+    dies, bounds = weakref.ref(model), weakref.ref(lb.bounds(model))
+    problem = weakref.ref(model.problem)
+    del model
+    gc.collect()
+    assert dies() is None
+    assert bounds() is None
+    assert problem() is None
+
+
+def test_what_is_known_cannot_be_written_to():
+    model = column()
+    with pytest.raises(ValueError, match="read-only"):
+        dead_load_state(model.problem)[0] = 1.0
+
+
+def test_what_is_raised_is_not_kept():
+    model, tries = column(), []
+
+    def fails():
+        tries.append(1)
+        raise lb.SolverFailure("on purpose")
+
+    for _ in range(2):
+        with pytest.raises(lb.SolverFailure):
+            known(model, "nothing", fails)
+    assert len(tries) == 2
+
+
+def test_threads_get_one_answer():
+    model = column()
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: lb.bounds(model), range(8)))
+    assert all(bounds is found[0] for bounds in found)

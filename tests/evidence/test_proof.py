@@ -1,0 +1,267 @@
+"""Bounds as theorems: rounding errors bounded, exact states near computed ones, falsified claims refused."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy import sparse
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.evidence.proof import Proof, proof_of
+from limitblocks.evidence.reach import carried_to_supports, made_up
+from limitblocks.evidence.rounding import product, products, scalar_product
+from limitblocks.evidence.spanning_tree import spanning_tree
+from limitblocks.problem import State
+
+RANDOM = np.random.default_rng(7)
+JOINTS = {
+    "points": lb.PointContact(0.6),
+    "torsion": lb.OrdunaLourenco(0.6),
+    "octagon": lb.OrdunaLourenco(0.6, slip="paper"),
+    "crushing": lb.OrdunaLourenco(0.6, compressive_strength=3e6),
+}
+
+
+def exact(row, vector):
+    return sum(
+        (Fraction(float(a)) * Fraction(float(b)) for a, b in zip(row, vector, strict=True)), Fraction(0)
+    )
+
+
+def scattered(*shape):
+    """Numbers over 20 orders of magnitude, some of them zero."""
+    numbers = RANDOM.normal(size=shape) * 10.0 ** RANDOM.uniform(-10, 10, size=shape)
+    return np.where(RANDOM.random(shape) < 0.2, 0.0, numbers)
+
+
+def test_error_of_a_product_is_bounded():
+    for _ in range(40):
+        A, v, w = scattered(5, 17), scattered(17), scattered(5)
+        value, off = product(sparse.csr_array(A), v, w)
+        for k in range(5):
+            error = abs(exact(A[k], v) + Fraction(w[k]) - Fraction(value[k]))
+            assert error <= Fraction(off[k])
+        a, b = scattered(50), scattered(50)
+        total, more = scalar_product(a, b)
+        assert abs(exact(a, b) - Fraction(total)) <= Fraction(more)
+
+
+def test_error_of_small_matrices_is_bounded():
+    A, B = scattered(8, 3, 5), scattered(8, 5, 4)
+    value, off = products(A, B)
+    for k, i, j in np.ndindex(value.shape):
+        error = abs(exact(A[k, i], B[k, :, j]) - Fraction(value[k, i, j]))
+        assert error <= Fraction(off[k, i, j])
+
+
+def test_cancelling_product_is_not_called_exact():
+    A = sparse.csr_array(np.array([[1e16, 1.0, -1e16]]))
+    value, off = product(A, np.ones(3))
+    assert abs(value[0] - 1.0) <= off[0]
+    assert off[0] > 0.0
+
+
+def test_product_of_nothing_is_exact():
+    value, off = product(sparse.csr_array(np.array([[1.0, 0.0]])), np.array([0.0, 3.0]))
+    assert value[0] == off[0] == 0.0
+
+
+@pytest.fixture(scope="module", params=JOINTS)
+def model(request):
+    return structures.eccentric_lintel(JOINTS[request.param], eccentricity=0.1, direction=(1, 0, 0))
+
+
+def test_tree_leads_every_block_to_a_support(model):
+    p = model.problem
+    tree = spanning_tree(p, RANDOM.random(len(p.interfaces)))
+    for k in range(len(p.blocks)):
+        assert set(p.ends[tree.interface[k]]) == {k, tree.parent[k]}
+        behind = tree.parent[k]
+        assert tree.depth[k] == 1 + (tree.depth[behind] if behind >= 0 else 0)
+
+
+def test_tree_takes_the_ways_with_most_room(model):
+    p = model.problem
+    room = RANDOM.random(len(p.interfaces))
+    worst = room[spanning_tree(p, room).interface].min()
+    for _ in range(20):  # a tree of greatest sum of ranks has the greatest least room, too
+        assert room[spanning_tree(p, RANDOM.random(len(room))).interface].min() <= worst
+
+
+def test_what_is_carried_to_the_supports_is_bounded(model):
+    p = model.problem
+    tree = spanning_tree(p, RANDOM.random(len(p.interfaces)))
+    own = np.isin(p.stress_interface, tree.interface)
+    C = p.C.toarray()[own]
+    for _ in range(20):
+        unbalanced = np.abs(scattered(len(p.blocks), 6))
+        load = (unbalanced * RANDOM.uniform(-1, 1, unbalanced.shape)).ravel()
+        found = carried_to_supports(p, unbalanced, tree)
+        assert not found[~own].any()
+        exact_change = along_tree(p, C, own, tree, load)
+        assert (np.abs(exact_change) <= found[own] * (1 + 1e-9)).all()
+
+
+def along_tree(p, C, own, tree, load):
+    """Stresses on the tree of least norm at each interface that balance the load; leaves first."""
+    rest, change = load.copy(), np.zeros(own.sum())
+    interface = p.stress_interface[own]
+    for k in np.argsort(-tree.depth):
+        rows = interface == tree.interface[k]
+        part = np.linalg.pinv(C[rows][:, 6 * k : 6 * k + 6].T) @ rest[6 * k : 6 * k + 6]
+        change[rows] = part
+        rest = rest - C[rows].T @ part
+    assert np.abs(rest).max() <= 1e-9 * np.abs(load).max()
+    return change
+
+
+def test_what_is_made_up_is_bounded(model):
+    p = model.problem
+    for _ in range(20):
+        defect = np.abs(scattered(p.F.shape[1]))
+        strain = defect * RANDOM.uniform(-1, 1, defect.shape)
+        found = made_up(p, defect)
+        needed = np.linalg.pinv(p.F.toarray().T) @ strain
+        assert (np.abs(needed) <= found * (1 + 1e-9) + 1e-9 * np.abs(needed).max()).all()
+
+
+@pytest.fixture(scope="module")
+def pair(model):
+    return lb.bounds(model)
+
+
+def state_of(model, pair):
+    free = [k for k, block in enumerate(model.blocks) if block.name not in model.supports]
+    rates = pair.displacement_rates[free].ravel()
+    return State(pair.lower, pair.generalised_stresses, rates, pair.flow_multipliers)
+
+
+def test_bounds_are_proven_to_1e_8(model, pair):
+    assert pair.proven
+    assert pair.lower < pair.upper
+    assert pair.upper - pair.lower <= 1e-8 * pair.upper
+    proof = proof_of(model.problem, state_of(model, pair), pair.dead_load_stresses)
+    assert proof.complete
+    assert proof.lower == pair.lower
+    assert proof.upper <= pair.upper
+    assert lb.check_mcp(model, pair, tolerance=1e-6).passed
+
+
+@pytest.mark.parametrize("mu", [0.125, 0.5, 0.625])
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+def test_interval_contains_an_exact_load_factor(joint, mu):
+    """A cube on a floor, all numbers exact in binary: it slides at exactly mu, Coulomb."""
+    blocks = [
+        lb.Block.box("floor", (3.0, 3.0, 1.0), (0.5, 0.5, -0.5), 16.0),
+        lb.Block.box("cube", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5), 16.0),
+    ]
+    touching = lb.find_interfaces(blocks, joint(mu))
+    model = lb.Model(blocks, ["floor"], touching, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+    found = lb.bounds(model)
+    assert found.proven
+    assert found.lower <= mu <= found.upper
+    assert found.upper - found.lower < 1e-10
+
+
+def falsified(pair, model):
+    """False claims of proven bounds, each in one respect."""
+    x, u, y = pair.generalised_stresses, pair.displacement_rates, pair.flow_multipliers
+    Q, units = model.problem.resultants, model.problem.units.resultants
+
+    def stresses(x):
+        own = Q @ (x / model.problem.stress_units) * units
+        return {"generalised_stresses": x, "stress_resultants": own.reshape(-1, 6)}
+
+    moving = int(np.abs(u).max(axis=1).argmax())
+    one = np.zeros_like(u)
+    one[moving, 2] = 1e-4 * np.abs(u).max()
+    most = int(np.abs(y).argmax())
+    pressed = int(np.abs(x).argmax())
+    nudged = x.copy()
+    nudged[pressed] *= 1.0 + 1e-4
+    less = y.copy()
+    less[most] *= -1.0
+    width = pair.upper - pair.lower
+    wide = {"lower": pair.upper + width, "upper": pair.upper + 2 * width}
+    return {
+        "a greater lower bound": {"lower": pair.upper + width},
+        "a lower bound above the truth by 1e-7": {"lower": pair.lower * (1.0 + 1e-7)},
+        "a lesser upper bound": {"upper": pair.lower - width},
+        "the bounds exchanged": {"lower": pair.upper, "upper": pair.lower},
+        "an interval above": wide,
+        "an interval below": {"lower": pair.lower - 3 * width, "upper": pair.lower - 2 * width},
+        "one stress more": stresses(nudged),
+        "all stresses more": stresses(x * (1.0 + 1e-4)),
+        "one rate more": {"displacement_rates": u + one},
+        "one multiplier reversed": {"flow_multipliers": less},
+        "all multipliers less": {"flow_multipliers": y * (1.0 - 1e-4)},
+        "no multipliers": {"flow_multipliers": 0.0 * y},
+        "the mechanism reversed": {"displacement_rates": -u, "flow_multipliers": -y},
+        "half the mechanism": {
+            "displacement_rates": u / 2,
+            "flow_multipliers": y / 2,
+            "upper": pair.upper / 2,
+        },
+    }
+
+
+def test_falsified_proofs_are_refused(model, pair):
+    for word, change in falsified(pair, model).items():
+        claim = replace(pair, **change)
+        assert claim.proven  # it still says so
+        residuals = lb.check_mcp(model, claim, tolerance=1e-6).residuals
+        assert residuals["proof"] == np.inf, word
+
+
+def wedged(joint):
+    """A stone between two walls."""
+    blocks = [
+        lb.Block.box("left", (1.0, 1.0, 1.0), (-0.5, 0.5, 0.5), 2e4),
+        lb.Block.box("stone", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5), 2e4),
+        lb.Block.box("right", (1.0, 1.0, 1.0), (1.5, 0.5, 0.5), 2e4),
+        lb.Block.box("floor", (1.0, 1.0, 1.0), (0.5, 0.5, -0.5), 2e4),
+    ]
+    touching = lb.find_interfaces(blocks, joint)
+    live = lb.mass_proportional((0.0, 0.0, -1.0))
+    return lb.Model(blocks, ["left", "right", "floor"], touching, lb.self_weight(), live)
+
+
+def test_opening_mechanism_exists_where_nothing_can_be_wedged():
+    from limitblocks.analysis.certified import opening
+    from limitblocks.analysis.scales import scaled
+
+    u, _ = opening(scaled(wedged(lb.OrdunaLourenco(0.6)).problem))
+    assert not np.isfinite(u).all()  # pressed between the walls
+    u, _ = opening(scaled(wedged(lb.OrdunaLourenco(0.6, compressive_strength=1e6)).problem))
+    assert np.isfinite(u).all()  # crushing pays for any motion
+    u, _y = opening(scaled(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)).problem))
+    assert np.isfinite(u).all()
+
+
+def test_what_is_not_proven_says_why():
+    """Friction 0 on the floor: no stress state is strictly within yield."""
+    blocks = [
+        lb.Block.box("floor", (3.0, 3.0, 1.0), (0.5, 0.5, -0.5), 16.0),
+        lb.Block.box("cube", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5), 16.0),
+    ]
+    touching = lb.find_interfaces(blocks, lb.PointContact(0.0))
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    model = lb.Model(blocks, ["floor"], touching, lb.self_weight(), push)
+    found = lb.bounds(model)
+    assert not found.proven
+    assert abs(found.lower) < 1e-6
+    assert "no lower bound proven" in found.proof.static
+    assert "cube" in found.proof.static
+    assert lb.check_mcp(
+        lb.Model(blocks, ["floor"], touching, lb.self_weight(), push), found, tolerance=1e-6
+    ).passed
+
+
+def test_half_a_proof_is_none():
+    proof = Proof(1.0, np.inf, "", "no upper bound proven")
+    assert not proof.complete
+    assert proof.width == np.inf
+    assert proof.to_dict()["upper"] is None
+    assert "no upper bound proven" in str(proof)
