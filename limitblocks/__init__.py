@@ -26,6 +26,7 @@ from limitblocks.errors import (
     UnlimitedLoad,
 )
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
@@ -74,6 +75,7 @@ from limitblocks.report import Report, report, report_schema
 __version__ = "0.1.0"
 
 __all__ = [
+    "BackwardError",
     "Barrier",
     "Block",
     "Bounds",

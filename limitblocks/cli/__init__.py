@@ -20,6 +20,7 @@ from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
     AsJson,
+    BackwardLimit,
     ClaimFile,
     Dilatancy,
     Force,
@@ -35,7 +36,7 @@ from limitblocks.cli.options import (
     WithPath,
 )
 from limitblocks.cli.studies import studies
-from limitblocks.errors import NotConverged, UnlimitedLoad
+from limitblocks.errors import NotConverged
 from limitblocks.evidence.results import Method
 from limitblocks.problem import Turning
 
@@ -103,14 +104,16 @@ def nonassociated(
     turning: Turns = Turning.CENTROID,
     method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.nonassociated, model, as_json, output, force, method=method, **flow)
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow |= {"method": method, "backward_error": backward_error}
+        _answer(analyses.nonassociated, model, as_json, output, force, **flow)
 
 
 @app.command()
@@ -131,7 +134,11 @@ def path(
 
 @app.command()
 def check(
-    model: ModelFile, result: ClaimFile, tolerance: Tolerance = DEFAULT_TOLERANCE, as_json: AsJson = False
+    model: ModelFile,
+    result: ClaimFile,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
+    as_json: AsJson = False,
 ) -> None:
     """Check a result file against Eqs (54)-(59) of its model."""
     with clean_errors():
@@ -140,7 +147,7 @@ def check(
 
         structure = read(model)
         claim = read_result(result, structure)
-        checked = check_mcp(structure, claim, tolerance=tolerance)
+        checked = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
         _print(structure, checked, as_json)
@@ -186,7 +193,7 @@ def report(
         structure = read(model)
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
-        results = _bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
+        results = analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         results += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         results += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(report(structure, *results).save(file, overwrite=force)))
@@ -201,17 +208,6 @@ def schema() -> None:
     from limitblocks.io import model_schema
 
     typer.echo(json.dumps(model_schema(), indent=1))
-
-
-def _bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
-    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
-    try:
-        return [analyses.bounds(model, **asked)]
-    except UnlimitedLoad as error:
-        if needed:
-            raise
-        typer.echo(f"warning: no bounds: {error}", err=True)
-        return []
 
 
 def _answer(

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import typer
+
+from limitblocks.errors import UnlimitedLoad
+
 if TYPE_CHECKING:
     from limitblocks.evidence.associated import Bounds
     from limitblocks.evidence.results import LoadPath, Nonassociated
@@ -27,6 +31,17 @@ def bounds(model: Model, **settings: float) -> Bounds:
 
     with shown_progress():
         return solve(model, **settings)
+
+
+def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
+    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
+    try:
+        return [bounds(model, **asked)]
+    except UnlimitedLoad as error:
+        if needed:
+            raise
+        typer.echo(f"warning: no bounds: {error}", err=True)
+        return []
 
 
 def nonassociated(model: Model, **settings: Any) -> Nonassociated:

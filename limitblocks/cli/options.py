@@ -11,6 +11,15 @@ from limitblocks.problem import Turning
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+BackwardLimit = Annotated[
+    float | None,
+    typer.Option(
+        "--backward-error",
+        help="Also accept what is exact for a model changed by no more than this, such as 1e-4.",
+        min=0.0,
+        show_default=False,
+    ),
+]
 OwnTolerance = Annotated[
     float | None,
     typer.Option(help="Largest gap and residual accepted [default: 1e-06 of bounds, else 1e-08].", min=0.0),

@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
+from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
@@ -40,6 +41,10 @@ class Check:
         ones.
     tolerance : float
         Largest residual of a solution.
+    backward_error : BackwardError
+        How far from the model the one is of which the claim is an exact solution.
+    limit : float, optional
+        Largest backward error that was asked for, in place of residuals within the tolerance.
     mechanism_found : bool
         Whether the checker had to search for the mechanism or the multipliers.
     remarks : tuple of str
@@ -50,6 +55,8 @@ class Check:
 
     residuals: Residuals
     tolerance: float
+    backward_error: BackwardError
+    limit: float | None
     mechanism_found: bool
     remarks: tuple[str, ...]
     digest: str
@@ -60,15 +67,21 @@ class Check:
         return not self.residuals.above(self.tolerance)
 
     @property
+    def accepted(self) -> bool:
+        """True if it passed, or the claim is exact for a model as near as was asked for."""
+        return self.passed or within(self.backward_error, self.residuals, self.tolerance, self.limit)
+
+    @property
     def worst(self) -> Residual:
         """The largest residual."""
         return self.residuals.worst
 
     def require(self) -> None:
-        """Raise CheckFailed, naming every residual above the tolerance, unless the check passed."""
+        """Raise CheckFailed, naming every residual above the tolerance, unless the claim is accepted."""
         failed = self.residuals.above(self.tolerance)
-        if failed:
-            raise CheckFailed(f"above {self.tolerance:g}: {', '.join(map(str, failed))}")
+        if not self.accepted:
+            asked = "" if self.limit is None else f"; {self.backward_error}, above {self.limit:g}"
+            raise CheckFailed(f"above {self.tolerance:g}: {', '.join(map(str, failed))}{asked}")
 
     def to_dict(self) -> dict[str, Any]:
         """Return the check as plain numbers and text."""
@@ -77,19 +90,25 @@ class Check:
             "passed": self.passed,
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
+            "backward_error": self.backward_error.to_dict(),
+            "backward_error_limit": self.limit,
+            "accepted": self.accepted,
             "mechanism_found": self.mechanism_found,
             "remarks": list(self.remarks),
         }
 
     def __str__(self) -> str:
         word = "passed" if self.passed else "FAILED"
+        if self.accepted and not self.passed:
+            word = f"not passed, but exact for a model within {self.limit:g}"
         source = ", mechanism found by the checker" if self.mechanism_found else ""
         place = f" at {self.worst.where}" if self.worst.where else ""
         said = "".join(f"; {remark}" for remark in self.remarks)
-        return f"check {word}: worst residual {self.worst.value:.1e} ({self.worst.name}{place}){source}{said}"
+        worst = f"worst residual {self.worst.value:.1e} ({self.worst.name}{place})"
+        return f"check {word}: {worst}, {self.backward_error}{source}{said}"
 
 
-def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE) -> Check:
+def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward_error: Any = None) -> Check:
     """Check a claimed solution residual by residual, Eqs (54)-(59).
 
     Residuals are dimensionless: every block is measured by what acts on it, every interface by its own
@@ -105,6 +124,9 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE) -> Check
         What is claimed, with the flow rule that it names; bounds are judged by the associated flow.
     tolerance : float
         Largest residual of a solution, positive and finite.
+    backward_error : float, optional
+        Largest change of the model for which the claim may be exact instead, such as 1e-4; see
+        :class:`limitblocks.evidence.backward_error.BackwardError`. Without it only the tolerance counts.
 
     Raises
     ------
@@ -117,20 +139,22 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE) -> Check
     least = real_number("tolerance", tolerance)
     if not least > 0.0:
         raise ModelError(f"tolerance is {tolerance!r}, expected a number above 0, such as {TOLERANCE:g}")
+    limit = checked_limit(backward_error)
     claim = claim_of(model, result)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # undefined residuals are infinite
-        return _checked(model, claim, least)
+        return _checked(model, claim, least, limit)
 
 
-def _checked(model: Model, claim: Claim, tolerance: float) -> Check:
+def _checked(model: Model, claim: Claim, tolerance: float, limit: float | None) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, found = _state(model, flow, claim)
     bounds = claim.upper is not None and flow.associated
     judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
     entries = (*judged.entries, _standing(problem, claim))
+    error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
-    return Check(Residuals(entries), tolerance, found, remarks, model.digest)
+    return Check(Residuals(entries), tolerance, error, limit, found, remarks, model.digest)
 
 
 def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:

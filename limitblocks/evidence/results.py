@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
@@ -35,6 +36,7 @@ class Status(Enum):
     """How an analysis ended; the text is for the user."""
 
     CONVERGED = "converged: every residual is within the tolerance"
+    NEARBY = "not converged, but exact for a model as near as was asked for, as its backward error says"
     OUT_OF_STEPS = (
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
     )
@@ -103,6 +105,8 @@ class Nonassociated:
         Flow multiplier of each row of the limit problem, m.
     residuals : Residuals
         Of Eqs (54)-(59), recomputed by the checker.
+    backward_error : BackwardError
+        How far from the model the one is of which the state is an exact solution.
     status : Status
         Whether it converged.
     how : str
@@ -138,6 +142,7 @@ class Nonassociated:
     flow_multipliers: Array
     dead_load_stresses: Array
     residuals: Residuals
+    backward_error: BackwardError
     status: Status
     how: str
     history: tuple[Iteration, ...] = field(repr=False)
@@ -154,6 +159,11 @@ class Nonassociated:
         """True if every residual is within the tolerance."""
         return self.status is Status.CONVERGED
 
+    @property
+    def accepted(self) -> bool:
+        """True if it converged, or is exact for a model as near as was asked for."""
+        return self.status in (Status.CONVERGED, Status.NEARBY)
+
     def __str__(self) -> str:
         worst = self.residuals.worst
         word = "" if self.converged else f" ({self.status.value})"
@@ -164,7 +174,7 @@ class Nonassociated:
             least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         return (
             f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}){confirmed}{word}"
+            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
             f"{''.join(f'; {one}' for one in said)}"
         )
 
@@ -182,6 +192,7 @@ class Nonassociated:
             "remarks": list(self.remarks),
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
+            "backward_error": self.backward_error.to_dict(),
             "how": self.how,
             "fixed_point_change": self.fixed_point_change,
             "history": [asdict(iteration) for iteration in self.history],

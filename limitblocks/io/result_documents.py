@@ -59,6 +59,7 @@ class ResultDocument(StateDocument):
     associated: Any = None
     status: Any = None
     remarks: Any = None
+    backward_error: Any = None
     how: Any = None
     fixed_point_change: Any = None
     history: Any = None

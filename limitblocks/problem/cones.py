@@ -134,7 +134,7 @@ class Cones:
             block = w[:, :1, None] * np.eye(w.shape[1])
             block[:, 0, 1:] = block[:, 1:, 0] = w[:, 1:]
             blocks.append(block)
-        return self._matrix(v[: self.linear], blocks)
+        return self.matrix(v[: self.linear], blocks)
 
     def inverse_arrow(self, v: Array) -> sparse.csr_array:
         """Return the inverse of L(v)."""
@@ -148,9 +148,10 @@ class Cones:
             outer = z[:, :, None] * z[:, None, :] / (t * det)[:, None, None]
             block[:, 1:, 1:] = np.eye(w.shape[1] - 1) / t[:, None, None] + outer
             blocks.append(block)
-        return self._matrix(1.0 / v[: self.linear], blocks)
+        return self.matrix(1.0 / v[: self.linear], blocks)
 
-    def _matrix(self, line: Array, blocks: list[Array]) -> sparse.csr_array:
+    def matrix(self, line: Array, blocks: list[Array]) -> sparse.csr_array:
+        """Return the block diagonal matrix of `line` and the blocks of each group of cones, (R, R)."""
         k = np.arange(self.linear)
         data, rows, columns = [line], [k], [k]
         for index, block in zip(self.groups, blocks, strict=True):

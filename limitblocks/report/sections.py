@@ -9,6 +9,7 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
@@ -84,7 +85,8 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
 
 def _nonassociated(_model: Model, result: Nonassociated) -> Section:
     flow = "do not lift" if result.dilatancy == 0.0 else f"lift by {result.dilatancy:g} of what they slide"
-    proven = "together satisfy" if result.converged else "do not yet satisfy"
+    near = "satisfy, for a model as near as was asked for," if result.accepted else "do not yet satisfy"
+    proven = "together satisfy" if result.converged else near
     return Section(
         title="Non-associated solution" if result.converged else "Non-associated state, not converged",
         meaning=(
@@ -98,6 +100,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
             ("Way", result.how, "which path led to this solution"),
+            _backward(result.backward_error),
             *_confirmation(result),
         ),
         checks=_checks(result.residuals, result.tolerance),
@@ -155,9 +158,12 @@ def _check(_model: Model, check: mcp.Check) -> Section:
             "A claimed solution put into Eqs (54)-(59) of the model, without a word from any solver. It is a "
             "solution if every residual is within the tolerance; that does not make it the only one."
         ),
-        headline="passed" if check.passed else "failed",
+        headline="passed" if check.passed else "near" if check.accepted else "failed",
         quantity=f"worst residual {check.worst.value:.1e} ({check.worst.name})",
-        values=(("Mechanism and multipliers", source, "by which the flow rule was checked"),),
+        values=(
+            ("Mechanism and multipliers", source, "by which the flow rule was checked"),
+            _backward(check.backward_error),
+        ),
         checks=_checks(check.residuals, check.tolerance),
         tolerance=check.tolerance,
         warnings=check.remarks + _loose(check.tolerance),
@@ -184,6 +190,13 @@ def _stability(_model: Model, answer: Stability) -> Section:
         tolerance=ARISEN,
         rates=answer.displacement_rates,
     )
+
+
+def _backward(error: BackwardError) -> tuple[str, str, str]:
+    parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
+    where = _some([f"{name} ({change:.1e})" for name, change in error.places])
+    said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")
+    return "Backward error", f"{error.value:.1e}", said
 
 
 def _proven(proof: Proof) -> tuple[str, str]:

@@ -40,6 +40,7 @@ def solved(
     turning="centroid",
     method="path",
     tolerance=1e-8,
+    backward_error=None,
     progress=None,
     status=Status.CONVERGED,
 ):
@@ -55,6 +56,7 @@ def solved(
         frictionless=np.nan,
         associated=bounds.upper,
         residuals=bounds.residuals,
+        backward_error=lb.check_mcp(model, bounds).backward_error,
         status=status,
         how=f"by hand, {Method(method).value}",
         history=(iteration,),
@@ -244,6 +246,21 @@ def test_check_of_an_honest_result_passes(file, result):
 
 def times(factor):
     return lambda numbers: (factor * np.array(numbers)).tolist()
+
+
+def test_check_takes_what_is_exact_for_a_near_model_where_asked_to(file, result):
+    """One thousandth more load factor: an imbalance of less than that of what acts on a block."""
+    changed(result, load_factor=times(1.001))
+    assert run("check", file, result).exit_code == 1
+    done = run("check", file, result, "--backward-error", 1e-3)
+    assert done.exit_code == 0
+    assert "near" in done.stdout
+    assert "loads" in done.stdout
+    found = json.loads(run("check", file, result, "--backward-error", 1e-3, "--json").stdout)
+    assert (found["passed"], found["accepted"], found["backward_error_limit"]) == (False, True, 1e-3)
+    assert found["backward_error"]["value"] == found["backward_error"]["loads"] < 1e-3
+    assert run("check", file, result, "--backward-error", 1e-6).exit_code == 1
+    assert run("check", file, result, "--backward-error", 0).exit_code == 2
 
 
 MUTILATIONS = {

@@ -38,6 +38,7 @@ def associated(model, dilatancy, turning=Turning.CENTROID):
         frictionless=np.nan,
         associated=np.inf,
         residuals=bounds.residuals,
+        backward_error=lb.check_mcp(model, bounds).backward_error,
         status=Status.CONVERGED,
         how="tracked path",
         history=history,

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.evidence.backward_error import MEANINGS, BackwardError
+from limitblocks.evidence.residuals import Residual
 from limitblocks.geometry import painter
 from limitblocks.problem import Turning
 from limitblocks.report import picture
@@ -51,6 +53,7 @@ def nonassociated(bounds):
         load_factor=0.2,
         frictionless=0.1,
         associated=0.3,
+        backward_error=BackwardError(*(Residual(name, 1e-9, "") for name in MEANINGS), (), 1e-9, None),
         status=lb.Status.CONVERGED,
         how="tracked path",
         history=(),

@@ -32,6 +32,7 @@ RESULT = Nonassociated(
     load_factor=0.2412345678,
     frictionless=0.125,
     associated=0.25,
+    backward_error=lb.check_mcp(MODEL, BOUNDS).backward_error,
     status=Status.CONVERGED,
     how="tracked path",
     history=(Iteration(0.25, "step", 1.0, {"flow": 1e-9}, 1, 0),),

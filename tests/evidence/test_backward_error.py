@@ -1,0 +1,275 @@
+"""The backward error: closed forms, its proof on rebuilt models, what it must not depend on, and controls."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from attacks import ATTACKS
+from true_claims import DEPTH, MU, TRUE, B, H, changed, moving, sliding, state_of, true
+
+import limitblocks as lb
+from limitblocks.evidence import backward_error as module
+from limitblocks.evidence.backward_error import backward_error
+from limitblocks.evidence.nearby import Given
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.problem import Flow, State, turning_of
+
+PARTS = ("limits", "flow", "loads", "mechanism")
+
+
+def flow_of(model, claim):
+    return Flow(model.problem, claim.dilatancy, turning_of(claim.turning))
+
+
+def error_of(model, claim):
+    return backward_error(flow_of(model, claim), state_of(model, claim))
+
+
+def parts(error):
+    return {part.name: part.value for part in error.parts}
+
+
+def slid_at(mu, model=None, joint=None):
+    """The stresses of sliding at friction mu, with the mechanism, on a block of friction MU."""
+    model = model or sliding(joint or lb.OrdunaLourenco(MU))[0]
+    p, (_, truth) = model.problem, sliding(joint or lb.OrdunaLourenco(MU))
+    state, a = state_of(model, truth), mu * p.units.live
+    x = np.linalg.solve(p.C.T.toarray(), p.dead + a * p.live)
+    return model, changed(model, truth, load_factor=a, x=x, u=state.u, y=state.y)
+
+
+@pytest.mark.parametrize("name", TRUE)
+def test_of_an_exact_state_it_is_rounding(name):
+    assert error_of(*true(name)).value <= 1e-8
+
+
+@pytest.mark.parametrize("slip", ["exact", "paper"])
+@pytest.mark.parametrize("share", [1 + 1e-6, 1 + 1e-4, 1 - 1e-4, 0.99, 0.7, 1.2])
+def test_a_block_that_slides_at_another_friction(share, slip):
+    """|mu' - mu| / mu, and nothing else changes."""
+    error = error_of(*slid_at(share * MU, joint=lb.OrdunaLourenco(MU, slip=slip)))
+    assert error.value == pytest.approx(abs(share - 1), rel=1e-6)
+    assert parts(error)["limits"] == error.value
+    assert error.places[0][0] == error.limits.where
+
+
+@pytest.mark.parametrize("share", [1 + 1e-4, 1 - 1e-4])
+def test_the_changed_friction_is_that_of_a_model_that_can_be_made(share):
+    _, claim = slid_at(share * MU)
+    other = lb.structures.block(lb.OrdunaLourenco(share * MU), width=B, height=H, depth=DEPTH)
+    assert lb.check_mcp(other, replace(claim, digest="")).worst.value <= 1e-12
+
+
+@pytest.mark.parametrize("compressive_strength", [None, 5e6])
+@pytest.mark.parametrize("share", [1 + 1e-4, 1 - 1e-3])
+def test_a_block_that_rocks_about_another_edge(share, compressive_strength):
+    """The centre of pressure is at `share` of the half width b: the edge moves by |share - 1| of it."""
+    joint = lb.OrdunaLourenco(0.7, compressive_strength=compressive_strength)
+    model = lb.structures.block(joint, width=0.5, height=1.0)
+    found = lb.nonassociated(model, tolerance=1e-9)
+    p, state = model.problem, state_of(model, found)
+    a = share * state.load_factor
+    x = np.linalg.solve(p.C.T.toarray(), p.dead + a * p.live)
+    error = backward_error(Flow(p), State(a, x, state.u, state.y))
+    # M = a W h / 2 is the only stress of the hinge that changes; the edge is at M / N of the unchanged one
+    edge = abs(share - 1) * found.load_factor * 1.0 / 0.5
+    assert error.limits.value == pytest.approx(edge, rel=1e-6)
+    if compressive_strength is None:
+        assert error.value == error.limits.value == pytest.approx(abs(share - 1), rel=1e-6)
+
+
+@pytest.mark.parametrize("angle", [1e-6, 1e-3, 0.1])
+def test_slip_at_an_angle_to_the_shear_force(angle):
+    """A push at an angle to the slip, on round friction: the flow turns by it, or the mechanism."""
+    model, claim = sliding(lb.OrdunaLourenco(MU))
+    state = state_of(model, claim)
+    push = replace(model, live=lb.mass_proportional((np.cos(angle), np.sin(angle), 0.0)))
+    q = push.problem
+    a = MU * q.units.live
+    x = np.linalg.solve(q.C.T.toarray(), q.dead + a * q.live)
+    u = moving(push, block_1=np.array([1.0, 0, 0, 0, 0, 0]))
+    y = state.y * (np.abs(u).max() / np.abs(state.u).max())
+    error = backward_error(Flow(q), State(a, x, u, y))
+    assert error.value == pytest.approx(angle, rel=0.01)
+    assert error.value == max(error.flow.value, error.mechanism.value)
+
+
+def test_a_load_out_of_balance():
+    """One percent more load factor with the stresses of before: W mu / 100 over W (1 + mu)."""
+    model, claim = sliding(lb.OrdunaLourenco(MU))
+    more = changed(model, claim, load_factor=1.01 * MU * model.problem.units.live)
+    error = error_of(model, more)
+    assert error.value == error.loads.value == pytest.approx(0.01 * MU / (1 + 1.01 * MU), rel=1e-6)
+
+
+def test_it_grows_with_the_change_in_proportion():
+    model, claim = true("wall")
+    p, state = model.problem, state_of(model, claim)
+    values = [backward_error(Flow(p), shaken(p, state, size)).value for size in (1e-8, 1e-7, 1e-6)]
+    assert values[1] / values[0] == pytest.approx(10.0, rel=0.1)
+    assert values[2] / values[1] == pytest.approx(10.0, rel=0.1)
+
+
+def shaken(problem, state, size):
+    """The state with other stresses in equilibrium, and a mechanism that is as far off."""
+    random = np.random.default_rng(2)
+    shake = random.standard_normal(len(state.x)) * np.abs(state.x)
+    C = problem.C.T.toarray()
+    shake -= np.linalg.lstsq(C, C @ shake, rcond=None)[0]
+    u = state.u * (1.0 + size * random.standard_normal(len(state.u)))
+    return replace(state, x=state.x + size * shake, u=u)
+
+
+def test_a_structure_of_slightly_other_frictions():
+    """The answer with frictions that differ by up to 1e-4 is exact within 1e-4 for the model without."""
+    random = np.random.default_rng(1)
+    model, _ = true("points")
+    shares = 1.0 + 1e-4 * random.uniform(-1.0, 1.0, len(model.interfaces))
+    others = [
+        replace(i, joint=lb.PointContact(0.6 * share))
+        for i, share in zip(model.interfaces, shares, strict=True)
+    ]
+    other = replace(model, interfaces=others)
+    found = lb.nonassociated(other)
+    p, q = model.problem, other.problem  # joints of their own change the order of stresses and rows
+    x, y = np.empty_like(found.generalised_stresses), np.empty_like(found.flow_multipliers)
+    x[np.argsort(p.stress_interface, kind="stable")] = found.generalised_stresses[
+        np.argsort(q.stress_interface, kind="stable")
+    ]
+    y[np.argsort(p.row_interface, kind="stable")] = found.flow_multipliers[
+        np.argsort(q.row_interface, kind="stable")
+    ]
+    error = error_of(model, replace(found, generalised_stresses=x, flow_multipliers=y))
+    assert 1e-6 < error.limits.value <= np.abs(1.0 / shares - 1.0).max() * 1.1
+    assert error.value <= 1.1e-4
+
+
+@pytest.mark.parametrize("name", ["points", "wall", "octagonal wall"])
+def test_the_changed_problem_is_near_and_the_state_solves_it(name):
+    """Every row, direction and load by itself; the residuals on it are recomputed here."""
+    model, claim = true(name)
+    p = model.problem
+    given = Given(Flow(p), shaken(p, state_of(model, claim), 1e-5))
+    found = module.least(given)
+    changed_problem, at = found.flow.problem, found.state
+    entries = mcp_residuals(found.flow, at).entries
+    assert all(entry.value <= 1e-8 for entry in entries if entry.name != "dissipation")
+    assert at.load_factor == given.state.load_factor
+    assert found.change <= 1e-2
+    strength = abs(p.F) * (found.change * (1 + 1e-9))
+    assert (abs(changed_problem.F - p.F) - strength).max() <= 1e-15
+    assert np.abs(changed_problem.dead - p.dead).max() <= 1e-2 * np.abs(p.dead).sum()
+    turned = sparse_size(changed_problem.G - p.G) / sparse_size(p.G)
+    assert turned <= 1e-2
+    assert (changed_problem.C != p.C).nnz == 0
+    assert np.array_equal(changed_problem.live, p.live)
+
+
+def sparse_size(matrix):
+    return np.sqrt(matrix.power(2).sum(axis=1)).max()
+
+
+def test_it_does_not_depend_on_units_and_on_the_order_of_blocks():
+    model, claim = true("points")
+    state = shaken(model.problem, state_of(model, claim), 1e-5)
+    claim = changed(model, claim, x=state.x, u=state.u)
+    expected = error_of(model, claim)
+    order = np.random.default_rng(3).permutation(len(model.blocks))
+    mixed = replace(model, blocks=[model.blocks[k] for k in order])
+    error = error_of(mixed, replace(claim, digest="", displacement_rates=claim.displacement_rates[order]))
+    assert error.model == pytest.approx(expected.model, rel=1e-4)
+    heavy = [replace(block, unit_weight=1e3 * (block.unit_weight or 0.0)) for block in model.blocks]
+    heavier = replace(model, blocks=heavy)
+    scaled = replace(
+        claim,
+        digest="",
+        stress_resultants=1e3 * claim.stress_resultants,
+        generalised_stresses=1e3 * claim.generalised_stresses,
+        displacement_rates=1e-3 * claim.displacement_rates,
+        flow_multipliers=1e-3 * claim.flow_multipliers,
+    )
+    assert error_of(heavier, scaled).model == pytest.approx(expected.model, rel=1e-4)
+
+
+GROSS = {
+    "load factor 20 per cent too low, tower": ("limits", 0.19),
+    "friction of 1e 6 with 1 005e 6": ("limits", 0.004),
+    "overturns by 7 5 per cent": ("limits", 0.07),
+    "load factor of the heavy cube for the light stone": ("loads", 0.1),
+    "stresses halved": ("loads", 0.3),
+    "rates scaled alone": ("mechanism", 0.009),
+    "mirrored mechanism": (None, 0.9),
+    "rises as it slides, sliding, circle": ("mechanism", 0.2),
+    "slides into a stone that leans on a wall, 1": (None, np.inf),
+}
+
+
+@pytest.mark.parametrize("name", GROSS)
+def test_gross_claims_are_far_from_every_model(name):
+    """Each part is needed: without the one named the error of these claims is rounding."""
+    part, least = GROSS[name]
+    error = error_of(*ATTACKS[name].make())
+    assert error.value >= least
+    if part:
+        assert error.value == parts(error)[part]
+        assert all(value <= 1e-8 for name, value in parts(error).items() if name != part)
+
+
+@pytest.mark.parametrize("part", ["x", "u", "y", "load_factor"])
+def test_the_proof_refuses_any_other_state(part):
+    model, claim = true("points")
+    found = module.least(Given(Flow(model.problem), state_of(model, claim)))
+    assert module.is_exact(found)
+    other = replace(found.state, **{part: 1.001 * getattr(found.state, part)})
+    assert not module.is_exact(found._replace(state=other))
+
+
+def test_what_is_near_is_accepted_only_where_asked_for(monkeypatch):
+    from limitblocks.analysis.nonassociated import loop
+
+    model, _ = true("points")
+    whole = loop._reached
+
+    def stopped(flow, *rest):
+        state, how = whole(flow, *rest)
+        return shaken(flow.problem, state, 1e-5), how
+
+    monkeypatch.setattr(loop, "_reached", stopped)
+    with pytest.raises(lb.NotConverged, match="backward error"):
+        lb.nonassociated(model)
+    found = lb.nonassociated(model, backward_error=1e-2)
+    assert found.status is lb.Status.NEARBY
+    assert found.accepted
+    assert not found.converged
+    assert found.residuals["flow"] <= 1e-10  # the mechanism was put right
+    assert found.residuals.worst.value > 1e-8
+    check = lb.check_mcp(model, found, backward_error=1e-2)
+    assert check.accepted
+    assert not check.passed
+    assert check.backward_error.value == pytest.approx(found.backward_error.value, rel=1e-6)
+    assert "exact for a model within 0.01" in str(check)
+    with pytest.raises(lb.CheckFailed, match=r"above 1e-09"):
+        lb.check_mcp(model, found, backward_error=1e-9).require()
+
+
+@pytest.mark.parametrize("limit", [0.0, -1e-4, np.nan, "1e-4"])
+def test_wrong_limits_are_refused(limit):
+    model, claim = true("sliding, circle")
+    with pytest.raises(lb.ModelError, match="backward_error"):
+        lb.check_mcp(model, claim, backward_error=limit)
+
+
+def test_a_check_that_passed_says_so_with_its_backward_error():
+    check = lb.check_mcp(*true("sliding, circle"))
+    assert check.accepted
+    assert str(check).startswith("check passed: worst residual")
+    assert "backward error 0.0e+00" in str(check)
+
+
+def test_a_model_that_falls_or_gives_work_is_not_accepted():
+    """A change of the model heals neither: both are judged by their residuals."""
+    names = ("a stack that leans too far, octagon", "table 5 at an interface that gives work, square")
+    for name in names:
+        check = lb.check_mcp(*ATTACKS[name].make(), backward_error=1e-4)
+        assert check.backward_error.value <= 1e-10
+        assert not check.accepted
