@@ -149,7 +149,7 @@ def gallery():
 def test_example(example, tmp_path, monkeypatch, capsys):
     image = pytest.importorskip("matplotlib.image")
     monkeypatch.chdir(tmp_path)
-    found = runpy.run_path(str(example))["main"]()
+    values = runpy.run_path(str(example))["main"]()
     assert capsys.readouterr().out.strip()
     made = [path for path in tmp_path.rglob("*") if path.suffix in {".png", ".html"}]
     assert made
@@ -163,7 +163,7 @@ def test_example(example, tmp_path, monkeypatch, capsys):
             assert np.ptp(pixels) > 0.5
             assert (pixels.min(axis=2) < 0.9).mean() > 0.01  # enough that is not white
     for name, (value, tolerance) in EXPECTED.get(example.stem, {}).items():
-        np.testing.assert_allclose(found[name], value, rtol=0, atol=tolerance, err_msg=name)
+        np.testing.assert_allclose(values[name], value, rtol=0, atol=tolerance, err_msg=name)
 
 
 def test_every_numbered_example_has_a_number(gallery):

@@ -85,8 +85,8 @@ def stability(
 ) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = _answer(analyses.stability, model, as_json, output, force)
-    if not found.stands:
+        answer = _answer(analyses.stability, model, as_json, output, force)
+    if not answer.stands:
         raise typer.Exit(1)
 
 
@@ -176,11 +176,11 @@ def check(
 
         structure = read(model)
         claim = read_result(result, structure)
-        found = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
+        checked = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
-        _print(structure, found, as_json)
-        found.require()
+        _print(structure, checked, as_json)
+        checked.require()
 
 
 @app.command()

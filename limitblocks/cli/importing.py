@@ -100,14 +100,14 @@ def import_blocks(
         law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
         weight = _unit_weight(unit_weight)
         if thickness is None:
-            found = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
-            found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
         used: Tolerances | None = None
         if heal:
-            found, used = _healed(found)
+            imported, used = _healed(imported)
         model, contacts = model_of(
-            found,
+            imported,
             joint=law,
             supports=supports,
             live=load,
@@ -116,7 +116,7 @@ def import_blocks(
             width=used.width if used and width is None else width,
             name=file.stem,
         )
-        notes = (*found.notes, contacts.accuracy, *contacts.nothing)
+        notes = (*imported.notes, contacts.accuracy, *contacts.nothing)
         for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import ASSOCIATED, Turning
@@ -109,10 +110,6 @@ class Bounds:
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "solvers": list(self.solvers),
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            **as_lists(self),
             "model_digest": self.digest,
         }

@@ -11,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 
@@ -38,6 +39,13 @@ class Status(Enum):
     NEARBY = "not converged, but exact for a model as near as was asked for, as its backward error says"
     OUT_OF_STEPS = (
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
+    )
+    GIVES_POWER = (
+        "not converged: the state shown satisfies all equations, but interfaces give power in it, so that "
+        "it is no collapse"
+    )
+    NO_SOLUTION = (
+        "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
     )
     INTERRUPTED = "interrupted: the state shown is the best one reached until then, and no solution"
 
@@ -75,16 +83,16 @@ class Nonassociated:
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
-    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at
-    least `frictionless`.
+    permanent loads. Every solution is at most `associated` and, where that is claimed, at least
+    `frictionless`.
 
     Attributes
     ----------
     load_factor : float
         Load factor at collapse.
     frictionless, associated : float
-        Associated load factors without friction and with it: the bracket (Drucker 1954). NaN where the
-        frictionless structure does not stand, infinite where the associated load is unlimited.
+        Associated load factors without friction and with it: the bracket (Drucker 1954). The first is NaN
+        where it is not claimed to be a lower end, the second infinite where the load is unlimited.
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface, local axes, N and N m; N <= 0 in compression.
     generalised_stresses : Array, shape (s,)
@@ -116,6 +124,8 @@ class Nonassociated:
         Largest residual of a converged solution.
     digest : str
         SHA-256 of the model.
+    unclaimed : str
+        Why `frictionless` is NaN, such as a turning with which joints can give power; else empty.
     fixed_point_change : float, optional
         What a round of the fixed point, limit analysis with the flow frozen at this state, changes in the
         load factor, over it; zero but for rounding at a solution, whatever its mechanism, infinite where
@@ -140,6 +150,7 @@ class Nonassociated:
     remarks: tuple[str, ...]
     tolerance: float
     digest: str
+    unclaimed: str = ""
     fixed_point_change: float | None = None
 
     @property
@@ -157,11 +168,13 @@ class Nonassociated:
         word = "" if self.converged else f" ({self.status.value})"
         change = self.fixed_point_change
         confirmed = "" if change is None else f", fixed point within {change:.1e}"
-        said = "".join(f"; {remark}" for remark in self.remarks)
+        least, said = f"between {self.frictionless:.6g} (frictionless) and", self.remarks
+        if np.isnan(self.frictionless):
+            least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         return (
-            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} "
-            f"(frictionless) and {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}{said}"
+            f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
+            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
+            f"{''.join(f'; {one}' for one in said)}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -170,6 +183,7 @@ class Nonassociated:
             "analysis": "nonassociated",
             "load_factor": self.load_factor,
             "frictionless": self.frictionless,
+            "unclaimed": self.unclaimed,
             "associated": self.associated,
             "status": self.status.value,
             "dilatancy": self.dilatancy,
@@ -181,11 +195,7 @@ class Nonassociated:
             "how": self.how,
             "fixed_point_change": self.fixed_point_change,
             "history": [asdict(iteration) for iteration in self.history],
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            **as_lists(self),
             "model_digest": self.digest,
         }
 

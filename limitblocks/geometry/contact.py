@@ -159,8 +159,8 @@ def _refuse_same_names(blocks: Sequence[Block]) -> None:
         raise ModelError(*(f"several blocks are named {name!r}; names must be unique" for name in repeated))
 
 
-def _ends(names: Sequence[str], faces: FaceTable, found: Patches) -> list[tuple[str, str]]:
-    blocks = faces.block[found.a].tolist(), faces.block[found.b].tolist()
+def _ends(names: Sequence[str], faces: FaceTable, patches: Patches) -> list[tuple[str, str]]:
+    blocks = faces.block[patches.a].tolist(), faces.block[patches.b].tolist()
     return [(names[i], names[j]) for i, j in zip(*blocks, strict=True)]
 
 
@@ -184,22 +184,22 @@ def _through(names: Sequence[str], faces: FaceTable, found: Patches, third: Indi
 
 
 def _interfaces(
-    names: Sequence[str], centre: Array, faces: FaceTable, found: Patches, joint: object
+    names: Sequence[str], centre: Array, faces: FaceTable, patches: Patches, joint: object
 ) -> tuple[Interface, ...]:
     """Return an interface for each convex patch, in their order."""
-    rings = shapely.get_exterior_ring(found.shape)
+    rings = shapely.get_exterior_ring(patches.shape)
     rings = np.where(shapely.is_ccw(rings), rings, shapely.reverse(rings))
     points, owner = shapely.get_coordinates(rings, return_index=True)
     keep = np.diff(owner, append=-1) == 0  # the last vertex of a ring repeats its first
-    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(found.shape))
+    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(patches.shape))
     points, owner = polygon.clean(points[keep], owner[keep], tolerance)
-    counts = np.bincount(owner, minlength=len(found.a))
+    counts = np.bincount(owner, minlength=len(patches.a))
     made: list[tuple[int, Interface]] = []
     for n in np.unique(counts):
         group = np.flatnonzero(counts == n)
         stack = points[counts[owner] == n].reshape(-1, n, 2)
-        arrays = _local(stack, centre + found.origin[group], found.frame[group])
-        ends = faces.block[found.a[group]], faces.block[found.b[group]]
+        arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
+        ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
         for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
             made.append((k, Interface(names[i], names[j], c, t, p, joint)))
     return tuple(interface for _, interface in sorted(made, key=itemgetter(0)))

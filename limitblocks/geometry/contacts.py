@@ -205,14 +205,14 @@ class Contacts:
         return lines + self._line("no contact where a third block lies between", self.through)
 
     @staticmethod
-    def _line(words: str, found: Sequence[object]) -> list[str]:
+    def _line(words: str, things: Sequence[object]) -> list[str]:
         """Return one line that names the first of what was found; none when nothing was."""
-        more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
-        return [f"{words}: {', '.join(map(str, found[:_SHOWN]))}{more}"] if found else []
+        more = f" and {len(things) - _SHOWN} more" if len(things) > _SHOWN else ""
+        return [f"{words}: {', '.join(map(str, things[:_SHOWN]))}{more}"] if things else []
 
     def to_dict(self) -> dict[str, Any]:
         """Return all as plain numbers, lists and text, the interfaces without their joint; SI units."""
-        found = {
+        beside = {
             name: [asdict(one) for one in getattr(self, name)]
             for name in ("near_misses", "overlaps", "slivers", "strips", "through")
         }
@@ -227,7 +227,7 @@ class Contacts:
             for one in self.interfaces
         ]
         used = {"tolerances": self.tolerances.to_dict(), "block_length": self.length}
-        return {"interfaces": interfaces, "isolated": list(self.isolated)} | used | found
+        return {"interfaces": interfaces, "isolated": list(self.isolated)} | used | beside
 
     def __str__(self) -> str:
         counts = (
@@ -239,4 +239,4 @@ class Contacts:
             (self.strips, "strips"),
             (self.through, "contacts through a block"),
         )
-        return ", ".join(f"{len(found)} {words}" for found, words in counts)
+        return ", ".join(f"{len(things)} {words}" for things, words in counts)

@@ -175,10 +175,10 @@ def _facing(faces: FaceTable, pairs: Indices, tolerance: float) -> tuple[Indices
     for own, other in (pairs.T, pairs.T[::-1]):
         pair, k = ranges(faces.number[own])
         face = faces.start[own][pair] + k
-        reach = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
-        reach &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
-        near.append(face[reach])
-        count.append(np.bincount(pair[reach], minlength=len(pairs)))
+        touching = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
+        touching &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
+        near.append(face[touching])
+        count.append(np.bincount(pair[touching], minlength=len(pairs)))
     pair, k = ranges(count[0] * count[1])
     first, second = (np.cumsum(each) - each for each in count)
     width = count[1][pair]

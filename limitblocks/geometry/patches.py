@@ -134,11 +134,11 @@ def _heights(
     return np.where(-least > most, least, most), (most - least) / 2.0
 
 
-def pieces_of(faces: FaceTable, found: Patches, names: Any, tolerance: float) -> Patches:
+def pieces_of(faces: FaceTable, patches: Patches, names: Any, tolerance: float) -> Patches:
     """Return the patches, those that are not convex divided into convex ones."""
     # of the two blocks the one whose name comes first settles ties, whatever their order
-    first = names[faces.block[found.a]] < names[faces.block[found.b]]
-    arm = faces.arm[np.where(first, found.a, found.b)]
-    x_axis = np.einsum("kj,kij->ki", arm, found.frame[:, :2])
-    shape, owner = convex_pieces(found.shape, x_axis, ~first, tolerance)
-    return found.of(owner)._replace(shape=shape)
+    first = names[faces.block[patches.a]] < names[faces.block[patches.b]]
+    arm = faces.arm[np.where(first, patches.a, patches.b)]
+    x_axis = np.einsum("kj,kij->ki", arm, patches.frame[:, :2])
+    shape, owner = convex_pieces(patches.shape, x_axis, ~first, tolerance)
+    return patches.of(owner)._replace(shape=shape)

@@ -88,10 +88,10 @@ def read(
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     with faults.named(path):
         model, contacts = model_of(
-            found,
+            imported,
             joint=joint,
             supports=supports,
             live=live,
@@ -101,14 +101,14 @@ def read(
             width=width,
             name=path.stem,
         )
-    for line in (*found.notes, *contacts.warnings, *questions(model)):
+    for line in (*imported.notes, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model
 
 
 def model_of(
-    found: ImportedBlocks,
+    imported: ImportedBlocks,
     *,
     joint: Joint | None,
     supports: Supports | None,
@@ -126,21 +126,21 @@ def model_of(
     ModelError
         An argument is missing, a support is unknown, or the model is wrong.
     """
-    supports = supports or found.supports or None
+    supports = supports or imported.supports or None
     if joint is None or supports is None or live is None:
         given = {"joint": joint, "supports": supports, "live": live}
         missing = (key for key, value in given.items() if value is None)
         raise ModelError(
             *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
         )
-    names = supports_of(found, supports)
-    contacts = find_contacts(found.blocks, joint, gap=gap, angle=angle, width=width)
+    names = supports_of(imported, supports)
+    contacts = find_contacts(imported.blocks, joint, gap=gap, angle=angle, width=width)
     contacts.require()
     loads = self_weight() if dead is None else dead
     try:
-        model = Model(found.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+        model = Model(imported.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
     except ModelError as error:
-        raise ModelError(*error.problems, *_open_joints(contacts, found.blocks)) from None
+        raise ModelError(*error.problems, *_open_joints(contacts, imported.blocks)) from None
     return model, contacts
 
 
@@ -157,7 +157,7 @@ def _open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
     return []
 
 
-def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
+def supports_of(imported: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
     """Return the names of the supports: blocks named, of named layers, or that a function picks.
 
     Raises
@@ -166,13 +166,13 @@ def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
         A name is neither that of a block nor that of a layer.
     """
     if callable(supports):
-        return tuple(block.name for block in found.blocks if supports(block))
+        return tuple(block.name for block in imported.blocks if supports(block))
     wanted = {supports} if isinstance(supports, str) else set(supports)
-    names, layers = set(found.layers), set(found.layers.values()) - {""}
+    names, layers = set(imported.layers), set(imported.layers.values()) - {""}
     unknown = sorted(wanted - names - layers)
     if unknown:
         raise ModelError(
             *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
               for name in unknown)
         )  # fmt: skip
-    return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)
+    return tuple(name for name, layer in imported.layers.items() if name in wanted or layer in wanted)

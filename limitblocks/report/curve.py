@@ -63,11 +63,11 @@ def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
     tracked = any(stage.kind == "path" for stage in history)
     rounds = bool(history) and history[0].kind == "fixed point"
     worst = [max(stage.residuals.values(), default=np.nan) for stage in history]
-    found = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
-    if len(found) < 2:
+    shown = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
+    if len(shown) < 2:
         return None
-    x, y = np.array(found, dtype=float) + 1.0, np.log10([worst[k] for k in found])
-    said = [f"stage {k + 1}, {history[k].kind}: {_what(history[k])} {worst[k]:.1e}" for k in found]
+    x, y = np.array(shown, dtype=float) + 1.0, np.log10([worst[k] for k in shown])
+    said = [f"stage {k + 1}, {history[k].kind}: {_what(history[k])} {worst[k]:.1e}" for k in shown]
     low, high = float(np.floor(y.min())), float(np.ceil(y.max()))
     every = max(1, int(np.ceil((high - low) / 8)))
     decades = np.arange(low, max(high, low + 1.0) + 1.0, every)

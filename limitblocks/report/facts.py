@@ -83,13 +83,13 @@ def assumptions(model: Model) -> dict[str, list[dict[str, Any]]]:
 
 def warnings(model: Model) -> list[str]:
     """Return what is no error but may not be meant, less what the contacts show."""
-    found = []
+    said = []
     weightless = [block.name for block in model.free_blocks if not block.unit_weight]
     if weightless:
-        found.append(f"blocks without weight: {_some(weightless)}")
+        said.append(f"blocks without weight: {_some(weightless)}")
     if not model.dead.terms:
-        found.append("no dead load: the structure has no weight to stabilise it")
-    return found + questions(model)
+        said.append("no dead load: the structure has no weight to stabilise it")
+    return said + questions(model)
 
 
 def _counted(words: Iterable[str]) -> dict[str, int]:
@@ -119,12 +119,12 @@ def _times(counts: dict[str, int]) -> str:
 
 
 def _paragraphs(text: str) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = []
+    parts: list[dict[str, Any]] = []
     for paragraph in text.strip().split("\n\n"):
         plain = paragraph.replace("`", "")
         if plain.startswith("- "):
             items = [" ".join(item.split()) for item in plain[2:].split("\n- ")]
-            found.append({"text": "", "items": items})
+            parts.append({"text": "", "items": items})
         else:
-            found.append({"text": " ".join(plain.split()), "items": []})
-    return found
+            parts.append({"text": " ".join(plain.split()), "items": []})
+    return parts

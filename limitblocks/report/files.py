@@ -33,12 +33,14 @@ def suffix(file: str | Path) -> str:
     LimitBlocksError
         It is none of the formats of reports.
     """
-    found = Path(file).suffix.lower()
-    found = ".html" if found == ".htm" else found
-    if found not in MARKS:
+    ending = Path(file).suffix.lower()
+    ending = ".html" if ending == ".htm" else ending
+    if ending not in MARKS:
         known = ", ".join(MARKS)
-        raise LimitBlocksError(f"{file}: a report cannot be written as {found or 'no suffix'!r}; use {known}")
-    return found
+        raise LimitBlocksError(
+            f"{file}: a report cannot be written as {ending or 'no suffix'!r}; use {known}"
+        )
+    return ending
 
 
 def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) -> Path:

@@ -29,10 +29,10 @@ class Profile(NamedTuple):
         """Return points (n, 2) at `offset` outside the centreline, on its normals at `angles` (n,)."""
         normal = np.column_stack([np.sin(angles), np.cos(angles)])
         a = np.array(self.half_axes)
-        reach = np.linalg.norm(a * normal, axis=1)[:, None]
-        found = a**2 / reach * normal + offset * normal
-        found[:, 0] -= self.shift * np.sign(angles)
-        return np.asarray(found)
+        size = np.linalg.norm(a * normal, axis=1)[:, None]
+        ellipse = a**2 / size * normal + offset * normal
+        ellipse[:, 0] -= self.shift * np.sign(angles)
+        return np.asarray(ellipse)
 
     def apex(self, offset: float = 0.0) -> float:
         """Angle at which the right half of a pointed arch meets the left one; 0 if it is not pointed."""

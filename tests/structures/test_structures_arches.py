@@ -142,8 +142,8 @@ def test_piers_carry_the_arch(name):
 
 @pytest.mark.parametrize("name", BUILDERS)
 def test_thicker_arches_are_stronger(name):
-    found = [lb.bounds(BUILDERS[name](thickness=t)).lower for t in (0.4, 0.5, 0.6)]
-    assert np.all(np.diff(found) > 0.0)
+    load_factors = [lb.bounds(BUILDERS[name](thickness=t)).lower for t in (0.4, 0.5, 0.6)]
+    assert np.all(np.diff(load_factors) > 0.0)
 
 
 @pytest.mark.parametrize("facets", [1, 3])

@@ -60,8 +60,8 @@ def thrust_line_margin(inner, outer, weight, moment):
     (a, p), (b, q) = moments(inner), moments(outer)
     ones = np.ones((len(a), 1))
     rows = np.vstack([np.hstack([a, ones]), np.hstack([-b, ones])])
-    found = linprog([0, 0, -1], rows, np.concatenate([-p, q]), bounds=[(0, None), (0, None), (None, None)])
-    return found.x[2]
+    values = linprog([0, 0, -1], rows, np.concatenate([-p, q]), bounds=[(0, None), (0, None), (None, None)])
+    return values.x[2]
 
 
 def circular_half(thickness, *, radius=1.0, shift=0.0, embrace=np.pi, cuts=4001, lumped=False):

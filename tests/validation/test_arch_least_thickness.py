@@ -58,11 +58,13 @@ def extrapolated(counts, values):
 )
 def test_semicircle_converges_to_the_published_least_thickness(change, limit, printed):
     """With the square of the voussoirs' size; extrapolated, to the digits in print, or 5e-6."""
-    found = [least_thickness(partial(semicircle, voussoirs=n), 1.01 * limit, change=change) for n in COUNTS]
-    end = extrapolated(COUNTS, found)
+    thicknesses = [
+        least_thickness(partial(semicircle, voussoirs=n), 1.01 * limit, change=change) for n in COUNTS
+    ]
+    end = extrapolated(COUNTS, thicknesses)
     assert end == pytest.approx(limit, abs=printed)
-    assert np.all(np.abs(np.array(found) / end - 1) * np.square(COUNTS) < 4.0)
-    assert np.all(np.diff(found) > 0)  # fewer joints, fewer mechanisms
+    assert np.all(np.abs(np.array(thicknesses) / end - 1) * np.square(COUNTS) < 4.0)
+    assert np.all(np.diff(thicknesses) > 0)  # fewer joints, fewer mechanisms
 
 
 def test_thrust_lines_agree_with_the_published_least_thickness():
@@ -118,8 +120,8 @@ def test_least_thickness_is_that_of_thrust_lines(name, size):
     """Heyman's assumptions, infinitely many voussoirs; 60 have an error of order (1 / 60)^2."""
     build, half = shape(name, size)
     limit = least_thickness_of_thrust_lines(half, 0.01, 0.4)
-    found = least_thickness(lambda thickness: build(thickness=thickness, voussoirs=60), 1.02 * limit)
-    assert found == pytest.approx(limit, rel=20.0 / 60**2)
+    thicknesses = least_thickness(lambda thickness: build(thickness=thickness, voussoirs=60), 1.02 * limit)
+    assert thicknesses == pytest.approx(limit, rel=20.0 / 60**2)
 
 
 @pytest.mark.parametrize(
@@ -151,5 +153,5 @@ def test_oppenheim_in_both_directions():
         lb.PointContact(FRICTION), radius=10.0, thickness=1.5, voussoirs=7, embrace=np.radians(157.5)
     )
     for direction in ((1, 0, 0), (-1, 0, 0)):
-        found = lb.bounds(replace(model, live=lb.mass_proportional(direction)))
-        assert found.lower == pytest.approx(0.37, abs=0.005)
+        result = lb.bounds(replace(model, live=lb.mass_proportional(direction)))
+        assert result.lower == pytest.approx(0.37, abs=0.005)

@@ -46,13 +46,13 @@ def apart(*stones):
         x += 3 * side
     floor = draw.floor_under(boxes)
     frictions = iter([friction for _, _, friction in stones])
-    found = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
+    interfaces = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
     blocks = [shapes.box("floor", *floor["floor"])]
     blocks += [
         shapes.box(name, *ends, weight)
         for (name, ends), (_, weight, _) in zip(boxes.items(), stones, strict=True)
     ]
-    return lb.Model(blocks, ["floor"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return lb.Model(blocks, ["floor"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
 
 
 @pytest.mark.parametrize(

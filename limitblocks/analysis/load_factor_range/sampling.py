@@ -11,9 +11,8 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
-from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.loop import SOFTENING
-from limitblocks.analysis.nonassociated.means import MEANS, Means
+from limitblocks.analysis.nonassociated.loading import pushed
+from limitblocks.analysis.nonassociated.means import MEANS, SOFTENING, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -26,7 +25,6 @@ from limitblocks.problem import Flow, State
 STIFFNESS = 10.0  # most that the stiffness of a joint, and shear over normal stiffness, depart from the usual
 STRESSES = (0.3, 1.0, 3.0)  # size of the random stresses over those of the permanent loads
 LARGE = (Barrier(0.1, 2.0), Barrier(1.0, 2.0), Barrier(3.0, 1.0), Barrier(10.0, 2.0))
-STEPS = Settings(budget=300)
 BUDGET = MEANS[0].budget
 Watch = Callable[[object], None]
 
@@ -76,7 +74,7 @@ class Sampler:
                 partial(self._other_stiffness, small, ratios),
             )
             yield Way(
-                f"implicit steps, permanent loads near random stresses {size:g}",
+                f"increments, permanent loads near random stresses {size:g}",
                 Origin.REACHED,
                 partial(self._stepped, -size * other),
             )
@@ -123,8 +121,7 @@ class Sampler:
         if x0 is None:
             return None
         p = self.flow.problem
-        found = stages(self.flow, x0, p.compliance, 1e-8, STEPS, self.scale, self.watch)
-        return polish(self.flow, found[-1].state) if found else None
+        return pushed(self.flow, x0, p.compliance, 1e-8, Settings(), self.scale, self.watch)[1]
 
     def _permanent(self, random: Array) -> Array | None:
         """The admissible stresses under the permanent loads that are nearest to x0 and random ones."""
