@@ -6,6 +6,7 @@ from typing import Any
 from limitblocks import structures, studies, units
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.diagnosis import Diagnosis, diagnose
+from limitblocks.analysis.load_factor_range.run import load_factor_range
 from limitblocks.analysis.nonassociated.load_path import load_path
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.means import Means
@@ -19,6 +20,7 @@ from limitblocks.errors import (
     MissingDependency,
     ModelError,
     NoEquilibrium,
+    NoSolution,
     NotConverged,
     SolveError,
     SolverFailure,
@@ -29,9 +31,20 @@ from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Snap, Status
 from limitblocks.evidence.stability_result import Stability, Standing
-from limitblocks.geometry import Block, Contacts, Interface, find_contacts, find_interfaces
+from limitblocks.geometry import (
+    Block,
+    Contacts,
+    Healed,
+    Interface,
+    Tolerances,
+    find_contacts,
+    find_interfaces,
+    heal,
+)
 from limitblocks.io import (
     ImportedBlocks,
     model_schema,
@@ -85,6 +98,7 @@ __all__ = [
     "Diagnosis",
     "ExactTorsion",
     "GeometryError",
+    "Healed",
     "ImportedBlocks",
     "Interface",
     "InterfaceStates",
@@ -92,25 +106,31 @@ __all__ = [
     "Joint",
     "LimitBlocksError",
     "Load",
+    "LoadFactorRange",
     "LoadPath",
     "Means",
     "MissingDependency",
     "Model",
     "ModelError",
     "NoEquilibrium",
+    "NoSolution",
     "Nonassociated",
     "NotConverged",
     "OrdunaLourenco",
+    "Origin",
     "PathStep",
     "PointContact",
+    "RangeAnswer",
     "Report",
     "Settings",
+    "Snap",
     "SolveError",
     "SolverFailure",
     "Stability",
     "Standing",
     "Status",
     "Tilting",
+    "Tolerances",
     "UnlimitedLoad",
     "YieldRows",
     "added_mass",
@@ -123,9 +143,11 @@ __all__ = [
     "find_contacts",
     "find_interfaces",
     "force",
+    "heal",
     "interface",
     "interface_states",
     "line_load",
+    "load_factor_range",
     "load_path",
     "mass_proportional",
     "model_schema",

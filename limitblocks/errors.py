@@ -9,6 +9,7 @@
     │   ├── NoEquilibrium       the dead loads alone cannot stand
     │   ├── UnlimitedLoad       the live load can grow without limit
     │   ├── NotConverged        the iteration stopped early; carries its best result
+    │   │   └── NoSolution      ... since it is proven that there is none
     │   └── SolverFailure       no solver gave an answer that passes the recomputed residuals
     ├── CheckFailed             a result does not satisfy the conditions it claims to satisfy
     └── MissingDependency       an optional package is needed
@@ -63,6 +64,10 @@ class NotConverged(SolveError):
     def __init__(self, message: str, result: Any) -> None:
         self.result = result
         super().__init__(message)
+
+
+class NoSolution(NotConverged):
+    """The equations have no solution, which is proven; `result` is the state at the limit of yield."""
 
 
 class SolverFailure(SolveError):

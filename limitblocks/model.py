@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.geometry import Block, Interface
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
+from limitblocks.written import write
 
 SCHEMA_VERSION = 1
 
@@ -39,6 +40,8 @@ class Model:
         Constant loads Fc and variable loads Fv (Eq. 43); those on supports do nothing.
     name : str
         Title in reports.
+    tolerances : Tolerances, optional
+        Those that the interfaces were found with, which later checks of the contacts use as well.
 
     Raises
     ------
@@ -54,6 +57,7 @@ class Model:
     dead: Load
     live: Load
     name: str = ""
+    tolerances: Tolerances | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "blocks", tuple(self.blocks))
@@ -81,17 +85,20 @@ class Model:
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the model document; two models are the same where this is."""
-        text = json.dumps(self.to_dict(), sort_keys=True)
+        """SHA-256 of the model document less its tolerances; two models are the same where this is."""
+        document = {key: value for key, value in self.to_dict().items() if key != "tolerances"}
+        text = json.dumps(document, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()
 
     def to_dict(self) -> dict[str, Any]:
         """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
         joints = {joint_of(interface): "" for interface in self.interfaces}
         joints = {joint: f"joint {k + 1}" for k, joint in enumerate(joints)}
+        used = {} if self.tolerances is None else {"tolerances": self.tolerances.to_dict()}
         return {
             "schema_version": SCHEMA_VERSION,
             "name": self.name,
+            **used,
             "blocks": [
                 {
                     "name": block.name,
@@ -126,16 +133,7 @@ class Model:
         LimitBlocksError
             If the file exists and `overwrite` is false, or it cannot be written.
         """
-        path = Path(file)
-        text = json.dumps(self.to_dict(), indent=1)
-        try:
-            with path.open("w" if overwrite else "x", encoding="utf-8") as stream:
-                stream.write(text)
-        except FileExistsError:
-            raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
-        except OSError as error:
-            raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-        return path
+        return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
         kinds = f"{len(self.free_blocks)} blocks, {len(self.supports)} supports"

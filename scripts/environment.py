@@ -23,9 +23,9 @@ OFFLINE = ("Retrying (", "Max retries exceeded", "NewConnectionError", "ProxyErr
 def prepare(extra=""):
     """Make sure that PYTHON runs, with limitblocks and its `extra` installed."""
     if sys.version_info < (3, 11):
-        found = ".".join(map(str, sys.version_info[:3]))
+        version = ".".join(map(str, sys.version_info[:3]))
         sys.exit(
-            "limitblocks needs Python 3.11 or newer, but this is Python %s (%s)." % (found, sys.executable)
+            "limitblocks needs Python 3.11 or newer, but this is Python %s (%s)." % (version, sys.executable)
         )
     started = time.time()
     os.environ.setdefault("PYTHONUTF8", "1")  # Greek letters on a Windows console

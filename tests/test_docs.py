@@ -65,7 +65,7 @@ def remote(text):
 def test_no_page_loads_a_remote_address(site):
     files = [file for file in site.rglob("*") if file.suffix in {".html", ".css", ".js"}]
     assert len(files) > 20
-    assert {file.name: found for file in files if (found := remote(file.read_text(encoding="utf-8")))} == {}
+    assert {file.name: result for file in files if (result := remote(file.read_text(encoding="utf-8")))} == {}
 
 
 @pytest.mark.parametrize(

@@ -110,10 +110,23 @@ EXPECTED = {
         # mu / sqrt(sin^2 w - mu^2 cos^2 w) at 45 degrees
         "associated": (0.6 / np.sqrt(0.5 - 0.5 * 0.6**2), 1e-6),
     },
+    "20_a_load_path_that_snaps": {  # closed form in the example
+        "collapse over weight": (1, 1e-9),
+        "after the snap over weight": (1, 2e-3),
+        "before the snap over greatest": (0.95, 0.05),  # the barrier rounds the corner
+        "jack moved across the snap": (0, 1e-12),
+        "same end along": (1, 1e-9),
+    },
     "19_does_it_stand": {  # by hand in the example: tan 40 deg > 0.6 > tan 20 deg
         "answers": ([2, 1, 1, 0, 0], 0),  # falls, only by self-stress twice, stands twice
         "vertical force over weight": (1, 1e-6),
         "margin on the slope": ((0.6 - np.array([0.5, 0.55, 0.7])) / np.hypot(1, [0.5, 0.55, 0.7]), 1e-6),
+    },
+    "22_three_ranges": {  # by hand in the example
+        "certified less by hand": ([0, 0], 1e-7),
+        "reached within": (1, 0),
+        "worst residual": (0, 1e-8),
+        "wedged": (0, 0),
     },
     "21_three_answers_all_checked": {  # Ferris & Tin-Loi (2001); wall 4 has other solutions than theirs
         "associated": ([0.64286, 0.58000, 0.40369, 0.33195], 1e-5),
@@ -136,7 +149,7 @@ def gallery():
 def test_example(example, tmp_path, monkeypatch, capsys):
     image = pytest.importorskip("matplotlib.image")
     monkeypatch.chdir(tmp_path)
-    found = runpy.run_path(str(example))["main"]()
+    values = runpy.run_path(str(example))["main"]()
     assert capsys.readouterr().out.strip()
     made = [path for path in tmp_path.rglob("*") if path.suffix in {".png", ".html"}]
     assert made
@@ -150,7 +163,7 @@ def test_example(example, tmp_path, monkeypatch, capsys):
             assert np.ptp(pixels) > 0.5
             assert (pixels.min(axis=2) < 0.9).mean() > 0.01  # enough that is not white
     for name, (value, tolerance) in EXPECTED.get(example.stem, {}).items():
-        np.testing.assert_allclose(found[name], value, rtol=0, atol=tolerance, err_msg=name)
+        np.testing.assert_allclose(values[name], value, rtol=0, atol=tolerance, err_msg=name)
 
 
 def test_every_numbered_example_has_a_number(gallery):

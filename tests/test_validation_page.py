@@ -56,9 +56,9 @@ def test_quick_cases_are_met(validation, cases):
 def test_a_wrong_value_is_not_met(validation, cases):
     case = next(case for case in cases if case.quick and case.quantity == "associated")
     wrong = replace(case, published=1.001 * case.published)
-    found, met = validation.run(wrong)
+    done, met = validation.run(wrong)
     assert not met
-    assert validation.cells(wrong, found, met)[-1] == "**no**"
+    assert validation.cells(wrong, done, met)[-1] == "**no**"
 
 
 def test_a_case_without_an_answer_is_not_met(validation, cases):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
-from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, find_contacts
+from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, Through, find_contacts
 from limitblocks.model import Model
 
-_Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver)
+_Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver, Through)
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Diagnosis(Contacts):
     ----------
     interfaces : tuple of Interface
         Contacts of blocks between which the model has no interface; their joint is None.
-    near_misses, slivers
+    near_misses, slivers, strips, through
         Of blocks between which the model has no interface.
     overlaps : tuple of Overlap
     isolated : tuple of str
@@ -37,21 +37,30 @@ class Diagnosis(Contacts):
         return f"beside the interfaces of the model: {super().__str__()}"
 
 
-def diagnose(model: Model, *, gap: float = 1e-3, angle: float = 1e-2) -> Diagnosis:
+def diagnose(
+    model: Model, *, gap: float | None = None, angle: float | None = None, width: float | None = None
+) -> Diagnosis:
     """Return what the blocks of `model` show that its interfaces do not; nothing between two supports.
 
     Parameters
     ----------
     model : Model
-    gap, angle : float
-        Tolerances of :func:`limitblocks.find_interfaces`.
+    gap, angle, width : float, optional
+        Tolerances of :func:`limitblocks.find_interfaces`; left out, those that the model was made with
+        (:attr:`limitblocks.Model.tolerances`), and where it says none, chosen by the accuracy of its faces.
 
     Raises
     ------
     ModelError
         A tolerance is out of range.
     """
-    found = find_contacts(model.blocks, None, gap=gap, angle=angle)
+    own = model.tolerances
+    if own is not None:
+        gap, angle, width = (
+            mine if asked is None else asked
+            for mine, asked in ((own.gap, gap), (own.angle, angle), (own.width, width))
+        )
+    found = find_contacts(model.blocks, None, gap=gap, angle=angle, width=width)
     supports = set(model.supports)
     tied = {frozenset((one.block_i, one.block_j)) for one in model.interfaces}
     ends = {name for pair in tied for name in pair}
@@ -68,4 +77,9 @@ def diagnose(model: Model, *, gap: float = 1e-3, angle: float = 1e-2) -> Diagnos
         overlaps=free(found.overlaps),
         isolated=tuple(name for name in found.isolated if name not in ends),
         slivers=free(loose(found.slivers)),
+        strips=free(loose(found.strips)),
+        through=free(found.through),
+        tolerances=found.tolerances,
+        length=found.length,
+        chosen=found.chosen,
     )

@@ -82,8 +82,7 @@ def _under_load(problem: LimitProblem, weights: Array) -> StepResult:
         dead=np.append(problem.dead, 0.0),
         live=np.append(np.zeros(n), 1.0),
     )
-    none = np.zeros(s), np.zeros(len(problem.g))
-    loading = Loading(Flow(controlled), InterfaceBlocks(controlled), weights, *none, rho=1.0, damping=0.0)
+    loading = Loading(Flow(controlled), InterfaceBlocks(controlled), weights, np.zeros(s), rho=1.0)
     found = implicit_step(loading, ITERATIONS)
     z = found.point
     return replace(found, point=Point(z.x, z.u[:-1], 0.0, z.s, z.y))

@@ -19,15 +19,21 @@ from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.new import new
 from limitblocks.cli.options import (
+    Along,
     AsJson,
     BackwardLimit,
     ClaimFile,
     Dilatancy,
+    Exact,
     Force,
+    Mechanisms,
     ModelFile,
     OwnTolerance,
+    Paths,
     ReportFile,
     ResultFile,
+    Seconds,
+    Seed,
     Tolerance,
     Turns,
     Version,
@@ -79,8 +85,8 @@ def stability(
 ) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = _answer(analyses.stability, model, as_json, output, force)
-    if not found.stands:
+        answer = _answer(analyses.stability, model, as_json, output, force)
+    if not answer.stands:
         raise typer.Exit(1)
 
 
@@ -122,14 +128,37 @@ def path(
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
+    along: Along = False,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
-        flow = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        _answer(analyses.path, model, as_json, output, force, **flow)
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        snaps = {"snaps": "along"} if along else {}
+        _answer(analyses.path, model, as_json, output, force, **flow, **snaps)
+
+
+@app.command(name="range")
+def load_factor_range(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    paths: Paths = 15,
+    mechanisms: Mechanisms = 100,
+    seed: Seed = 0,
+    time_limit: Seconds = 120.0,
+    exact: Exact = False,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print certified load factors of many ways, and how far they reach."""
+    with clean_errors():
+        settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
+        settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
+        _answer(analyses.load_factor_range, model, as_json, output, force, **settings)
 
 
 @app.command()
@@ -147,11 +176,11 @@ def check(
 
         structure = read(model)
         claim = read_result(result, structure)
-        found = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
+        checked = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
-        _print(structure, found, as_json)
-        found.require()
+        _print(structure, checked, as_json)
+        checked.require()
 
 
 @app.command()

@@ -10,6 +10,7 @@ from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
     from limitblocks.evidence.associated import Bounds
+    from limitblocks.evidence.range_result import LoadFactorRange
     from limitblocks.evidence.results import LoadPath, Nonassociated
     from limitblocks.evidence.stability_result import Stability
     from limitblocks.model import Model
@@ -47,6 +48,15 @@ def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[A
 def nonassociated(model: Model, **settings: Any) -> Nonassociated:
     """Solution without dilatancy, or with little."""
     from limitblocks.analysis.nonassociated.loop import nonassociated as solve
+    from limitblocks.report.terminal import shown_progress
+
+    with shown_progress() as show:
+        return solve(model, **settings, progress=show)
+
+
+def load_factor_range(model: Model, **settings: Any) -> LoadFactorRange:
+    """Certified load factors and how far they reach."""
+    from limitblocks.analysis.load_factor_range.run import load_factor_range as solve
     from limitblocks.report.terminal import shown_progress
 
     with shown_progress() as show:

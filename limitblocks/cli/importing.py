@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +14,8 @@ from limitblocks.cli.options import Force
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
+    from limitblocks.geometry import Tolerances
+    from limitblocks.io.imported import ImportedBlocks
     from limitblocks.joints import Joint
 
 BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
@@ -48,10 +51,21 @@ Thickness = Annotated[
 ]
 Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
 Gap = Annotated[
-    float | None, typer.Option(help="Distance that counts as touching, in block lengths [default: 1e-3].")
+    float | None,
+    typer.Option(
+        help="Distance that counts as touching, in block lengths [default: by the accuracy of FILE]."
+    ),
 ]
 Angle = Annotated[
-    float | None, typer.Option(help="Angle between faces that counts as touching, rad [default: 1e-2].")
+    float | None,
+    typer.Option(help="Angle between faces that counts as touching, rad [default: by the accuracy of FILE]."),
+]
+Heal = Annotated[
+    bool,
+    typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
+]
+Width = Annotated[
+    float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
 
 
@@ -68,11 +82,14 @@ def import_blocks(
     up: Up = None,
     gap: Gap = None,
     angle: Angle = None,
+    width: Width = None,
+    heal: Heal = False,
     output: Output = None,
     force: Force = False,
 ) -> None:
     """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
     with clean_errors():
+        from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.dxf_outlines import read_drawing
         from limitblocks.io.formats import read_blocks
         from limitblocks.io.structure_file import model_of
@@ -83,16 +100,36 @@ def import_blocks(
         law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
         weight = _unit_weight(unit_weight)
         if thickness is None:
-            found = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
-            found = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
-        model, warnings = model_of(
-            found, joint=law, supports=supports, live=load, gap=gap, angle=angle, name=file.stem
+            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+        used: Tolerances | None = None
+        if heal:
+            imported, used = _healed(imported)
+        model, contacts = model_of(
+            imported,
+            joint=law,
+            supports=supports,
+            live=load,
+            gap=used.gap if used and gap is None else gap,
+            angle=used.angle if used and angle is None else angle,
+            width=used.width if used and width is None else width,
+            name=file.stem,
         )
-        for word, lines in (("note", found.notes), ("warning", warnings)):
+        notes = (*imported.notes, contacts.accuracy, *contacts.nothing)
+        for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
+
+
+def _healed(found: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
+    """Return the blocks mended within their accuracy, and the tolerances of the blocks as they were."""
+    from limitblocks.geometry import heal
+
+    mended = heal(found.blocks)
+    notes = (*found.notes, str(mended), *mended.notes)
+    return replace(found, blocks=mended.blocks, notes=notes), mended.tolerances
 
 
 def _joint(name: str, friction: float, slip: str | None) -> Joint:

@@ -75,10 +75,10 @@ def make_joint(name: str, friction: float, **options: Any) -> joints.Joint:
 
 def generators() -> dict[str, Callable[..., Any]]:
     """Return every public function of `limitblocks.structures` that takes a joint, by its name there."""
-    found = ((name, getattr(structures, name)) for name in structures.__all__)
+    named = ((name, getattr(structures, name)) for name in structures.__all__)
     return {
         name: make
-        for name, make in found
+        for name, make in named
         if inspect.isfunction(make) and "joint" in inspect.signature(make).parameters
     }
 
@@ -188,10 +188,10 @@ def _texts(make: Callable[..., Any]) -> dict[str, str]:
     """What is said of each parameter, there or in the generators that the docstring refers to."""
     doc = inspect.getdoc(make) or ""
     others = (getattr(structures, name, None) for name in re.findall(r":func:`(\w+)`", doc))
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for text in (*(inspect.getdoc(other) or "" for other in others), doc):
-        found |= {name: said for name, said in parameter_texts(text).items() if "As for" not in said}
-    return {name: _plain(said) for name, said in found.items()}
+        texts |= {name: said for name, said in parameter_texts(text).items() if "As for" not in said}
+    return {name: _plain(said) for name, said in texts.items()}
 
 
 def _plain(text: str) -> str:

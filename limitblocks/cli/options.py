@@ -26,6 +26,9 @@ OwnTolerance = Annotated[
 ]
 Dilatancy = Annotated[float, typer.Option(help="Tangent of the dilatancy angle of sliding.", min=0.0)]
 Turns = Annotated[Turning, typer.Option("--turning", help="What twisting under bending turns about.")]
+Along = Annotated[
+    bool, typer.Option("--along", help="Steps along snaps, too: the unstable states that they jump over.")
+]
 Way = Annotated[Method, typer.Option("--method", help="How a solution is looked for.")]
 Force = Annotated[bool, typer.Option("--force", help="Replace the output file if it exists.")]
 ResultFile = Annotated[
@@ -43,4 +46,9 @@ ReportFile = Annotated[
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
 WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]
 WithPath = Annotated[bool, typer.Option("--path", help="Also the load path.")]
+Paths = Annotated[int, typer.Option(help="Load paths and other ways to a solution.", min=1)]
+Mechanisms = Annotated[int, typer.Option(help="Mechanisms drawn at random.", min=0)]
+Seed = Annotated[int, typer.Option(help="Of all that is random.", min=0)]
+Seconds = Annotated[float, typer.Option("--time-limit", help="Seconds; of each exact program, too.", min=0.0)]
+Exact = Annotated[bool, typer.Option("--exact", help="Also the least and the greatest of all solutions.")]
 Version = Annotated[bool, typer.Option("--version", help="Print the version and leave.")]

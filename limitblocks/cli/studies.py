@@ -61,8 +61,8 @@ def directions(
         _refuse(model, csv, output, force)
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
         with _bar() as show:
-            found = study(read(model), compass(count, vertical=vertical), progress=show, **settings)
-        _tell(found, as_json, csv, output, force)
+            answer = study(read(model), compass(count, vertical=vertical), progress=show, **settings)
+        _tell(answer, as_json, csv, output, force)
 
 
 @studies.command()
@@ -92,8 +92,8 @@ def moving(
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
         with _bar() as show:
             places = np.linspace(start, end, count)
-            found = study(read(model), load, places, progress=show, **settings)
-        _tell(found, as_json, csv, output, force)
+            answer = study(read(model), load, places, progress=show, **settings)
+        _tell(answer, as_json, csv, output, force)
 
 
 def _settings(nonassociated: bool, dilatancy: float, tolerance: float, workers: int | None) -> dict[str, Any]:

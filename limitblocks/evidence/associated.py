@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import ASSOCIATED, Turning
@@ -16,7 +17,8 @@ class Bounds:
     """Bounds on the load factor of the associated flow, with the states that prove them.
 
     For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
-    in equilibrium within the yield surface) and `upper` (a mechanism). Each comes from its own program.
+    in equilibrium within the yield surface) and `upper` (a mechanism). They are the two
+    solutions, primal and dual, of one convex program; each is judged by residuals of its own.
 
     Attributes
     ----------
@@ -45,7 +47,7 @@ class Bounds:
     proof : Proof
         What is proven, and why a side is not where it is not.
     solvers : tuple of str
-        Solver of the static and of the kinematic program.
+        Solver of the stress state and of the mechanism.
     tolerance : float
         Largest residual and gap accepted.
     digest : str
@@ -108,10 +110,6 @@ class Bounds:
             "residuals": self.residuals.to_dict(),
             "tolerance": self.tolerance,
             "solvers": list(self.solvers),
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            **as_lists(self),
             "model_digest": self.digest,
         }

@@ -11,6 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
 from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
+from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.proof import proof_of
@@ -152,7 +153,8 @@ def _checked(model: Model, claim: Claim, tolerance: float, limit: float | None) 
     judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
     entries = (*judged.entries, _standing(problem, claim))
     error = backward_error(flow, state)
-    return Check(Residuals(entries), tolerance, error, limit, found, locked_shear(flow, state), model.digest)
+    remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
+    return Check(Residuals(entries), tolerance, error, limit, found, remarks, model.digest)
 
 
 def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:

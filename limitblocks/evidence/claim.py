@@ -66,6 +66,11 @@ ARRAYS = (
 )
 
 
+def as_lists(result: Any) -> dict[str, Any]:
+    """Return the arrays of a result that are claims, as lists."""
+    return {name: getattr(result, name).tolist() for name in ARRAYS}
+
+
 def claim_of(model: Model, result: Any) -> Claim:
     """Return what `result` claims of `model`; a load path claims its collapse.
 

@@ -11,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 
@@ -39,6 +40,13 @@ class Status(Enum):
     OUT_OF_STEPS = (
         "not converged: no state within the tolerance was found; the one shown is the best one reached"
     )
+    GIVES_POWER = (
+        "not converged: the state shown satisfies all equations, but interfaces give power in it, so that "
+        "it is no collapse"
+    )
+    NO_SOLUTION = (
+        "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
+    )
     INTERRUPTED = "interrupted: the state shown is the best one reached until then, and no solution"
 
 
@@ -51,16 +59,15 @@ class Iteration:
     load_factor : float
         Load factor.
     kind : str
-        "path" (a point of the tracked path), "fixed point" (a round of convex programs), "polish" (the end
-        of either); of the load path "step" (quasi-static), "jump" (across a snap, with viscosity) or
-        "fixed point".
+        "path" (a point of the tracked path), "fixed point" (a round of convex programs), "step" (an increment
+        of the load path), "polish" (the end of any).
     step_size : float
-        Dimensionless; the work of the live load. Of a path theta, what is left of compliance and barrier;
-        of a round of the loop how far its friction envelopes are rotated.
+        Dimensionless; of an increment the work of the live load. Of a path theta, what is left of compliance
+        and barrier; of a round of the loop how far its friction envelopes are rotated.
     residuals : dict
         All residuals of Eqs (54)-(59); of a point of a path theta.
     inner, failures : int
-        Newton iterations, rounds or factorisations so far, and attempts that failed before.
+        Factorisations (of a path so far, of an increment its own), and attempts that failed before.
     """
 
     load_factor: float
@@ -76,16 +83,16 @@ class Nonassociated:
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
-    permanent loads. Every solution is at most `associated`; every one whose interfaces only dissipate is at
-    least `frictionless`.
+    permanent loads. Every solution is at most `associated` and, where that is claimed, at least
+    `frictionless`.
 
     Attributes
     ----------
     load_factor : float
         Load factor at collapse.
     frictionless, associated : float
-        Associated load factors without friction and with it: the bracket (Drucker 1954). NaN where the
-        frictionless structure does not stand, infinite where the associated load is unlimited.
+        Associated load factors without friction and with it: the bracket (Drucker 1954). The first is NaN
+        where it is not claimed to be a lower end, the second infinite where the load is unlimited.
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface, local axes, N and N m; N <= 0 in compression.
     generalised_stresses : Array, shape (s,)
@@ -117,6 +124,8 @@ class Nonassociated:
         Largest residual of a converged solution.
     digest : str
         SHA-256 of the model.
+    unclaimed : str
+        Why `frictionless` is NaN, such as a turning with which joints can give power; else empty.
     fixed_point_change : float, optional
         What a round of the fixed point, limit analysis with the flow frozen at this state, changes in the
         load factor, over it; zero but for rounding at a solution, whatever its mechanism, infinite where
@@ -141,6 +150,7 @@ class Nonassociated:
     remarks: tuple[str, ...]
     tolerance: float
     digest: str
+    unclaimed: str = ""
     fixed_point_change: float | None = None
 
     @property
@@ -158,11 +168,13 @@ class Nonassociated:
         word = "" if self.converged else f" ({self.status.value})"
         change = self.fixed_point_change
         confirmed = "" if change is None else f", fixed point within {change:.1e}"
-        said = "".join(f"; {remark}" for remark in self.remarks)
+        least, said = f"between {self.frictionless:.6g} (frictionless) and", self.remarks
+        if np.isnan(self.frictionless):
+            least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         return (
-            f"non-associated load factor {self.load_factor:.6g}, between {self.frictionless:.6g} "
-            f"(frictionless) and {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}{said}"
+            f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
+            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
+            f"{''.join(f'; {one}' for one in said)}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -171,6 +183,7 @@ class Nonassociated:
             "analysis": "nonassociated",
             "load_factor": self.load_factor,
             "frictionless": self.frictionless,
+            "unclaimed": self.unclaimed,
             "associated": self.associated,
             "status": self.status.value,
             "dilatancy": self.dilatancy,
@@ -182,11 +195,7 @@ class Nonassociated:
             "how": self.how,
             "fixed_point_change": self.fixed_point_change,
             "history": [asdict(iteration) for iteration in self.history],
-            "stress_resultants": self.stress_resultants.tolist(),
-            "generalised_stresses": self.generalised_stresses.tolist(),
-            "displacement_rates": self.displacement_rates.tolist(),
-            "flow_multipliers": self.flow_multipliers.tolist(),
-            "dead_load_stresses": self.dead_load_stresses.tolist(),
+            **as_lists(self),
             "model_digest": self.digest,
         }
 
@@ -208,8 +217,8 @@ class PathStep:
     residuals : dict
         Equilibrium and yield violation, over what acts on the blocks.
     kind : str
-        "permanent loads", "step" (quasi-static), "jump" (across a snap), "fixed point" or "polish"
-        (collapse).
+        "permanent loads", "step" (the end of an increment), "before snap", "unstable" (between the two ends
+        of a snap), "after snap" or "polish" (collapse).
     """
 
     load_factor: float
@@ -221,11 +230,59 @@ class PathStep:
 
 
 @dataclass(frozen=True, eq=False)
+class Snap:
+    """A fold of the load path: the displacement would have to fall before it can grow again.
+
+    Both states have the same displacement in the mean of the live load (the work of the live load at load
+    factor one). An experiment under control of that displacement jumps from one to the other.
+
+    Attributes
+    ----------
+    before, after : PathStep
+        The last state before the fold, and the first one on the path beyond it at that displacement.
+    """
+
+    before: PathStep
+    after: PathStep
+
+    @property
+    def drop(self) -> float:
+        """By how much the load factor falls."""
+        return self.before.load_factor - self.after.load_factor
+
+    def __str__(self) -> str:
+        return f"snap from load factor {self.before.load_factor:.6g} to {self.after.load_factor:.6g}"
+
+
+@dataclass(frozen=True, eq=False)
 class LoadPath:
-    """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59)."""
+    """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59).
+
+    Attributes
+    ----------
+    steps : tuple of PathStep
+        States in the order in which they are met.
+    collapse : Nonassociated
+        The end.
+    snaps : tuple of Snap
+        Folds in the displacement, in their order.
+    trace : Array, shape (k, 3)
+        Every point that arclength met: arclength (mean relative change of slacks and multipliers), work of
+        the live load at load factor one (N m; relative to the compliance), load factor. Increments follow
+        one another; at the end of each the barrier fades, which may move the load factor a little.
+    tracked : float
+        What the tracked path of :func:`limitblocks.nonassociated` with a small barrier ends at, NaN where it
+        does not end at a solution.
+    remarks : tuple of str
+        Whether the two agree, and why if they do not.
+    """
 
     steps: tuple[PathStep, ...]
     collapse: Nonassociated
+    snaps: tuple[Snap, ...] = ()
+    trace: Array = field(default_factory=lambda: np.zeros((0, 3)), repr=False)
+    tracked: float = np.nan
+    remarks: tuple[str, ...] = ()
 
     @property
     def load_factor(self) -> float:
@@ -252,7 +309,9 @@ class LoadPath:
         ]
 
     def __str__(self) -> str:
-        return f"load path of {len(self.steps)} steps: {self.collapse}"
+        snaps = f", {len(self.snaps)} snaps" if self.snaps else ""
+        remarks = "".join(f"; {remark}" for remark in self.remarks)
+        return f"load path of {len(self.steps)} steps{snaps}: {self.collapse}{remarks}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""
@@ -264,4 +323,13 @@ class LoadPath:
             }
             for row, step in zip(self.table(), self.steps, strict=True)
         ]
-        return {"analysis": "path", "steps": steps, "collapse": self.collapse.to_dict()}
+        places = {id(step): k for k, step in enumerate(self.steps)}
+        return {
+            "analysis": "path",
+            "steps": steps,
+            "snaps": [[places[id(snap.before)], places[id(snap.after)]] for snap in self.snaps],
+            "trace": self.trace.tolist(),
+            "tracked": self.tracked,
+            "remarks": list(self.remarks),
+            "collapse": self.collapse.to_dict(),
+        }

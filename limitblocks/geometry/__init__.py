@@ -1,17 +1,23 @@
 """Blocks, interfaces and the contacts between blocks; no mechanics."""
 
+from limitblocks.geometry.accuracy import Tolerances
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contact import find_contacts, find_interfaces
-from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver
+from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
+from limitblocks.geometry.heal import Healed, heal
 from limitblocks.geometry.interface import Interface
 
 __all__ = [
     "Block",
     "Contacts",
+    "Healed",
     "Interface",
     "NearMiss",
     "Overlap",
     "Sliver",
+    "Through",
+    "Tolerances",
     "find_contacts",
     "find_interfaces",
+    "heal",
 ]

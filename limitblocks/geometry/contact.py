@@ -10,24 +10,37 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import GeometryError, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.geometry import polygon
+from limitblocks.geometry.accuracy import (
+    ANGLE,
+    GAP,
+    Accuracy,
+    block_length,
+    chosen,
+)
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver
+from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed
 from limitblocks.geometry.interface import Interface
-from limitblocks.geometry.neighbours import overlapping_boxes
+from limitblocks.geometry.kinds import sorted_by_kind
+from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
-from limitblocks.geometry.patches import Patches, patches, pieces_of
+from limitblocks.geometry.patches import Patches, mean_width, patches, pieces_of
 
 #: Distance from the line through its neighbours, relative to the root of the area, of a needless vertex.
 VERTEX_TOLERANCE = 1e-6
-#: Times the tolerances within which faces that do not touch are near misses.
-NEAR = 10.0
+#: Times the tolerances of blocks drawn exactly, and times those in use, that bound near misses.
+NEAR, NEARLY = 10.0, 2.0
 
 
 def find_interfaces(
-    blocks: Sequence[Block], joint: object, *, gap: float = 1e-3, angle: float = 1e-2
+    blocks: Sequence[Block],
+    joint: object,
+    *,
+    gap: float | None = None,
+    angle: float | None = None,
+    width: float | None = None,
 ) -> tuple[Interface, ...]:
     """Return the interfaces between plane faces of `blocks` that touch, ordered by blocks, then faces.
 
@@ -35,8 +48,15 @@ def find_interfaces(
     lengths at every corner of the area common to both. Faces of a block that share an edge and lie in one
     plane, within half of both tolerances, count as one face. Block length is the median over the blocks of
     the cube root of their volume. The interface lies midway between the two planes. Areas below 1e-3 of the
-    block length squared and of the smaller face, whichever is less, are dropped; :func:`find_contacts` lists
-    them. Contacts along an edge or at a vertex give no interface.
+    block length squared and of the smaller face, whichever is less, are dropped, and strips narrower than
+    `width`: where stones meet at an edge they would be shear keys that are not there. Faces between which
+    a third block lies do not touch. :func:`find_contacts` lists all that was dropped. Contacts along an edge
+    or at a vertex give no interface.
+
+    Tolerances that are not given are chosen by the accuracy that the faces themselves show: half the
+    variation of the gap over a joint, the median over all joints. The gap is six times this, the angle eight
+    times the median angle between faces that touch, but at least 1e-3 block lengths and 1e-2 rad, which is
+    what blocks drawn exactly get; the width is the gap. :class:`Tolerances` says what was used.
 
     A convex area is one interface. Any other is divided into convex polygons, an interface each; corners
     within `gap` block lengths of the line through their neighbours, and holes as small, are left out of it
@@ -53,10 +73,12 @@ def find_interfaces(
     blocks : sequence of Block
     joint : object
         Given to every interface; a joint of :mod:`limitblocks.joints`.
-    gap : float
+    gap : float, optional
         Tolerance on gaps and on interpenetration, in block lengths.
-    angle : float
+    angle : float, optional
         Tolerance on opposed normals, rad.
+    width : float, optional
+        Least mean width of an interface, in block lengths.
 
     Raises
     ------
@@ -64,25 +86,31 @@ def find_interfaces(
         Blocks have the same name, or a tolerance is out of range.
     GeometryError
         Blocks interpenetrate deeper than the gap tolerance, or than half the mean thickness of the thinner
-        one; lists all such pairs.
+        one; lists all such pairs. Or no gap is given and the blocks are so inaccurate that load factors would
+        be wrong by more than 1 %: an accuracy beyond 2e-3 block lengths.
     """
-    found = find_contacts(blocks, joint, gap=gap, angle=angle)
-    if found.overlaps:
-        raise GeometryError(*map(str, found.overlaps))
-    return found.interfaces
+    contacts = find_contacts(blocks, joint, gap=gap, angle=angle, width=width)
+    contacts.require()
+    return contacts.interfaces
 
 
 def find_contacts(
-    blocks: Sequence[Block], joint: object, *, gap: float = 1e-3, angle: float = 1e-2
+    blocks: Sequence[Block],
+    joint: object,
+    *,
+    gap: float | None = None,
+    angle: float | None = None,
+    width: float | None = None,
 ) -> Contacts:
     """Return the interfaces of :func:`find_interfaces` and what was seen beside them.
 
-    Near misses lie beyond a tolerance, but within ten times both. Slivers are contacts whose area is too
-    small for an interface. Blocks that overlap are listed, not refused.
+    Near misses lie beyond a tolerance, but within 1e-2 block lengths and 0.1 rad, or twice both tolerances
+    where that is more. Slivers are contacts whose area is too small for an interface, strips those too
+    narrow. Blocks that overlap, and what is too inaccurate, are listed, not refused.
 
     Parameters
     ----------
-    blocks, joint, gap, angle
+    blocks, joint, gap, angle, width
         As for :func:`find_interfaces`.
 
     Raises
@@ -90,54 +118,49 @@ def find_contacts(
     ModelError
         Blocks have the same name, or a tolerance is out of range.
     """
-    _refuse_bad_input(blocks, gap, angle)
+    _refuse_same_names(blocks)
     names = [block.name for block in blocks]
     if len(blocks) < 2:
-        return Contacts((), (), (), tuple(names), ())
-    length = float(np.median(np.cbrt([block.volume for block in blocks])))
-    tolerance = gap * length
+        return Contacts((), (), (), tuple(names), (), tolerances=chosen(gap, angle, width))
+    length = block_length(blocks)
     centre = np.mean([block.vertices[0] for block in blocks], axis=0)
     points = [block.vertices - centre for block in blocks]
-    pairs = _neighbours(points, NEAR * tolerance)
+    every = neighbours(points, NEAR * GAP * length)
+    used = chosen(gap, angle, width, Accuracy.of(blocks, points, every))
+    tolerance, reach = used.gap * length, max(NEAR * GAP, NEARLY * used.gap) * length
+    pairs = every if reach <= NEAR * GAP * length else neighbours(points, reach)
     overlaps = find_overlaps(blocks, points, pairs, tolerance)
-    faces = all_faces(blocks, points, tolerance / 2.0, angle / 2.0)
-    seen = patches(faces, *opposed(faces, pairs, NEAR * tolerance, min(NEAR * angle, np.pi / 4)), length)
-    whole = shapely.area(seen.shape) > seen.least
-    close = np.abs(seen.gap) <= tolerance
-    touching = close & (seen.angle <= angle)
-    meant = seen.of(touching & whole)
-    pieces = pieces_of(faces, meant, np.array(names), tolerance)
-    tied = set(faces.block[np.concatenate([meant.a, meant.b])].tolist())
-    almost = seen.of(~touching & whole & (np.abs(seen.gap) <= NEAR * tolerance))
+    faces = all_faces(blocks, points, tolerance / 2.0, used.angle / 2.0)
+    turn = min(max(NEAR * ANGLE, NEARLY * used.angle), np.pi / 4)
+    seen = sorted_by_kind(
+        faces, patches(faces, *opposed(faces, pairs, reach, turn), length), used, length, reach
+    )
+    pieces = pieces_of(faces, seen.meant, np.array(names), tolerance)
+    ends = np.column_stack([faces.block[seen.meant.a], faces.block[seen.meant.b]])
+    tied = set(ends.ravel().tolist())
     return Contacts(
         _interfaces(names, centre, faces, pieces, joint),
-        _near_misses(names, faces, almost, overlaps),
+        _near_misses(names, faces, seen.apart, overlaps),
         overlaps,
         tuple(name for k, name in enumerate(names) if k not in tied),
-        _slivers(names, faces, seen.of(touching & ~whole)),
+        _slivers(names, faces, seen.small),
+        strips=_slivers(names, faces, seen.narrow),
+        through=_through(names, faces, seen.held, seen.third),
+        tolerances=used,
+        length=length,
+        facets=int(np.median(np.unique(ends, axis=0, return_counts=True)[1])) if len(ends) else 0,
+        chosen=gap is None,
     )
 
 
-def _neighbours(points: Sequence[Array], tolerance: float) -> Indices:
-    """Return the pairs (p, 2) of blocks whose bounds, widened by `tolerance` each, overlap."""
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
-    return overlapping_boxes(low - tolerance, high + tolerance)
-
-
-def _refuse_bad_input(blocks: Sequence[Block], gap: float, angle: float) -> None:
+def _refuse_same_names(blocks: Sequence[Block]) -> None:
     repeated = [name for name, times in Counter(block.name for block in blocks).items() if times > 1]
-    faults = [f"several blocks are named {name!r}; names must be unique" for name in repeated]
-    if not 0.0 < gap < 1.0:
-        faults.append(f"gap is {gap!r}; a tolerance between 0 and 1 block lengths is needed")
-    if not 0.0 < angle < np.pi / 4:
-        faults.append(f"angle is {angle!r}; a tolerance between 0 and pi/4 rad is needed")
-    if faults:
-        raise ModelError(*faults)
+    if repeated:
+        raise ModelError(*(f"several blocks are named {name!r}; names must be unique" for name in repeated))
 
 
-def _ends(names: Sequence[str], faces: FaceTable, found: Patches) -> list[tuple[str, str]]:
-    blocks = faces.block[found.a].tolist(), faces.block[found.b].tolist()
+def _ends(names: Sequence[str], faces: FaceTable, patches: Patches) -> list[tuple[str, str]]:
+    blocks = faces.block[patches.a].tolist(), faces.block[patches.b].tolist()
     return [(names[i], names[j]) for i, j in zip(*blocks, strict=True)]
 
 
@@ -151,28 +174,32 @@ def _near_misses(
 
 
 def _slivers(names: Sequence[str], faces: FaceTable, found: Patches) -> tuple[Sliver, ...]:
-    area = shapely.area(found.shape)
-    numbers = np.column_stack([area, 2.0 * area / shapely.length(found.shape)]).tolist()
+    numbers = np.column_stack([shapely.area(found.shape), mean_width(found.shape)]).tolist()
     return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True))
 
 
+def _through(names: Sequence[str], faces: FaceTable, found: Patches, third: Indices) -> tuple[Through, ...]:
+    gaps, rows = found.gap.tolist(), zip(_ends(names, faces, found), third.tolist(), strict=True)
+    return tuple(Through(*ends, names[k], gap) for (ends, k), gap in zip(rows, gaps, strict=True))
+
+
 def _interfaces(
-    names: Sequence[str], centre: Array, faces: FaceTable, found: Patches, joint: object
+    names: Sequence[str], centre: Array, faces: FaceTable, patches: Patches, joint: object
 ) -> tuple[Interface, ...]:
     """Return an interface for each convex patch, in their order."""
-    rings = shapely.get_exterior_ring(found.shape)
+    rings = shapely.get_exterior_ring(patches.shape)
     rings = np.where(shapely.is_ccw(rings), rings, shapely.reverse(rings))
     points, owner = shapely.get_coordinates(rings, return_index=True)
     keep = np.diff(owner, append=-1) == 0  # the last vertex of a ring repeats its first
-    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(found.shape))
+    tolerance = VERTEX_TOLERANCE * np.sqrt(shapely.area(patches.shape))
     points, owner = polygon.clean(points[keep], owner[keep], tolerance)
-    counts = np.bincount(owner, minlength=len(found.a))
+    counts = np.bincount(owner, minlength=len(patches.a))
     made: list[tuple[int, Interface]] = []
     for n in np.unique(counts):
         group = np.flatnonzero(counts == n)
         stack = points[counts[owner] == n].reshape(-1, n, 2)
-        arrays = _local(stack, centre + found.origin[group], found.frame[group])
-        ends = faces.block[found.a[group]], faces.block[found.b[group]]
+        arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
+        ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
         for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
             made.append((k, Interface(names[i], names[j], c, t, p, joint)))
     return tuple(interface for _, interface in sorted(made, key=itemgetter(0)))

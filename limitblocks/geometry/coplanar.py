@@ -35,35 +35,35 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
         Of the block, m.
     """
     limit = FLAT * size
-    found: list[tuple[int, ...]] = []
+    rings: list[tuple[int, ...]] = []
     warp = 0.0
     for members in _regions(points, faces, limit):
         ring = _ring([faces[k] for k in members]) if len(members) > 1 else ()
         off = warp_of(points, ring, {v for k in members for v in faces[k]}) if ring else 0.0
         if ring and off <= 2.0 * limit:
             warp = max(warp, off)
-            found.append(ring)
+            rings.append(ring)
         else:
-            found += [faces[k] for k in members]
-    return _without_needless(points, tuple(found), COLLINEAR * size), warp
+            rings += [faces[k] for k in members]
+    return _without_needless(points, tuple(rings), COLLINEAR * size), warp
 
 
 def divided(points: Array, faces: Faces) -> Faces:
     """Return the faces; those that meet a vertex twice, as an outline bridged to a hole, in triangles."""
     from manifold3d import triangulate
 
-    found: list[tuple[int, ...]] = []
+    planar: list[tuple[int, ...]] = []
     for face in faces:
         if len(set(face)) == len(face):
-            found.append(face)
+            planar.append(face)
             continue
         corners = points[list(face)]
         normal = area_vectors(corners, (tuple(range(len(face))),))[0]
         # the two axes nearest to the plane, in the order that keeps the sense of rotation
         k = int(np.abs(normal).argmax())
         axes = [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
-        found += [tuple(face[v] for v in trio) for trio in triangulate([corners[:, axes]]).tolist()]
-    return tuple(found)
+        planar += [tuple(face[v] for v in trio) for trio in triangulate([corners[:, axes]]).tolist()]
+    return tuple(planar)
 
 
 def area_vectors(points: Array, faces: Faces) -> Array:

@@ -46,18 +46,35 @@ def all_faces(blocks: Sequence[Block], points: Sequence[Array], flat: float, ang
 
     Corners of a region lie within `flat`, m, of its plane, its faces within `angle`, rad.
     """
+    surfaces = surfaces_of(blocks, points)
+    return face_table(blocks, points, surfaces, regions(surfaces, flat, angle))
+
+
+def surfaces_of(blocks: Sequence[Block], points: Sequence[Array]) -> Surfaces:
+    """Return the half-edges of all faces of `blocks`, whose vertices are `points` (n, 3) each, m."""
     meshes = [block.mesh for block in blocks]
     number = np.array([len(mesh.first) for mesh in meshes])
     before = np.repeat(np.cumsum(number) - number, [len(mesh.face) for mesh in meshes])
-    face = np.concatenate([mesh.face for mesh in meshes]) + before
-    beyond = np.concatenate([mesh.beyond for mesh in meshes]) + before
+    return Surfaces(
+        corner=np.concatenate([body[mesh.start] for body, mesh in zip(points, meshes, strict=True)]),
+        face=np.concatenate([mesh.face for mesh in meshes]) + before,
+        beyond=np.concatenate([mesh.beyond for mesh in meshes]) + before,
+        area_vector=np.concatenate([block.normals * block.areas[:, None] for block in blocks]),
+    )
+
+
+def face_table(
+    blocks: Sequence[Block], points: Sequence[Array], surfaces: Surfaces, label: Indices
+) -> FaceTable:
+    """Return the table of regions: faces with the same `label` (m,) are one."""
+    meshes = [block.mesh for block in blocks]
+    number = [len(mesh.first) for mesh in meshes]
+    corners, face, beyond, _ = surfaces
     start = np.concatenate([mesh.start for mesh in meshes])
-    corners = np.concatenate([body[mesh.start] for body, mesh in zip(points, meshes, strict=True)])
     ends = np.concatenate([body[mesh.end] for body, mesh in zip(points, meshes, strict=True)])
     normal = np.concatenate([block.normals for block in blocks])
     area = np.concatenate([block.areas for block in blocks])
     block = np.repeat(np.arange(len(blocks)), number)
-    label = regions(Surfaces(corners, face, beyond, normal * area[:, None]), flat, angle)
     heads, region = np.unique(label, return_inverse=True)
     single = np.bincount(region) == 1
     # around each region, face after face: the half-edges with another region beyond
@@ -158,10 +175,10 @@ def _facing(faces: FaceTable, pairs: Indices, tolerance: float) -> tuple[Indices
     for own, other in (pairs.T, pairs.T[::-1]):
         pair, k = ranges(faces.number[own])
         face = faces.start[own][pair] + k
-        reach = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
-        reach &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
-        near.append(face[reach])
-        count.append(np.bincount(pair[reach], minlength=len(pairs)))
+        touching = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
+        touching &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
+        near.append(face[touching])
+        count.append(np.bincount(pair[touching], minlength=len(pairs)))
     pair, k = ranges(count[0] * count[1])
     first, second = (np.cumsum(each) - each for each in count)
     width = count[1][pair]

@@ -50,7 +50,7 @@ def find_overlaps(
     bodies = {k: _Body.of(blocks[k], points[k]) for k in np.unique(pairs).tolist()}
     depths = np.minimum(_face_depths(bodies, pairs), _face_depths(bodies, pairs[:, ::-1]))
     solid = cache(lambda k: _solid(blocks[k], points[k]))
-    found = []
+    overlaps = []
     deep = depths > limits
     for (i, j), face_depth, limit in zip(
         pairs[deep].tolist(), depths[deep], limits[deep].tolist(), strict=True
@@ -67,8 +67,8 @@ def find_overlaps(
         else:
             depth, volume = _thickness(solid(i) ^ solid(j), limit)
         if depth > limit:
-            found.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit))
-    return tuple(found)
+            overlaps.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit))
+    return tuple(overlaps)
 
 
 def _solid(block: Block, points: Array) -> Any:

@@ -25,7 +25,8 @@ class Patches(NamedTuple):
     `origin` (m, 3) and `frame` (m, 3, 3), rows t1, t2 and the normal out of the first block, place the plane
     coordinates of `shape` (m,), shapely polygons. `least` (m,) is the area below which a patch is a sliver,
     m2, `gap` (m,) the largest distance between the two faces over the patch, m, negative where they
-    interpenetrate, and `angle` (m,) that between the faces, rad.
+    interpenetrate, `angle` (m,) that between the faces, rad, and `spread` (m,) half the variation of the
+    distance over the patch, m.
     """
 
     a: Indices
@@ -36,6 +37,7 @@ class Patches(NamedTuple):
     least: Array
     gap: Array
     angle: Array
+    spread: Array
 
     def of(self, keep: Any) -> Patches:
         """Return the patches at `keep`, a mask or indices."""
@@ -61,7 +63,7 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
     keep = shapely.area(parts) > _SEEN * least[near[pair]]
     pair = near[pair[keep]]
     shape = parts[keep]
-    heights = _heights(faces, a[pair], b[pair], origin[pair], frame[pair], shape)
+    heights, spread = _heights(faces, a[pair], b[pair], origin[pair], frame[pair], shape)
     away = np.linalg.norm(faces.normal[a[pair]] + faces.normal[b[pair]], axis=1)
     return Patches(
         a[pair],
@@ -72,7 +74,19 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
         least[pair],
         heights,
         2.0 * np.arcsin(np.minimum(away / 2.0, 1.0)),
+        spread,
     )
+
+
+def mean_width(shapes: Any) -> Array:
+    """Return the area over half the perimeter (m,) of polygons, m."""
+    return np.asarray(2.0 * shapely.area(shapes) / shapely.length(shapes))
+
+
+def covering(faces: FaceTable, found: Patches) -> Any:
+    """Tell which patches cover more than half of the smaller of their faces, (m,): no strips at an edge."""
+    smaller = np.minimum(faces.area[found.a], faces.area[found.b])
+    return shapely.area(found.shape) > 0.5 * smaller
 
 
 def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:
@@ -105,24 +119,26 @@ def _middle_heights(
     return np.asarray(height[:, None] / 2.0 * normal)
 
 
-def _heights(faces: FaceTable, a: Indices, b: Indices, origin: Array, frame: Array, shape: Any) -> Array:
-    """Return the gap (m,) of largest size at a corner of each patch, m."""
+def _heights(
+    faces: FaceTable, a: Indices, b: Indices, origin: Array, frame: Array, shape: Any
+) -> tuple[Array, Array]:
+    """Return the gap (m,) of largest size at a corner of each patch, and half its variation (m,), m."""
     points, owner = shapely.get_coordinates(shape, return_index=True)
     normal = frame[owner, 2]
     place = origin[owner] + np.einsum("ki,kij->kj", points, frame[owner, :2])
     gap = _above(faces, b[owner], place, normal) - _above(faces, a[owner], place, normal)
     first = np.flatnonzero(np.diff(owner, prepend=-1))
     if not len(first):
-        return np.empty(0)
+        return np.empty(0), np.empty(0)
     least, most = np.minimum.reduceat(gap, first), np.maximum.reduceat(gap, first)
-    return np.where(-least > most, least, most)
+    return np.where(-least > most, least, most), (most - least) / 2.0
 
 
-def pieces_of(faces: FaceTable, found: Patches, names: Any, tolerance: float) -> Patches:
+def pieces_of(faces: FaceTable, patches: Patches, names: Any, tolerance: float) -> Patches:
     """Return the patches, those that are not convex divided into convex ones."""
     # of the two blocks the one whose name comes first settles ties, whatever their order
-    first = names[faces.block[found.a]] < names[faces.block[found.b]]
-    arm = faces.arm[np.where(first, found.a, found.b)]
-    x_axis = np.einsum("kj,kij->ki", arm, found.frame[:, :2])
-    shape, owner = convex_pieces(found.shape, x_axis, ~first, tolerance)
-    return found.of(owner)._replace(shape=shape)
+    first = names[faces.block[patches.a]] < names[faces.block[patches.b]]
+    arm = faces.arm[np.where(first, patches.a, patches.b)]
+    x_axis = np.einsum("kj,kij->ki", arm, patches.frame[:, :2])
+    shape, owner = convex_pieces(patches.shape, x_axis, ~first, tolerance)
+    return patches.of(owner)._replace(shape=shape)

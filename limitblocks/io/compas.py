@@ -83,8 +83,8 @@ _CLASSES = ("Assembly", "Block", "BlockElement", "Box", "Element", "Mesh", "Part
 def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[str]) -> Iterator[Solid]:
     """Yield the solids in `value`, put in `place` (4, 4), which stands under `key` of what holds it."""
     kind, data, name, _ = thing(value)
-    if isinstance(data, dict) and (found := polygons(data)) is not None:
-        yield _solid(found, place, name or _numbered(key), support)
+    if isinstance(data, dict) and (solid := polygons(data)) is not None:
+        yield _solid(solid, place, name or _numbered(key), support)
     elif isinstance(data, dict) and (within := _known(data, place, left_out)) is not None:
         yield from within
     elif isinstance(data, dict) and kind and "graph" not in data:
@@ -115,8 +115,8 @@ def _numbered(key: str) -> str:
     return f"block {key}" if key.isdigit() else key
 
 
-def _solid(found: Any, place: Array, name: str, support: bool, layer: str = "") -> Solid:
-    vertices, faces = found
+def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "") -> Solid:
+    vertices, faces = shape
     vertices = vertices @ place[:3, :3].T + place[:3, 3]
     return Solid(name, layer or ("support" if support else "block"), vertices, faces, support)
 
@@ -143,8 +143,8 @@ def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> It
 def _shape(value: Any) -> tuple[Any, str] | None:
     """Polygons and name of a geometry; None where `value` is none."""
     item = thing(value)
-    found = polygons(item.data) if isinstance(item.data, dict) else None
-    return None if found is None else (found, item.name)
+    shape = polygons(item.data) if isinstance(item.data, dict) else None
+    return None if shape is None else (shape, item.name)
 
 
 def _network(data: Mapping[str, Any], place: Array) -> Iterator[Solid]:

@@ -85,10 +85,25 @@ class FindSettings(Document):
 
     joint: str
     """The name in `joints` that every interface gets."""
-    gap: Number = 1e-3
+    gap: Number | None = None
+    """Distance that counts as touching, in block lengths; left out, chosen by the accuracy of the faces."""
+    angle: Number | None = None
+    """Angle between face normals that counts as opposed, rad; left out, chosen as the gap is."""
+    width: Number | None = None
+    """Least mean width of an interface, in block lengths; left out, the gap."""
+
+
+class TolerancesDocument(Document):
+    """Tolerances that the interfaces were found with; `limitblocks info` judges the contacts with them."""
+
+    gap: Annotated[float, Field(gt=0.0, lt=1.0)]
     """Distance that counts as touching, in block lengths."""
-    angle: Number = 1e-2
+    angle: Annotated[float, Field(gt=0.0, lt=0.7853981633974483)]
     """Angle between face normals that counts as opposed, rad."""
+    width: Annotated[float, Field(gt=0.0, lt=1.0)]
+    """Least mean width of an interface, in block lengths."""
+    accuracy: Annotated[float, Field(ge=0.0, lt=1.0)] | None = None
+    """Accuracy of the vertices that the faces which touch show, in block lengths; null if not known."""
 
 
 class Find(Document):
@@ -168,6 +183,8 @@ class ModelDocument(Document):
     """What interfaces can carry, by name."""
     interfaces: Interfaces
     """The interfaces, or how to find them."""
+    tolerances: TolerancesDocument | None = None
+    """Tolerances that a list of interfaces was found with."""
     dead: list[TermDocument] = [SelfWeight(type="SelfWeight")]
     """Terms of the constant loads; self weight if left out."""
     live: list[TermDocument]

@@ -82,11 +82,11 @@ def contents(path: Path) -> Contents:
             if part.kind == "3DFACE":
                 faces.append(part)
                 continue
-            found = dxf_solids.polygons(part)
-            if found is None:
+            shape = dxf_solids.polygons(part)
+            if shape is None:
                 left_out[part.kind] += 1
                 continue
-            for points, loops in found:
+            for points, loops in shape:
                 solids += shells.solids(part.name, part.layer, points, part.turned(loops))
         solids += dxf_solids.from_3d_faces(faces)
     if not solids:

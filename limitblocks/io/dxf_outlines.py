@@ -75,8 +75,8 @@ def read_drawing(
         stated = dxf.metres_per_unit(drawing)
         depth = thickness / metres(units, stated)
         with foreign("DXF"):
-            found, notes = _solids(drawing, depth, [layers] if isinstance(layers, str) else layers)
-        return imported(Contents(found, stated, [*dxf.unit_notes(drawing), *notes]), units, unit_weight)
+            solids, notes = _solids(drawing, depth, [layers] if isinstance(layers, str) else layers)
+        return imported(Contents(solids, stated, [*dxf.unit_notes(drawing), *notes]), units, unit_weight)
 
 
 def _solids(drawing: Any, depth: float, layers: Sequence[str] | None) -> tuple[list[Solid], list[str]]:
@@ -121,10 +121,10 @@ def _prism(corners: Array, depth: float) -> tuple[Array, list[tuple[int, ...]]]:
 
 def _outline(part: Part, notes: list[str]) -> Outline | None:
     """Return the outline that an entity is; None where it is none."""
-    found = _polyline(part)
-    if found is None or len(found[0]) < 3:
+    line = _polyline(part)
+    if line is None or len(line[0]) < 3:
         return None
-    points, closed = found
+    points, closed = line
     word = f"{part.kind} {part.handle} on layer {part.layer!r}"
     if not (np.abs(points) <= 1e30).all():
         raise ModelError(f"{word}: corners are not finite numbers up to 1e30")

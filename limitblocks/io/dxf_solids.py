@@ -80,8 +80,8 @@ def from_3d_faces(parts: Iterable[Part]) -> list[Solid]:
     groups: dict[tuple[str, int], list[Part]] = {}
     for part in parts:
         groups.setdefault((part.layer, part.reference), []).append(part)
-    found = []
+    bodies = []
     for group in groups.values():
         points, faces = soup([part.placed(part.entity.wcs_vertices()) for part in group])
-        found += solids(group[0].name, group[0].layer, points, faces)
-    return found
+        bodies += solids(group[0].name, group[0].layer, points, faces)
+    return bodies

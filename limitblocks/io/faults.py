@@ -67,8 +67,8 @@ class Faults(list[str]):
 
 def near(name: str, known: Any) -> str:
     """Return '; did you mean ...?', or nothing where no known name is like `name`."""
-    found = get_close_matches(name, known, 1)
-    return f"; did you mean {found[0]!r}?" if found else ""
+    names = get_close_matches(name, known, 1)
+    return f"; did you mean {names[0]!r}?" if names else ""
 
 
 def _place(steps: tuple[int | str, ...], data: Any) -> str:

@@ -58,8 +58,8 @@ def _contents(path: Path) -> Contents:
         known = ", ".join(sorted(READERS))
         raise ModelError(f"suffix {suffix!r} is unknown; blocks are read from {known}, models from .json")
     read = import_module(f"limitblocks.io.{READERS[suffix]}").contents
-    found: Contents = read(path)
-    return found
+    contents: Contents = read(path)
+    return contents
 
 
 def is_model_file(path: Path) -> bool:

@@ -19,8 +19,8 @@ from limitblocks.geometry import Block
 from limitblocks.io.imported import Z_UP
 from limitblocks.io.motion import motion
 from limitblocks.io.packages import package
-from limitblocks.io.written import write
 from limitblocks.model import Model
+from limitblocks.written import write
 
 _FLOAT = 5126  # component type
 _COLOURS = {"support": (0.35, 0.37, 0.4, 1.0), "block": (0.76, 0.68, 0.56, 1.0)}

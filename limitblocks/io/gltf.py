@@ -37,7 +37,7 @@ def contents(path: Path) -> Contents:
     with foreign("glTF"):
         document, binary = _parts(data)
         buffers = [_buffer(one, binary, path) for one in document.get("buffers", [])]
-        found: list[Solid] = []
+        bodies: list[Solid] = []
         faces = 0
         for node, placement in _nodes(document):
             if "mesh" in node:
@@ -45,10 +45,10 @@ def contents(path: Path) -> Contents:
                 mesh = document["meshes"][node["mesh"]]
                 name = node.get("name") or mesh.get("name") or path.stem
                 points, triangles = _geometry(document, buffers, mesh)
-                refuse_many(len(found), faces := faces + len(triangles))
+                refuse_many(len(bodies), faces := faces + len(triangles))
                 points = points @ placement[:3, :3].T + placement[:3, 3]
-                found += solids(str(name), _layer(document, mesh), points, triangles)
-    return Contents(found, metres=1.0, up="y")
+                bodies += solids(str(name), _layer(document, mesh), points, triangles)
+    return Contents(bodies, metres=1.0, up="y")
 
 
 def _parts(data: bytes) -> tuple[dict[str, Any], bytes]:

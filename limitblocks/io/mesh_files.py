@@ -14,8 +14,8 @@ from limitblocks.io.dxf_writer import dxf
 from limitblocks.io.glb import glb
 from limitblocks.io.imported import ImportedBlocks
 from limitblocks.io.rhino_writer import rhino
-from limitblocks.io.written import write
 from limitblocks.model import Model
+from limitblocks.written import write
 
 
 def write_blocks(

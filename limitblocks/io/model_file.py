@@ -11,7 +11,7 @@ import numpy as np
 
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
-from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
 from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.registry import JOINTS, TERMS
@@ -22,7 +22,13 @@ from limitblocks.mechanics.loads import unit_vector
 from limitblocks.model import Model
 
 if TYPE_CHECKING:
-    from limitblocks.io.documents import BlockDocument, InterfaceDocument, ModelDocument, TermDocument
+    from limitblocks.io.documents import (
+        BlockDocument,
+        FindSettings,
+        InterfaceDocument,
+        ModelDocument,
+        TermDocument,
+    )
 
 
 def read(file: str | Path) -> Model:
@@ -63,16 +69,26 @@ def _model(document: ModelDocument) -> Model:
     joints = {name: wrong.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
     dead = wrong.all_made("dead", _load, document.dead)
     live = wrong.all_made("live", _load, document.live)
+    tolerances = Tolerances(**document.tolerances.model_dump()) if document.tolerances else None
     if isinstance(document.interfaces, list):
         interfaces = wrong.all_made("interfaces", _interface, document.interfaces, joints)
     elif not wrong:
         settings = document.interfaces.find
-        options = {"gap": settings.gap, "angle": settings.angle}
-        find = partial(find_interfaces, blocks, joints[settings.joint], **options)
-        interfaces = wrong.made("interfaces.find", find)
+        contacts = wrong.made("interfaces.find", partial(_contacts, blocks, joints, settings))
+        if contacts:
+            interfaces, tolerances = contacts.interfaces, contacts.tolerances
     if wrong:
         raise ModelError(*wrong)
-    return Model(blocks, document.supports, interfaces, sum(dead, Load()), sum(live, Load()), document.name)
+    loads = sum(dead, Load()), sum(live, Load())
+    return Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+
+
+def _contacts(blocks: list[Block], joints: dict[str, Joint], settings: FindSettings) -> Contacts:
+    """Return the contacts found as the settings of a file say; raises GeometryError where they do not do."""
+    asked = {"gap": settings.gap, "angle": settings.angle, "width": settings.width}
+    contacts = find_contacts(blocks, joints[settings.joint], **asked)
+    contacts.require()
+    return contacts
 
 
 def _unknown_names(document: ModelDocument) -> list[str]:

@@ -39,13 +39,13 @@ def contents(path: Path) -> Contents:
                 f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {error}"
             ) from None
     refuse_many(faces=sum(map(len, drawn.values())))
-    found: list[Solid] = []
+    bodies: list[Solid] = []
     for (name, layer), faces in drawn.items():
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
-        found += solids(name, layer, [vertices[vertex] for vertex in used], loops)
-    return Contents(found)
+        bodies += solids(name, layer, [vertices[vertex] for vertex in used], loops)
+    return Contents(bodies)
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:

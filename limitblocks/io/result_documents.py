@@ -21,16 +21,13 @@ Rows = Annotated[
 ]
 
 
-class ResultDocument(Document):
-    """A claimed solution of Eqs (54)-(59). SI units: m, rad, N."""
+class StateDocument(Document):
+    """A state with what the analysis said of it. SI units: m, rad, N."""
 
     schema_version: Literal[1] = 1
     """Version of this file format."""
-    analysis: Literal["nonassociated"] = "nonassociated"
     model_digest: str = ""
     """SHA-256 of the model."""
-    load_factor: Number
-    """Load factor."""
     stress_resultants: Rows
     """(V1, V2, N, M1, M2, T) of each interface."""
     generalised_stresses: list[Number] | None = None
@@ -41,37 +38,39 @@ class ResultDocument(Document):
     """Of each row of the limit problem."""
     dead_load_stresses: list[Number] | None = None
     """Generalised stresses that carry the dead loads alone."""
+    # kept for the reader; no check believes a word of it
+    residuals: Any = None
+    tolerance: Any = None
+    versions: Any = None
+
+
+class ResultDocument(StateDocument):
+    """A claimed solution of Eqs (54)-(59)."""
+
+    analysis: Literal["nonassociated"] = "nonassociated"
+    load_factor: Number
+    """Load factor."""
     dilatancy: Annotated[float, Field(ge=0.0, lt=1e30)] = 0.0
     """Tangent of the dilatancy angle."""
     turning: Literal["centroid", "centre of pressure"] = "centroid"
     """What twisting under bending turns about."""
-    # kept for the reader; no check believes a word of it
     frictionless: Any = None
+    unclaimed: Any = None
     associated: Any = None
     status: Any = None
     remarks: Any = None
-    residuals: Any = None
-    tolerance: Any = None
     backward_error: Any = None
     how: Any = None
     fixed_point_change: Any = None
     history: Any = None
-    versions: Any = None
 
 
-class BoundsDocument(Document):
+class BoundsDocument(StateDocument):
     """Bounds: the stress state of the lower one and the mechanism of the upper one, associated flow."""
 
-    schema_version: Literal[1] = 1
     analysis: Literal["bounds"]
-    model_digest: str = ""
     lower: Number
     """Static load factor, which the check judges."""
-    stress_resultants: Rows
-    generalised_stresses: list[Number] | None = None
-    displacement_rates: Rows | None = None
-    flow_multipliers: list[Number] | None = None
-    dead_load_stresses: list[Number] | None = None
     upper: Number | None = None
     """Kinematic load factor, which the check judges."""
     proven: bool = False
@@ -79,10 +78,7 @@ class BoundsDocument(Document):
     proof: Any = None
     gap: Any = None
     worth: Any = None
-    residuals: Any = None
-    tolerance: Any = None
     solvers: Any = None
-    versions: Any = None
 
     @property
     def load_factor(self) -> float:
@@ -106,5 +102,9 @@ class PathDocument(Document):
     schema_version: Literal[1] = 1
     analysis: Literal["path"]
     steps: Any = None
+    snaps: Any = None
+    trace: Any = None
+    tracked: Any = None
+    remarks: Any = None
     collapse: ResultDocument
     versions: Any = None

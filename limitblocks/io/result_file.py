@@ -9,11 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import Claim
 from limitblocks.io import faults, strict_json
 from limitblocks.model import Model
 from limitblocks.problem import turning_of
+from limitblocks.written import write
 
 if TYPE_CHECKING:
     from limitblocks.io.result_documents import BoundsDocument, ResultDocument
@@ -22,6 +23,8 @@ RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
+    "range": "holds a range of load factors; expected the result of bounds, nonassociated or path, or one of "
+    'its answers, which has its own under "solution"',
     "study": "holds a study, the load factors of many models; expected the result of bounds, "
     "nonassociated or path",
     "stability": "holds the answer whether the dead loads stand, no load factor; expected the result of "
@@ -68,15 +71,7 @@ def write_result(result: Result, file: str | Path, *, overwrite: bool = False) -
     LimitBlocksError
         If the file exists and `overwrite` is false, or it cannot be written.
     """
-    path, text = Path(file), result_text(result)
-    try:
-        with path.open("w" if overwrite else "x", encoding="utf-8") as stream:
-            stream.write(text + "\n")
-    except FileExistsError:
-        raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
-    except OSError as error:
-        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-    return path
+    return write(Path(file), result_text(result) + "\n", overwrite)
 
 
 def result_text(result: Result) -> str:

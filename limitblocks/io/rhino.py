@@ -67,14 +67,14 @@ def contents(path: Path) -> Contents:
     with foreign("3dm"):
         for part in _Expansion(package, model, left_out).everything():
             try:
-                found = rhino_breps.polygons(package, part.geometry)
+                shape = rhino_breps.polygons(package, part.geometry)
             except ModelError as error:
                 wrong += [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
                 continue
-            if found is None:
+            if shape is None:
                 left_out[type(part.geometry).__name__] += 1
             else:
-                points, faces = part.placed(found[0]), part.turned(found[1])
+                points, faces = part.placed(shape[0]), part.turned(shape[1])
                 solids += shells.solids(part.name, part.layer, points, faces)
         metres, said = _metres(model)
     if wrong:

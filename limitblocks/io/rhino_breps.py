@@ -99,8 +99,8 @@ def _xyz(point: Any) -> tuple[float, float, float]:
 
 def _render_mesh(package: ModuleType, brep: Any) -> Polygons:
     """Return the triangles that Rhino drew a curved polysurface with."""
-    found = [face.GetMesh(package.MeshType.Any) for face in brep.Faces]
-    if any(mesh is None for mesh in found):
+    meshes = [face.GetMesh(package.MeshType.Any) for face in brep.Faces]
+    if any(mesh is None for mesh in meshes):
         raise ModelError(f"has curved faces or edges and no render mesh; {_CURED}")
-    shapes = [_mesh(mesh) for mesh in found]
+    shapes = [_mesh(mesh) for mesh in meshes]
     return soup([points[list(face)] for points, faces in shapes for face in faces])

@@ -41,21 +41,21 @@ def objects(data: bytes) -> int:
 
 def _walk(data: bytes) -> tuple[int | None, int]:
     """Return where chunks do not fill what they are in, None where all do, and the number of objects."""
-    spans, found = [(_FIRST, len(data))], 0
+    spans, objects = [(_FIRST, len(data))], 0
     while spans:
         at, end = spans.pop()
         while at < end:
             if end - at < _HEADER.size:
-                return at, found
+                return at, objects
             code, length = _HEADER.unpack_from(data, at)
             body = at + _HEADER.size
             after = body if code & _SHORT else body + length
             if not body <= after <= end:
-                return at, found
-            found += code == _OBJECT
+                return at, objects
+            objects += code == _OBJECT
             if not code & _SHORT and code & _TABLE:
                 spans.append((body, after))
             elif code in _RECORDS:
                 spans.append((body, after - 4 if code & 0x8000 else after))  # less its check sum
             at = after
-    return None, found
+    return None, objects

@@ -31,15 +31,15 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
     groups = _groups(name, points, loops) if _in_range(points, loops) else [list(range(len(loops)))]
     if len(groups) > 1:
         groups = _with_cavities(points, loops, groups)
-    found = []
+    bodies = []
     for group in groups:
         used, number = np.unique(np.concatenate([loops[k] for k in group]), return_inverse=True)
         if len(groups) == 1:
             return [Solid(name, layer, points, loops)]
         ends = np.cumsum([len(loops[k]) for k in group])[:-1]
         parts = tuple(tuple(part.tolist()) for part in np.split(number.reshape(-1), ends))
-        found.append(Solid(name, layer, points[used], parts))
-    return found
+        bodies.append(Solid(name, layer, points[used], parts))
+    return bodies
 
 
 def _in_range(points: Array, loops: Faces) -> bool:

@@ -46,14 +46,14 @@ def _solids(name: str, corners: Array) -> list[Solid]:
 
 
 def _text(text: str, stem: str) -> list[Solid]:
-    found: list[Solid] = []
+    bodies: list[Solid] = []
     parts = re.split(r"^[ \t]*(endsolid|solid)\b[ \t]*([^\r\n]*)", text, flags=re.IGNORECASE | re.MULTILINE)
     if len(parts) < 4 or parts[-3].lower() != "endsolid" or parts[-1].strip():
         raise ModelError("the text ends before 'endsolid'; the file is not whole")
     for word, name, body in zip(parts[1::3], parts[2::3], parts[3::3], strict=True):
         if word.lower() == "solid":
-            found += _solids(name.strip() or stem, _corners(body, name))
-    return found
+            bodies += _solids(name.strip() or stem, _corners(body, name))
+    return bodies
 
 
 def _corners(body: str, name: str) -> Array:

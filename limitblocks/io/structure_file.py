@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
-from limitblocks.errors import GeometryError, ModelError
-from limitblocks.geometry import Block, find_contacts
+from limitblocks.analysis.magnitudes import questions
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.io import faults, model_file
 from limitblocks.io.formats import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
@@ -16,6 +17,9 @@ from limitblocks.mechanics import Load, self_weight
 from limitblocks.model import Model
 
 Supports = str | Iterable[str] | Callable[[Block], bool]
+
+#: Gaps, in block lengths, that are tried where blocks have no interface.
+_WIDER = (0.01, 0.02, 0.05, 0.1)
 
 _log = logging.getLogger("limitblocks")
 
@@ -32,6 +36,7 @@ def read(
     live: Load | None = None,
     gap: float | None = None,
     angle: float | None = None,
+    width: float | None = None,
 ) -> Model:
     """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
 
@@ -58,8 +63,9 @@ def read(
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
-    gap, angle : float, optional
-        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad.
+    gap, angle, width : float, optional
+        Tolerances of :func:`limitblocks.find_interfaces`, in block lengths and rad; left out, chosen by the
+        accuracy of the faces. :attr:`limitblocks.Model.tolerances` says which were used.
 
     Raises
     ------
@@ -82,18 +88,27 @@ def read(
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    found = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
     with faults.named(path):
-        model, warnings = model_of(
-            found, joint=joint, supports=supports, live=live, dead=dead, gap=gap, angle=angle, name=path.stem
+        model, contacts = model_of(
+            imported,
+            joint=joint,
+            supports=supports,
+            live=live,
+            dead=dead,
+            gap=gap,
+            angle=angle,
+            width=width,
+            name=path.stem,
         )
-    for line in (*found.notes, *warnings):
+    for line in (*imported.notes, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
+    _log.info("%s: %s", path, contacts.accuracy)
     return model
 
 
 def model_of(
-    found: ImportedBlocks,
+    imported: ImportedBlocks,
     *,
     joint: Joint | None,
     supports: Supports | None,
@@ -101,32 +116,48 @@ def model_of(
     dead: Load | None = None,
     gap: float | None = None,
     angle: float | None = None,
+    width: float | None = None,
     name: str = "",
-) -> tuple[Model, list[str]]:
-    """Return the model of blocks that were read, and what is worth a look in their contacts, a line each.
+) -> tuple[Model, Contacts]:
+    """Return the model of blocks that were read, and what was seen in their contacts.
 
     Raises
     ------
     ModelError
         An argument is missing, a support is unknown, or the model is wrong.
     """
-    supports = supports or found.supports or None
+    supports = supports or imported.supports or None
     if joint is None or supports is None or live is None:
         given = {"joint": joint, "supports": supports, "live": live}
         missing = (key for key, value in given.items() if value is None)
         raise ModelError(
             *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
         )
-    names = supports_of(found, supports)
-    tolerances = {key: value for key, value in (("gap", gap), ("angle", angle)) if value is not None}
-    contacts = find_contacts(found.blocks, joint, **tolerances)
-    if contacts.overlaps:
-        raise GeometryError(*map(str, contacts.overlaps))
+    names = supports_of(imported, supports)
+    contacts = find_contacts(imported.blocks, joint, gap=gap, angle=angle, width=width)
+    contacts.require()
     loads = self_weight() if dead is None else dead
-    return Model(found.blocks, names, contacts.interfaces, loads, live, name), contacts.warnings
+    try:
+        model = Model(imported.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+    except ModelError as error:
+        raise ModelError(*error.problems, *_open_joints(contacts, imported.blocks)) from None
+    return model, contacts
 
 
-def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
+def _open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
+    """Return the line that says which gap lets blocks touch that have no interface; none where none does."""
+    for gap in _WIDER * bool(contacts.isolated):
+        wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
+        tied = len(contacts.isolated) - len(wide.isolated)
+        if tied > 0:
+            return [
+                f"{tied} blocks without any interface would touch with gap={gap:g} (block lengths, "
+                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open?"
+            ]
+    return []
+
+
+def supports_of(imported: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
     """Return the names of the supports: blocks named, of named layers, or that a function picks.
 
     Raises
@@ -135,13 +166,13 @@ def supports_of(found: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
         A name is neither that of a block nor that of a layer.
     """
     if callable(supports):
-        return tuple(block.name for block in found.blocks if supports(block))
+        return tuple(block.name for block in imported.blocks if supports(block))
     wanted = {supports} if isinstance(supports, str) else set(supports)
-    names, layers = set(found.layers), set(found.layers.values()) - {""}
+    names, layers = set(imported.layers), set(imported.layers.values()) - {""}
     unknown = sorted(wanted - names - layers)
     if unknown:
         raise ModelError(
             *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
               for name in unknown)
         )  # fmt: skip
-    return tuple(name for name, layer in found.layers.items() if name in wanted or layer in wanted)
+    return tuple(name for name, layer in imported.layers.items() if name in wanted or layer in wanted)

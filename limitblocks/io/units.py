@@ -40,7 +40,10 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
     **dict.fromkeys(("pressure", "compressive_strength", "cohesion", "tensile_strength"), (1, -2)),
     "unit_weight": (1, -3),
     **dict.fromkeys(("axes", "faces", "direction", "facing", "factor", "coefficient"), (0, 0)),
-    **dict.fromkeys(("friction", "sides", "fineness", "points", "gap", "angle", "schema_version"), (0, 0)),
+    **dict.fromkeys(
+        ("friction", "sides", "fineness", "points", "gap", "angle", "width", "accuracy", "schema_version"),
+        (0, 0),
+    ),
 }
 
 
@@ -90,7 +93,7 @@ def _numbers(value: Any, key: str, metre: Fraction, newton: Fraction) -> Any:
 def _scaled(value: Any, key: str, factor: Fraction) -> Any:
     if isinstance(value, list | tuple):
         return type(value)(_scaled(part, key, factor) for part in value)
-    found = float(Fraction(value) * factor)
-    if abs(found) < 1e30:
-        return found
-    raise ModelError(f"units: {key} is {value:g}, in SI {found:g}; expected a number less than 1e30 in size")
+    scaled = float(Fraction(value) * factor)
+    if abs(scaled) < 1e30:
+        return scaled
+    raise ModelError(f"units: {key} is {value:g}, in SI {scaled:g}; expected a number less than 1e30 in size")

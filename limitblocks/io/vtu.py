@@ -16,8 +16,8 @@ from limitblocks.errors import ModelError
 from limitblocks.evidence.results import LoadPath
 from limitblocks.io.motion import displaced, motion
 from limitblocks.io.packages import package
-from limitblocks.io.written import refuse_existing, write
 from limitblocks.model import Model
+from limitblocks.written import refuse_existing, write
 
 _RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
 

@@ -52,15 +52,17 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     for _ in range(ROUNDS):
         d = np.column_stack([np.cos(angle), np.sin(angle)])
         planes = cones[owner, 0] - (d[:, None] @ cones[owner, 1:])[:, 0]
-        found, tolerance = _solved(np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction)
-        if found.status == 2:
+        solution, tolerance = _solved(
+            np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction
+        )
+        if solution.status == 2:
             return np.nan, np.zeros(0)
-        force = cones @ found.x[:-1]
+        force = cones @ solution.x[:-1]
         size = np.linalg.norm(force[:, 1:], axis=1)
-        bad = np.flatnonzero(size - force[:, 0] > tolerance * max(1.0, found.x[-1]))
+        bad = np.flatnonzero(size - force[:, 0] > tolerance * max(1.0, solution.x[-1]))
         if not len(bad):
-            t = np.inf if found.x[-1] > LARGEST * (1 - 1e-6) else float(found.x[-1])
-            return t, _rates(np.maximum(-found.ineqlin.marginals, 0.0), rows, owner, d)
+            t = np.inf if solution.x[-1] > LARGEST * (1 - 1e-6) else float(solution.x[-1])
+            return t, _rates(np.maximum(-solution.ineqlin.marginals, 0.0), rows, owner, d)
         # a plane violated by 1 - cos(a) of ||z|| is off by the angle a
         off = np.arccos(np.clip(force[bad, 0] / size[bad], np.cos(np.pi / FIRST_PLANES), 1.0))
         about = np.arctan2(force[bad, 2], force[bad, 1])
@@ -86,19 +88,19 @@ def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> tupl
             "primal_feasibility_tolerance": tolerance,
             "dual_feasibility_tolerance": tolerance,
         }
-        found = linprog(**program, method="highs", options=options)
-        if found.status == 2 or found.x is not None:
-            return found, tolerance
-        said.append(f"tolerance {tolerance:g}: {found.message}")
+        solution = linprog(**program, method="highs", options=options)
+        if solution.status == 2 or solution.x is not None:
+            return solution, tolerance
+        said.append(f"tolerance {tolerance:g}: {solution.message}")
     raise SolverFailure("strength of point contacts: " + "; ".join(said))
 
 
-def _rates(found: Array, rows: YieldRows, owner: Indices, d: Array) -> Array:
+def _rates(multipliers: Array, rows: YieldRows, owner: Indices, d: Array) -> Array:
     """Rates of the planes and the cones from those of the first planes and of tangent planes d (k, 2).
 
     Rates (r, -r d) of one cone add up to (y0, y): it slips by ||y||, and the rest of y0 opens its point.
     """
-    rates, tangent = found[: rows.linear].copy(), found[rows.linear :]
+    rates, tangent = multipliers[: rows.linear].copy(), multipliers[rows.linear :]
     if not len(owner):
         return rates
     y0, *y = (np.bincount(owner, w) for w in (tangent, *(tangent * d.T)))

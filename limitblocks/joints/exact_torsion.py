@@ -129,7 +129,8 @@ class ExactTorsion(Queries):
             bending = np.column_stack([np.zeros((len(twist), 2)), np.tile(planes, (2, 1)), twist])
             tables["moment-twist"].append(bending / levers.sum())
         return [
-            frictional(mode, -_of_one_length(found)[shape_of], np.zeros(1)) for mode, found in tables.items()
+            frictional(mode, -_of_one_length(planes_of)[shape_of], np.zeros(1))
+            for mode, planes_of in tables.items()
         ]
 
     def _surfaces(self, polygon: Array) -> dict[str, tuple[Array, Array]]:
@@ -192,8 +193,8 @@ def _rectangle_planes(l1: float, l2: float, side: str) -> Array:
 def _box_planes(high: Array, low: Array) -> Array:
     """Eq. (30) as planes (4, 3) for bounds at distances `high` and `low` (2,) from the centroid."""
     # e1 |N| = M2 and e2 |N| = -M1
-    reach = np.where(SIGNS_2 > 0, high, low).sum(axis=1)
-    return np.column_stack([reach, -SIGNS_2[:, 1], SIGNS_2[:, 0]]) / 2
+    levers = np.where(SIGNS_2 > 0, high, low).sum(axis=1)
+    return np.column_stack([levers, -SIGNS_2[:, 1], SIGNS_2[:, 0]]) / 2
 
 
 def _resultant_turn(frame: Array) -> Array:

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
-from limitblocks.geometry import Interface
 from limitblocks.joints.base import YieldRows, checked_choice, checked_count, checked_friction
 from limitblocks.joints.cutting_planes import farthest
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.question import OUTSIDE, Question
 from limitblocks.joints.rows import shear_directions
-from limitblocks.problem import Mode, Turning
+from limitblocks.problem import Mode
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,18 +88,6 @@ class PointContact(Queries):
             cones=(3,) * (sliding // 3) if conic else (),
             modes=(Mode.OPEN,) * n + (Mode.SLIP,) * sliding,
             friction=self.friction,
-        )
-
-    def flow_directions(
-        self,
-        interface: Interface,
-        Q: Any,
-        dilatancy: float = 0.0,
-        turning: Turning | str = Turning.CENTROID,
-    ) -> Array:
-        """Raise ModelError: rows flow at a point, and only rigid motions of all points are strain rates."""
-        raise ModelError(
-            "PointContact has no flow directions in stress resultants; its rows act on the forces of points"
         )
 
     def _largest(self, question: Question, Q: Array, d: Array) -> float:

@@ -155,16 +155,22 @@ class Queries:
         Raises
         ------
         ModelError
-            If the dilatancy is out of range or the turning unknown.
+            If the dilatancy is out of range or the turning unknown, or the rows act on forces of points: only
+            rigid motions of all points are strain rates.
         """
         Q = _six(Q, "Q")
         length = float(np.sqrt(areas(interface.polygon)))
         question = self._question(interface, Q if Q.any() else np.array([0, 0, -1.0, 0, 0, 0]))
         problem = question.problem
+        if problem.resultants.nnz > problem.resultants.shape[1]:
+            raise ModelError(
+                f"{type(self).__name__} has no flow directions in stress resultants; its rows act on the "
+                "forces of points"
+            )
         flow = Flow(problem, checked_dilatancy(problem, dilatancy), turning_of(turning))
         x = question.stresses(Q)
-        found = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)
-        return np.asarray(found / np.repeat([1.0, length], 3) + 0.0)  # -0.0 becomes 0.0
+        rates = question.flow(flow.matrix(x).toarray() @ problem.resultants.T, x)
+        return np.asarray(rates / np.repeat([1.0, length], 3) + 0.0)  # -0.0 becomes 0.0
 
     def _question(self, interface: Interface, Q: Array) -> Question:
         """Rows of the interface in units of the root of its area and of the size of the stresses Q."""

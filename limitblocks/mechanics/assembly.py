@@ -167,22 +167,22 @@ def _grouped(interfaces: Sequence[Interface], units: Units) -> tuple[list[_Group
     for (joint, _, force, length), places in members.items():
         polygons = np.stack([interfaces[k].polygon for k in places]) / length
         asked.append((np.array(places), joint.yield_rows(polygons, force / length**2)))
-    linear = sum(rows.linear * len(found) for found, rows in asked)
+    linear = sum(rows.linear * len(own) for own, rows in asked)
     sizes = sorted({size for _, rows in asked for size in rows.cones})
-    counts = {size: sum(rows.cones.count(size) * len(found) for found, rows in asked) for size in sizes}
+    counts = {size: sum(rows.cones.count(size) * len(own) for own, rows in asked) for size in sizes}
     cones = Cones(linear, tuple((counts[size], size) for size in sizes))
     firsts = {
         size: int(index[0, 0]) for (_, size), index in zip(cones.second_order, cones.groups, strict=True)
     }
     next_row = {0: 0} | firsts
     groups, next_column = [], 0
-    for found, rows in asked:
-        m, stresses = len(found), rows.resultants.shape[2]
+    for own, rows in asked:
+        m, stresses = len(own), rows.resultants.shape[2]
         index = [_take(next_row, 0, m, rows.linear)]
         index += [_take(next_row, size, m, size) for size in rows.cones]
         column_index = next_column + np.arange(m * stresses).reshape(m, stresses)
         next_column += m * stresses
-        groups.append(_Group(found, rows, np.concatenate(index, axis=1), column_index))
+        groups.append(_Group(own, rows, np.concatenate(index, axis=1), column_index))
     return groups, cones
 
 

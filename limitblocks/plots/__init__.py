@@ -15,12 +15,14 @@ except ImportError as error:
 
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import bracket, convergence, load_path, polar
+from limitblocks.plots.findings import findings
 from limitblocks.plots.structures import mechanism, structure
 from limitblocks.plots.surfaces import interaction
 
 __all__ = [
     "bracket",
     "convergence",
+    "findings",
     "forces",
     "interaction",
     "interface_states",

@@ -69,18 +69,18 @@ def forces(
     LimitBlocksError
         If the result belongs to another model or has no forces to draw.
     """
-    found = states.interface_states(model, result)
+    interfaces = states.interface_states(model, result)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
     height = {block.name: block.centroid[2] for block in model.blocks}
     up = [height[i.block_i] > height[i.block_j] * (1 + 1e-9) for i in model.interfaces]
-    vectors = np.where(np.array(up)[:, None], -found.force, found.force)
+    vectors = np.where(np.array(up)[:, None], -interfaces.force, interfaces.force)
     sizes = np.linalg.norm(vectors, axis=1)
     shown = sizes > SHORTEST * sizes.max()
     points = np.concatenate([block.vertices for block in model.blocks])
     longest = LONGEST * float(np.linalg.norm(np.ptp(points, axis=0)))
     length = longest / max(float(sizes.max()), np.finfo(float).tiny)
-    tails = applied(found)[shown]
+    tails = applied(interfaces)[shown]
     drawn.arrows(tails, length * vectors[shown], color=BLUE)
     drawn.plot(tails, "o", color=BLACK, markersize=1.2 if drawn.spatial else 2.0)
     drawn.frame(np.concatenate([points, tails + length * vectors[shown]]))
@@ -88,9 +88,11 @@ def forces(
     return drawn.ax
 
 
-def applied(found: states.InterfaceStates) -> Array:
+def applied(interfaces: states.InterfaceStates) -> Array:
     """Where the contact forces act: centres of pressure, or centroids without pressure; (m, 3)."""
-    return np.where(np.isnan(found.centre_of_pressure), found.centroid, found.centre_of_pressure)
+    return np.where(
+        np.isnan(interfaces.centre_of_pressure), interfaces.centroid, interfaces.centre_of_pressure
+    )
 
 
 def thrust_line(
@@ -118,12 +120,12 @@ def thrust_line(
         If the result belongs to another model.
     """
     order = chain(model)
-    found = states.interface_states(model, result)
+    interfaces = states.interface_states(model, result)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
-    line = found.centre_of_pressure[order]
+    line = interfaces.centre_of_pressure[order]
     drawn.plot(line, "-", color=VERMILION, linewidth=1.6, label="line of thrust")
-    hinges = line[["hinge" in found.state[k] for k in order]]
+    hinges = line[["hinge" in interfaces.state[k] for k in order]]
     if len(hinges):
         style = {"markerfacecolor": "white", "markeredgecolor": BLACK, "markersize": 5.5}
         drawn.plot(hinges, "o", label="hinge", **style)
@@ -181,13 +183,13 @@ def interface_states(
     LimitBlocksError
         If the result belongs to another model.
     """
-    found = states.interface_states(model, result)
+    interfaces = states.interface_states(model, result)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
-    counted = Counter(found.state)
+    counted = Counter(interfaces.state)
     for state in sorted(counted, key=[*COLOURS, *sorted(counted)].index):
         colour, width = COLOURS.get(state, COLOURS["crush"])
-        these = [_corners(i) for i, s in zip(model.interfaces, found.state, strict=True) if s == state]
+        these = [_corners(i) for i, s in zip(model.interfaces, interfaces.state, strict=True) if s == state]
         style = {
             "facecolors": colour,
             "edgecolors": colour,
@@ -195,7 +197,7 @@ def interface_states(
         }
         alpha = {"alpha": 0.35 if state == "stick" else 0.85} if drawn.spatial else {}
         drawn.polygons(these, label=f"{state} ({counted[state]})", **style, **alpha)
-    hinges = found.centre_of_pressure[["hinge" in state for state in found.state]]
+    hinges = interfaces.centre_of_pressure[["hinge" in state for state in interfaces.state]]
     drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4)
     drawn.legend()
     return drawn.ax

@@ -26,7 +26,14 @@ from limitblocks.plots.style import (
 )
 
 COMPONENTS: Mapping[str, int] = {"X": 0, "Y": 1, "Z": 2, "rX": 3, "rY": 4, "rZ": 5}
-KINDS = {"permanent loads": "D", "step": "o", "jump": "s", "fixed point": "*", "polish": "*"}
+KINDS = {
+    "permanent loads": "D",
+    "step": "o",
+    "before snap": "v",
+    "unstable": "x",
+    "after snap": "^",
+    "polish": "*",
+}
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
@@ -47,8 +54,8 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     LimitBlocksError
         If the result has no history.
     """
-    found = result.collapse if isinstance(result, LoadPath) else result
-    history = getattr(found, "history", ())
+    end = result.collapse if isinstance(result, LoadPath) else result
+    history = getattr(end, "history", ())
     if not history:
         raise LimitBlocksError(f"this {type(result).__name__} has no history to draw")
     ax = curve_axes(ax)
@@ -57,7 +64,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     for name, colour in zip(names, [c for c in CYCLE if c != BLACK] * len(names), strict=False):
         values = [max(one.residuals.get(name, np.nan), FLOOR) for one in history]
         ax.semilogy(steps, values, ".-", color=colour, linewidth=1.0, label=name)
-    ax.axhline(found.tolerance, color=PALE, linestyle=":", label="tolerance")
+    ax.axhline(end.tolerance, color=PALE, linestyle=":", label="tolerance")
     ax.set(xlabel="stage (–)", ylabel="residual (–)")
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))
     right = ax.twinx()
@@ -79,6 +86,8 @@ def load_path(
     ax: Any = None,
 ) -> Any:
     """Draw the load factor against a displacement of one block, from the permanent loads to collapse.
+
+    Folds are marked by triangles; a broken line leads across a snap.
 
     Parameters
     ----------
@@ -112,11 +121,17 @@ def load_path(
     k, axis = rows[int(row)], axes[int(column)]
     x, loads = path.curve(k, axis)
     ax = curve_axes(ax)
-    ax.plot(x, loads, "-", color=BLUE, linewidth=1.4)
+    snaps = [(k, k + 1) for k, step in enumerate(path.steps[1:]) if step.kind == "after snap"]
+    across = [pair for pair in snaps if path.steps[pair[0]].kind == "before snap"]
+    line = loads.astype(float)
+    for before, after in across:
+        ax.plot(x[[before, after]], loads[[before, after]], "--", color=PALE, linewidth=1.2)
+    breaks = [after for _, after in across]
+    ax.plot(np.insert(x, breaks, np.nan), np.insert(line, breaks, np.nan), "-", color=BLUE, linewidth=1.4)
     for kind in dict.fromkeys(step.kind for step in path.steps):
         these = [step.kind == kind for step in path.steps]
         size = 11.0 if kind == "polish" else 4.5
-        style = {"color": VERMILION if kind == "polish" else BLUE, "markersize": size}
+        style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
         ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
@@ -186,7 +201,8 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     Parameters
     ----------
     *results : Bounds, Nonassociated or LoadPath
-        Of one model. A non-associated result and a load path bring the frictionless and the associated value.
+        Of one model. A non-associated result and a load path bring the frictionless and the associated
+        value; the first is "not claimed" where one of them does not claim it.
     ax : Axes, optional
         Where to draw.
 
@@ -200,7 +216,10 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     values: dict[str, float] = {}
     digests = set()
     for result in results:
-        values = _load_factors(result) | values
+        one = _load_factors(result)
+        if np.isnan(one.get("frictionless", 0.0)):  # a lower end of all results drawn, or of none
+            values.pop("frictionless", None)
+        values = one | values
         digests.add(getattr(result, "collapse", result).digest)  # type: ignore[union-attr] # checked above
     if len(digests) > 1:
         raise LimitBlocksError("the results belong to different models; compare results of one")
@@ -212,7 +231,7 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
     drawn = np.where(finite, numbers, np.where(np.isposinf(numbers), 1.25 * longest, 0.0))
     ax.barh(order, drawn, height=0.6, color=[COLOURS[name] for name in order], edgecolor=BLACK, linewidth=0.6)
     for k, (number, end) in enumerate(zip(numbers.tolist(), drawn.tolist(), strict=True)):
-        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "does not stand"
+        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "not claimed"
         ax.annotate(
             said, (max(end, 0.0), k), (4, 0), textcoords="offset points", va="center", fontsize="small"
         )
@@ -238,10 +257,10 @@ def _load_factors(result: Any) -> dict[str, float]:
         if result.gap < 1e-3:
             return {"associated": result.lower}
         return {"associated, static": result.lower, "associated, kinematic": result.upper}
-    found = result.collapse if isinstance(result, LoadPath) else result
-    if not isinstance(found, Nonassociated):
+    end = result.collapse if isinstance(result, LoadPath) else result
+    if not isinstance(end, Nonassociated):
         raise LimitBlocksError(
             f"{type(result).__name__} given; expected results of bounds, nonassociated or load_path"
         )
     name = "load path" if isinstance(result, LoadPath) else "non-associated"
-    return {"frictionless": found.frictionless, name: found.load_factor, "associated": found.associated}
+    return {"frictionless": end.frictionless, name: end.load_factor, "associated": end.associated}

@@ -131,8 +131,8 @@ def _strength(joint: Queries, interface: Interface, direction: Array, given: Arr
 def _around(joint: Queries, interface: Interface, at: tuple[int, int], N: float, directions: int) -> Array:
     """Closed curve (k, 2) around the state of N alone, by rays at even angles of the scaled axes."""
     given = N * _unit(2)
-    reach = np.array([_strength(joint, interface, _unit(k), given) or abs(N) for k in at])
-    basis = reach[:, None] * np.stack([_unit(k) for k in at])
+    strengths = np.array([_strength(joint, interface, _unit(k), given) or abs(N) for k in at])
+    basis = strengths[:, None] * np.stack([_unit(k) for k in at])
 
     def on_curve(rays: Array) -> Array:
         t = [_strength(joint, interface, ray @ basis, given) for ray in rays]
@@ -142,7 +142,7 @@ def _around(joint: Queries, interface: Interface, at: tuple[int, int], N: float,
     points = on_curve(np.stack([np.cos(angles), np.sin(angles)], axis=1))
     points = np.concatenate([points, on_curve(_corners(points))])
     points = points[np.argsort(np.arctan2(points[:, 1], points[:, 0]))]
-    return np.asarray(reach * np.concatenate([points, points[:1]]))
+    return np.asarray(strengths * np.concatenate([points, points[:1]]))
 
 
 def _corners(points: Array) -> Array:

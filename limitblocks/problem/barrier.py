@@ -18,26 +18,26 @@ def minkowski(a: Array, b: Array) -> Array:
 
 def inverse(cones: Cones, s: Array) -> Array:
     """Return s^-1, with s o s^-1 the identity."""
-    found = np.empty_like(s)
-    found[: cones.linear] = 1.0 / s[: cones.linear]
+    inverted = np.empty_like(s)
+    inverted[: cones.linear] = 1.0 / s[: cones.linear]
     for index in cones.groups:
         v = s[index]
         v = v / minkowski(v, v)[:, None]
         v[:, 1:] *= -1.0
-        found[index] = v
-    return found
+        inverted[index] = v
+    return inverted
 
 
 def quotient(cones: Cones, s: Array, q: Array) -> Array:
     """Return L(s)^-1 q: what times s is q."""
-    found = np.empty_like(q)
-    found[: cones.linear] = q[: cones.linear] / s[: cones.linear]
+    rows = np.empty_like(q)
+    rows[: cones.linear] = q[: cones.linear] / s[: cones.linear]
     for index in cones.groups:
         v, w = s[index], q[index]
         first = minkowski(v, w) / minkowski(v, v)
-        found[index[:, 0]] = first
-        found[index[:, 1:]] = (w[:, 1:] - first[:, None] * v[:, 1:]) / v[:, :1]
-    return found
+        rows[index[:, 0]] = first
+        rows[index[:, 1:]] = (w[:, 1:] - first[:, None] * v[:, 1:]) / v[:, :1]
+    return rows
 
 
 def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
@@ -69,15 +69,15 @@ def _halves(v: Array, product: Array) -> tuple[Array, Array]:
 def slope(cones: Cones, s: Array, y: Array, rows: Array) -> Array:
     """Return L(s)^-1 L(y) applied to rows, shape (R, k): how multipliers fall with the slack."""
     k = slice(0, cones.linear)
-    found = np.empty_like(rows)
-    found[k] = rows[k] * (y[k] / s[k])[:, None]
+    slopes = np.empty_like(rows)
+    slopes[k] = rows[k] * (y[k] / s[k])[:, None]
     for index in cones.groups:
         v, w, F = s[index][:, :, None], y[index][:, :, None], rows[index]
         head = (w * F).sum(axis=1, keepdims=True)
         tail = w[:, :1] * F[:, 1:] + w[:, 1:] * F[:, :1]
         first = (v[:, :1] * head - (v[:, 1:] * tail).sum(axis=1, keepdims=True)) / minkowski(v, v)[:, None]
-        found[index] = np.concatenate([first, (tail - first * v[:, 1:]) / v[:, :1]], axis=1)
-    return found
+        slopes[index] = np.concatenate([first, (tail - first * v[:, 1:]) / v[:, :1]], axis=1)
+    return slopes
 
 
 def relative(cones: Cones, v: Array, a: Array, b: Array) -> float:
@@ -105,5 +105,5 @@ def spread(cones: Cones, s: Array, y: Array, target: Array) -> float:
         both = minkowski(p, p) * minkowski(q, q)
         large = half + np.sqrt(np.maximum(half * half - both, 0.0))
         products += [large / aim, both / (large * aim)]
-    found = np.concatenate(products)
-    return float(np.abs(np.log(found)).max(initial=0.0)) if (found > 0.0).all() else np.inf
+    eigenvalues = np.concatenate(products)
+    return float(np.abs(np.log(eigenvalues)).max(initial=0.0)) if (eigenvalues > 0.0).all() else np.inf

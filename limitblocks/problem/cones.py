@@ -50,11 +50,11 @@ class Cones:
     @cached_property
     def groups(self) -> tuple[Indices, ...]:
         """Places of the rows of each group of second-order cones, shapes (count, size)."""
-        first, found = self.linear, []
+        first, groups = self.linear, []
         for count, size in self.second_order:
-            found.append(first + np.arange(count * size).reshape(count, size))
+            groups.append(first + np.arange(count * size).reshape(count, size))
             first += count * size
-        return tuple(found)
+        return tuple(groups)
 
     @cached_property
     def heads(self) -> Indices:
@@ -89,7 +89,7 @@ class Cones:
         a, b = v[: self.linear], dv[: self.linear]
         t = float(np.min(np.maximum(a[b < 0.0], 0.0) / -b[b < 0.0], initial=np.inf))
         for index in self.groups:
-            t = min(t, float(_reach(v[index], dv[index]).min(initial=np.inf)))
+            t = min(t, float(_longest(v[index], dv[index]).min(initial=np.inf)))
         return t
 
     def share(self, held: Array, rest: Array, noise: float = 0.0) -> Array:
@@ -107,12 +107,12 @@ class Cones:
 
     def product(self, a: Array, b: Array) -> Array:
         """Return a o b: row by row, and (a.b, a0 bz + b0 az) for a second-order cone."""
-        found = a * b
+        rows = a * b
         for index in self.groups:
             p, q = a[index], b[index]
-            found[index] = p[:, :1] * q + q[:, :1] * p
-            found[index[:, 0]] = (p * q).sum(axis=1)
-        return found
+            rows[index] = p[:, :1] * q + q[:, :1] * p
+            rows[index[:, 0]] = (p * q).sum(axis=1)
+        return rows
 
     def least_product(self, a: Array, b: Array) -> float:
         """Return the least eigenvalue of the products of a and b, both in K: how far off the central path."""
@@ -167,19 +167,19 @@ def rays(size: int, count: int) -> Array:
     if size < 3:  # |z| = t at two rays, or no z at all
         return np.array([[1.0, 1.0], [1.0, -1.0]])[: max(size, 1), :size]
     angles = 2.0 * np.pi * np.arange(count) / count
-    found = []
+    kept = []
     for pair in combinations(range(1, size), 2):
         ray = np.eye(1, size).repeat(count, axis=0)
         ray[:, list(pair)] = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        found.append(ray)
-    return np.concatenate(found)
+        kept.append(ray)
+    return np.concatenate(kept)
 
 
 def _determinant(v: Array) -> Array:
     return np.asarray(v[:, 0] ** 2 - (v[:, 1:] ** 2).sum(axis=1))
 
 
-def _reach(v: Array, d: Array) -> Array:
+def _longest(v: Array, d: Array) -> Array:
     """Largest t with v + t d in each cone (k, size), in closed form; every v is in it."""
     a, z, b, w = v[:, 0], v[:, 1:], d[:, 0], d[:, 1:]
     # A t^2 + 2 B t + C, which is at least zero inside

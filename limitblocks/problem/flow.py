@@ -96,6 +96,15 @@ class Flow:
         """Whether G is the same at every state."""
         return not self.pivot.any()
 
+    @property
+    def dissipative(self) -> bool:
+        """Whether no solution can lie below the associated load factor without friction.
+
+        Twists about the centroid only take up power; docs/nonassociated.md, "The bracket", has the proof.
+        Table 5 can give power.
+        """
+        return self.constant
+
     @cached_property
     def _centroid(self) -> sparse.csr_array:
         """G of a twist about the centroid."""
@@ -113,8 +122,8 @@ class Flow:
         rows = np.flatnonzero(self.pivot)
         k, turn = p.row_interface[rows], self.pivot[rows]
         _, M1, M2, N = self._held(x)
-        reach = FARTHEST * p.half_sides
-        e1, e2 = np.clip(np.stack([-M2 / N, M1 / N], axis=1), -reach, reach)[k].T
+        farthest = FARTHEST * p.half_sides
+        e1, e2 = np.clip(np.stack([-M2 / N, M1 / N], axis=1), -farthest, farthest)[k].T
         entries = np.concatenate([-turn * e2, turn * e1])  # ds = dthn (e2, -e1), Table 5
         places = np.concatenate([rows, rows]), np.concatenate([6 * k, 6 * k + 1])
         shape = (len(p.pivot), p.resultants.shape[0])
@@ -147,6 +156,6 @@ class Flow:
     def dissipation(self, x: Array, y: Array) -> Array:
         """Return the power -x . G(x)^T y that each interface takes up, shape (m,); negative: it gives."""
         power = -x * (self.matrix(x).T @ y)
-        found = np.zeros(len(self.problem.ends))
-        np.add.at(found, self.problem.stress_interface, power)
-        return found
+        taken = np.zeros(len(self.problem.ends))
+        np.add.at(taken, self.problem.stress_interface, power)
+        return taken

@@ -137,9 +137,9 @@ class LimitProblem:
     @cached_property
     def stress_interface(self) -> Indices:
         """Interface of each generalised stress, shape (s,)."""
-        found = self.resultants.tocoo()
-        interface = np.zeros(found.shape[1], dtype=np.int64)
-        interface[found.col] = found.row // 6
+        entries = self.resultants.tocoo()
+        interface = np.zeros(entries.shape[1], dtype=np.int64)
+        interface[entries.col] = entries.row // 6
         return interface
 
     @cached_property

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from math import isnan
 from typing import Any
 
 from limitblocks.evidence.associated import Bounds
@@ -11,7 +12,7 @@ from limitblocks.report.sections import limits
 
 NOT_UNIQUE = (
     "The load factor without dilatancy is not unique: the equations may have other solutions, at other load "
-    "factors between the frictionless and the associated one, and which of them a structure reaches depends "
+    "factors up to the associated one, and which of them a structure reaches depends "
     "on how it was built and loaded."
 )
 _ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
@@ -22,17 +23,21 @@ _ORDER = ("Frictionless", "Non-associated", "Load path", "Associated")
 
 def comparison(results: Iterable[Any]) -> tuple[tuple[str, str, str], ...]:
     """Return name, value and meaning of each load factor; empty where there is nothing to compare."""
-    found: dict[str, tuple[str, str, str]] = {}
+    rows_by_name: dict[str, tuple[str, str, str]] = {}
     for result in results:
         rows: tuple[tuple[str, str, str], ...]
         if isinstance(result, Nonassociated | LoadPath):
             end = result.collapse if isinstance(result, LoadPath) else result
             name, meaning = ("Non-associated", _NONASSOCIATED) if end is result else ("Load path", _PATH)
             unproven = "" if end.converged else "; not converged, so not proven"
+            if isnan(end.frictionless):  # a lower end of all results, or of none
+                rows_by_name.pop("Frictionless", None)
             rows = (*limits(end), (name, f"{end.load_factor:#.7g}", meaning + unproven))
         elif isinstance(result, Bounds):
             rows = (("Associated", f"{result.lower:#.7g}", _ASSOCIATED),)
         else:
             continue
-        found = {row[0]: row for row in rows} | found
-    return tuple(found[name] for name in _ORDER if name in found) if len(found) > 1 else ()
+        rows_by_name = {row[0]: row for row in rows} | rows_by_name
+    return (
+        tuple(rows_by_name[name] for name in _ORDER if name in rows_by_name) if len(rows_by_name) > 1 else ()
+    )

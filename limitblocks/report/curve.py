@@ -14,6 +14,7 @@ from limitblocks.model import Model
 WIDTH, HEIGHT = 1000.0, 360.0  # user units of the SVG
 LEFT, RIGHT, TOP, BOTTOM = 110.0, 30.0, 20.0, 60.0
 AXES = "XYZ"
+SNAPPING = ("before snap", "unstable", "after snap")
 Ticks = Sequence[tuple[float, str]]
 
 
@@ -50,7 +51,8 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
         x, loads = np.arange(float(len(path.steps))), path.curve(0, 0)[1]
         label = "step"
     title = f"Load factor against {label.removesuffix(', m')}"
-    said = [f"step {k}: load factor {value:.6g}" for k, value in enumerate(loads)]
+    kinds = [f", {step.kind}" if step.kind in SNAPPING else "" for step in path.steps]
+    said = [f"step {k}{kinds[k]}: load factor {value:.6g}" for k, value in enumerate(loads)]
     caption = "a dot a step. The sizes of the displacements follow from the compliance chosen for the joints."
     x_ticks, y_ticks = _numbers(*_range(x), float(label == "step")), _numbers(*_range(loads))
     return _curve((title, f"{title}, {caption}", label, "load factor"), (x, loads), said, (x_ticks, y_ticks))
@@ -61,11 +63,11 @@ def convergence_curve(history: Sequence[Iteration]) -> Curve | None:
     tracked = any(stage.kind == "path" for stage in history)
     rounds = bool(history) and history[0].kind == "fixed point"
     worst = [max(stage.residuals.values(), default=np.nan) for stage in history]
-    found = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
-    if len(found) < 2:
+    shown = [k for k, value in enumerate(worst) if np.isfinite(value) and value > 0.0]
+    if len(shown) < 2:
         return None
-    x, y = np.array(found, dtype=float) + 1.0, np.log10([worst[k] for k in found])
-    said = [f"stage {k + 1}, {history[k].kind}: {_what(history[k])} {worst[k]:.1e}" for k in found]
+    x, y = np.array(shown, dtype=float) + 1.0, np.log10([worst[k] for k in shown])
+    said = [f"stage {k + 1}, {history[k].kind}: {_what(history[k])} {worst[k]:.1e}" for k in shown]
     low, high = float(np.floor(y.min())), float(np.ceil(y.max()))
     every = max(1, int(np.ceil((high - low) / 8)))
     decades = np.arange(low, max(high, low + 1.0) + 1.0, every)

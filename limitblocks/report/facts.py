@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.diagnosis import diagnose
+from limitblocks.analysis.magnitudes import questions
 from limitblocks.geometry.polygon import areas
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
@@ -20,6 +21,7 @@ _SHOWN = 8
 
 def facts(model: Model) -> dict[str, Any]:
     """Return the facts of a model as plain numbers, lists and text; SI units."""
+    diagnosis = diagnose(model)
     corners = np.concatenate([block.vertices for block in model.blocks])
     free = model.free_blocks
     return {
@@ -38,7 +40,9 @@ def facts(model: Model) -> dict[str, Any]:
         "interface_types": _counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
         "live": load_words(model.live),
-        "warnings": warnings(model),
+        "contacts": "; ".join([diagnosis.accuracy, *diagnosis.nothing]),
+        "diagnosis": diagnosis.to_dict(),
+        "warnings": warnings(model) + diagnosis.warnings,
     }
 
 
@@ -52,6 +56,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Block types", _times(known["block_types"])),
         ("Interfaces", f"{known['interfaces']} ({_times(known['interface_types'])})"),
         ("Interface area", f"{known['interface_area']:.4g} m²"),
+        ("Contacts", known["contacts"]),
         ("Joints", _times(known["joints"])),
         ("Weight of the free blocks", f"{known['weight'] / 1e3:.4g} kN"),
         ("Volume of the free blocks", f"{known['volume']:.4g} m³"),
@@ -77,14 +82,14 @@ def assumptions(model: Model) -> dict[str, list[dict[str, Any]]]:
 
 
 def warnings(model: Model) -> list[str]:
-    """Return what is no error but may not be meant."""
-    found = []
+    """Return what is no error but may not be meant, less what the contacts show."""
+    said = []
     weightless = [block.name for block in model.free_blocks if not block.unit_weight]
     if weightless:
-        found.append(f"blocks without weight: {_some(weightless)}")
+        said.append(f"blocks without weight: {_some(weightless)}")
     if not model.dead.terms:
-        found.append("no dead load: the structure has no weight to stabilise it")
-    return found + diagnose(model).warnings
+        said.append("no dead load: the structure has no weight to stabilise it")
+    return said + questions(model)
 
 
 def _counted(words: Iterable[str]) -> dict[str, int]:
@@ -114,12 +119,12 @@ def _times(counts: dict[str, int]) -> str:
 
 
 def _paragraphs(text: str) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = []
+    parts: list[dict[str, Any]] = []
     for paragraph in text.strip().split("\n\n"):
         plain = paragraph.replace("`", "")
         if plain.startswith("- "):
             items = [" ".join(item.split()) for item in plain[2:].split("\n- ")]
-            found.append({"text": "", "items": items})
+            parts.append({"text": "", "items": items})
         else:
-            found.append({"text": " ".join(plain.split()), "items": []})
-    return found
+            parts.append({"text": " ".join(plain.split()), "items": []})
+    return parts

@@ -9,6 +9,7 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.report.content import content
 from limitblocks.report.markdown import MARK
 from limitblocks.report.pdf import CREATOR, pdf
+from limitblocks.written import write
 
 if TYPE_CHECKING:
     from limitblocks.report.report import Report
@@ -32,30 +33,27 @@ def suffix(file: str | Path) -> str:
     LimitBlocksError
         It is none of the formats of reports.
     """
-    found = Path(file).suffix.lower()
-    found = ".html" if found == ".htm" else found
-    if found not in MARKS:
+    ending = Path(file).suffix.lower()
+    ending = ".html" if ending == ".htm" else ending
+    if ending not in MARKS:
         known = ", ".join(MARKS)
-        raise LimitBlocksError(f"{file}: a report cannot be written as {found or 'no suffix'!r}; use {known}")
-    return found
+        raise LimitBlocksError(
+            f"{file}: a report cannot be written as {ending or 'no suffix'!r}; use {known}"
+        )
+    return ending
 
 
 def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) -> Path:
     """Write `report` to `file` in the format of suffix `kind`; see :meth:`limitblocks.Report.save`."""
     path = Path(file)
     data = _bytes(report, kind)
-    try:
-        if overwrite or (overwrite is None and _ours(path, kind)):
-            path.write_bytes(data)
-        else:
-            with path.open("xb") as stream:
-                stream.write(data)
-    except FileExistsError:
-        said = "exists" if overwrite is False else "exists and was not written by limitblocks"
-        raise LimitBlocksError(f"{path} {said}; give another name or overwrite=True") from None
-    except OSError as error:
-        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-    return path
+    if overwrite is None and path.is_file():
+        if not _ours(path, kind):
+            raise LimitBlocksError(
+                f"{path} exists and was not written by limitblocks; give another name or overwrite=True"
+            )
+        overwrite = True
+    return write(path, data, bool(overwrite))
 
 
 def _bytes(report: Report, kind: str) -> bytes:
@@ -67,7 +65,8 @@ def _bytes(report: Report, kind: str) -> bytes:
 
 def _ours(path: Path, kind: str) -> bool:
     """Whether `path` is a report of ours, by the mark in it."""
-    if not path.is_file():
+    try:
+        with path.open("rb") as stream:
+            return MARKS[kind] in stream.read(-1 if kind == ".pdf" else _MARK_WITHIN)
+    except OSError:
         return False
-    with path.open("rb") as stream:
-        return MARKS[kind] in stream.read(-1 if kind == ".pdf" else _MARK_WITHIN)

@@ -70,12 +70,12 @@ def chains(model: Model) -> list[list[int]]:
             at.setdefault(name, []).append(k)
     if any(len(known) > 2 for known in at.values()):
         return []
-    found, seen = [], set[int]()
+    lines, seen = [], set[int]()
     for k, interface in enumerate(model.interfaces):
         if k not in seen and supports & {interface.block_i, interface.block_j}:
-            found.append(_chain(model, k, at))
-            seen.update(found[-1])
-    return [chain for chain in found if len(chain) > 1]
+            lines.append(_chain(model, k, at))
+            seen.update(lines[-1])
+    return [chain for chain in lines if len(chain) > 1]
 
 
 def _chain(model: Model, first: int, at: dict[str, list[int]]) -> list[int]:

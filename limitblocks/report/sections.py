@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any
 
 from limitblocks.errors import LimitBlocksError
@@ -11,12 +11,14 @@ from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
 from limitblocks.evidence.results import LoadPath, Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.report.curve import convergence_curve, path_curve
+from limitblocks.report.range_section import range_section
 from limitblocks.report.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
@@ -45,13 +47,17 @@ def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str,
     """Return name, value and meaning of the load factors that no solution is below and above."""
     lower, upper = result.frictionless, result.associated
     return (
-        ("Frictionless", f"{lower:#.7g}", "joints carry no shear: no solution that only dissipates is lower")
-        if isfinite(lower)
-        else ("Frictionless", "none", "without friction the dead loads do not stand: nothing is known below"),
-        ("Associated", f"{upper:#.7g}", "joints dilate by the friction angle: no solution is higher")
+        ("Frictionless", "not claimed", result.unclaimed)
+        if isnan(lower)
+        else ("Frictionless", _number(lower), "joints carry no shear: no solution is lower"),
+        ("Associated", _number(upper), "joints dilate by the friction angle: no solution is higher")
         if isfinite(upper)
-        else ("Associated", "unlimited", "dilating joints jam under this load: nothing is known above"),
+        else ("Associated", _number(upper), "dilating joints jam under this load: nothing is known above"),
     )
+
+
+def _number(load_factor: float) -> str:
+    return f"{load_factor:#.7g}" if isfinite(load_factor) else "unlimited"
 
 
 def _bounds(_model: Model, bounds: Bounds) -> Section:
@@ -91,7 +97,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
         ),
         headline=f"{result.load_factor:#.4g}",
         values=(
-            ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, between the next two"),
+            ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, within the next two"),
             *limits(result),
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
@@ -105,6 +111,9 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
         warnings=_remarks(result) + _loose(result.tolerance),
         curve=convergence_curve(result.history),
     )
+
+
+SNAP = "load factors before and after, at one displacement of the live load"
 
 
 def _path(model: Model, path: LoadPath) -> Section:
@@ -121,6 +130,11 @@ def _path(model: Model, path: LoadPath) -> Section:
         values=(
             ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
             ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
+            ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
+            *(
+                ("Snap", f"{one.before.load_factor:#.7g} to {one.after.load_factor:#.7g}", SNAP)
+                for one in path.snaps
+            ),
             *end.values[1:5],
         ),
         checks=end.checks,
@@ -166,7 +180,7 @@ def _check(_model: Model, check: mcp.Check) -> Section:
     )
 
 
-def _stability(_model: Model, found: Stability) -> Section:
+def _stability(_model: Model, answer: Stability) -> Section:
     return Section(
         title="Stability under the dead loads",
         meaning=(
@@ -175,17 +189,21 @@ def _stability(_model: Model, found: Stability) -> Section:
             "it. It stands by itself where such stresses arise on unstressed blocks with slightly compliant "
             "joints that slide without lifting."
         ),
-        headline=found.kind.value.split(":")[0],
-        quantity=f"margin {found.margin:.3g} of the weight",
+        headline=answer.kind.value.split(":")[0],
+        quantity=f"margin {answer.margin:.3g} of the weight",
         values=(
-            ("Answer", found.kind.value.split(": ")[1], ""),
-            ("Margin", f"{found.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
-            ("Blocks that move", _some(list(found.blocks)) or "none", ""),
+            ("Answer", answer.kind.value.split(": ")[1], ""),
+            ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
+            ("Blocks that move", _some(list(answer.blocks)) or "none", ""),
         ),
-        checks=_checks(found.residuals, ARISEN),
+        checks=_checks(answer.residuals, ARISEN),
         tolerance=ARISEN,
-        rates=found.displacement_rates,
+        rates=answer.displacement_rates,
     )
+
+
+def _range(_model: Model, found: LoadFactorRange) -> Section:
+    return range_section(found, limits, _checks)
 
 
 def _backward(error: BackwardError) -> tuple[str, str, str]:
@@ -235,4 +253,5 @@ _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
     LoadPath: _path,
     mcp.Check: _check,
     Stability: _stability,
+    LoadFactorRange: _range,
 }

@@ -32,7 +32,7 @@ def arch(
     voussoirs: int,
     embrace: float = np.pi,
     stereotomy: Stereotomy = "radial",
-    facets: int = 1,
+    facets: int | None = None,
     piers: Piers | None = None,
     fill: Fill | None = None,
     depth: float = 1.0,
@@ -57,9 +57,10 @@ def arch(
         Angle between the springings, rad; pi, the default and the largest, is a semicircle.
     stereotomy : "radial" or "vertical"
         Direction of the joints between voussoirs. Joints at the springings are radial in either case.
-    facets : int
-        Number of straight sides of the extrados of a voussoir. The intrados has one, so that voussoirs are
-        convex.
+    facets : int, optional
+        Number of straight sides of the extrados of a voussoir; left out, one, and with vertical joints as
+        many as make none longer than the voussoirs are: the extrados beyond the last vertical joint belongs
+        to one voussoir, however many there are. The intrados has one, so that voussoirs are convex.
     piers : Piers, optional
         (width, blocks, block_height); an arch whose springings slope has a skewback stone on each. Without
         piers the arch springs from two supports.
@@ -85,7 +86,7 @@ def segmental_arch(
     thickness: float,
     voussoirs: int,
     stereotomy: Stereotomy = "radial",
-    facets: int = 1,
+    facets: int | None = None,
     piers: Piers | None = None,
     fill: Fill | None = None,
     depth: float = 1.0,
@@ -112,7 +113,7 @@ def pointed_arch(
     thickness: float,
     voussoirs: int,
     stereotomy: Stereotomy = "radial",
-    facets: int = 1,
+    facets: int | None = None,
     piers: Piers | None = None,
     fill: Fill | None = None,
     depth: float = 1.0,
@@ -143,7 +144,7 @@ def elliptical_arch(
     thickness: float,
     voussoirs: int,
     stereotomy: Stereotomy = "radial",
-    facets: int = 1,
+    facets: int | None = None,
     piers: Piers | None = None,
     fill: Fill | None = None,
     depth: float = 1.0,

@@ -66,27 +66,27 @@ class Bond(NamedTuple):
             Spans left free in a course, from 0, for blocks of another bond, m.
         """
         refuse(problem for opening in openings for problem in self._opening_problems(opening))
-        found = []
+        pieces = []
         for course in range(self.courses):
             start, end = ends[course % 2]
             holes, lintels = self._interruptions(course, openings)
             holes += gaps.get(course, ())
             _refuse_clash(f"{prefix} course {course + 1}", start, end, [*holes, *lintels.values()])
-            found += [Piece(f"{prefix} lintel {k + 1}", course, *span) for k, span in lintels.items()]
+            pieces += [Piece(f"{prefix} lintel {k + 1}", course, *span) for k, span in lintels.items()]
             offset = 0.5 * self.block_length * ((course + shift) % 2 == 0)
             cuts = self._joints(start, end, offset, [*holes, *lintels.values()])
-            found += [Piece(f"{prefix} {course + 1}.{k + 1}", course, *span) for k, span in enumerate(cuts)]
-        return found
+            pieces += [Piece(f"{prefix} {course + 1}.{k + 1}", course, *span) for k, span in enumerate(cuts)]
+        return pieces
 
     def boxes(
         self, pieces: Iterable[Piece], axis: int, across: Sequence[float], unit_weight: float
     ) -> list[Block]:
         """Return the blocks of a wall along X (`axis` 0) or Y (1) between two values `across` it, m."""
-        h, found = self.course_height, []
+        h, boxes = self.course_height, []
         for p in pieces:
             x, y = ((p.start, p.end), across) if axis == 0 else (across, (p.start, p.end))
-            found.append(span_box(p.name, x, y, (p.course * h, (p.course + 1) * h), unit_weight))
-        return found
+            boxes.append(span_box(p.name, x, y, (p.course * h, (p.course + 1) * h), unit_weight))
+        return boxes
 
     def taken(self, openings: Sequence[Opening], course: int) -> list[tuple[float, float]]:
         """Return the spans of openings and lintels in a course, from 0."""

@@ -99,6 +99,6 @@ def refuse_fewer(least: int, **counts: int) -> None:
 
 def refuse(problems: Iterable[str]) -> None:
     """Raise ModelError if there are problems."""
-    found = tuple(problems)
-    if found:
-        raise ModelError(*found)
+    faults = tuple(problems)
+    if faults:
+        raise ModelError(*faults)

@@ -66,9 +66,9 @@ def groin_vault(
     refuse_fewer(2, courses=courses)
     ring, end = circular(radius, thickness, courses, embrace), length / 2
     feet = ring.skewbacks()
-    reach = max(np.abs(outline[:, 0]).max() for outline in feet.values())
-    if end <= reach:
-        refuse([f"length is {length!r}, expected more than {2 * reach:g} m, the width at the supports"])
+    half_width = max(np.abs(outline[:, 0]).max() for outline in feet.values())
+    if end <= half_width:
+        refuse([f"length is {length!r}, expected more than {2 * half_width:g} m, the width at the supports"])
     blocks: list[Block] = []
     for turn, side in enumerate(SIDES):
         for course, outline in enumerate(ring.voussoirs()):

@@ -29,10 +29,10 @@ class Profile(NamedTuple):
         """Return points (n, 2) at `offset` outside the centreline, on its normals at `angles` (n,)."""
         normal = np.column_stack([np.sin(angles), np.cos(angles)])
         a = np.array(self.half_axes)
-        reach = np.linalg.norm(a * normal, axis=1)[:, None]
-        found = a**2 / reach * normal + offset * normal
-        found[:, 0] -= self.shift * np.sign(angles)
-        return np.asarray(found)
+        size = np.linalg.norm(a * normal, axis=1)[:, None]
+        ellipse = a**2 / size * normal + offset * normal
+        ellipse[:, 0] -= self.shift * np.sign(angles)
+        return np.asarray(ellipse)
 
     def apex(self, offset: float = 0.0) -> float:
         """Angle at which the right half of a pointed arch meets the left one; 0 if it is not pointed."""
@@ -84,10 +84,10 @@ class Ring(NamedTuple):
         voussoirs: int,
         springing: float,
         stereotomy: Stereotomy,
-        facets: int,
+        facets: int | None,
     ) -> Ring:
         """Return the ring about a centreline, or raise ModelError naming what makes it impossible."""
-        _refuse_ring(thickness, voussoirs, stereotomy, facets)
+        _refuse_ring(thickness, voussoirs, stereotomy, 1 if facets is None else facets)
         half = thickness / 2
         inside = profile.joint_angles(voussoirs, springing, thickness)
         outside = inside.copy()
@@ -100,6 +100,8 @@ class Ring(NamedTuple):
         ends = np.column_stack([outside[:-1], outside[1:]])
         if profile.shift:
             ends[voussoirs // 2, 0] *= -1.0  # the right half begins at the apex, too
+        if facets is None:
+            facets = _sides(ends, inside) if stereotomy == "vertical" else 1
         between = np.linspace(ends[:, 0], ends[:, 1], facets + 1, axis=1)
         extrados = profile.points(between.ravel(), half).reshape(voussoirs, facets + 1, 2)
         if profile.shift:
@@ -131,7 +133,7 @@ def circular(
     voussoirs: int,
     embrace: float,
     stereotomy: Stereotomy = "radial",
-    facets: int = 1,
+    facets: int | None = None,
 ) -> Ring:
     """Return the ring about an arc of a circle; `embrace` is the angle between its springings, rad."""
     refuse_not_positive(radius=radius, thickness=thickness, embrace=embrace)
@@ -145,7 +147,7 @@ def circular(
 
 
 def pointed(
-    span: float, rise: float, thickness: float, voussoirs: int, stereotomy: Stereotomy, facets: int
+    span: float, rise: float, thickness: float, voussoirs: int, stereotomy: Stereotomy, facets: int | None
 ) -> Ring:
     """Return the ring about two arcs from the springing line that meet at `rise` over half the `span`."""
     refuse_not_positive(span=span, rise=rise, thickness=thickness)
@@ -163,7 +165,7 @@ def pointed(
 
 
 def elliptical(
-    span: float, rise: float, thickness: float, voussoirs: int, stereotomy: Stereotomy, facets: int
+    span: float, rise: float, thickness: float, voussoirs: int, stereotomy: Stereotomy, facets: int | None
 ) -> Ring:
     """Return the ring about half an ellipse."""
     refuse_not_positive(span=span, rise=rise, thickness=thickness)
@@ -173,6 +175,11 @@ def elliptical(
         refuse([f"thickness is {thickness!r}, expected less than {2 * least:g} m, twice the least radius of "
                 "curvature of the centreline"])  # fmt: skip
     return Ring.of(Profile((a, b)), thickness, voussoirs, np.pi / 2, stereotomy, facets)
+
+
+def _sides(ends: Array, joints: Array) -> int:
+    """Return how many sides of an extrados between angles `ends` (n, 2) are no wider than the voussoirs."""
+    return int(np.ceil(np.ptp(ends, axis=1).max() / np.diff(joints).max() - 1e-9))
 
 
 def _refuse_ring(thickness: float, voussoirs: int, stereotomy: str, facets: int) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,9 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import LimitBlocksError, SolveError
+from limitblocks.errors import SolveError
 from limitblocks.studies.pool import Result
+from limitblocks.written import write
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,17 +165,11 @@ def in_columns(rows: list[dict[str, Any]]) -> str:
 
 def write_rows(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool) -> Path:
     """Write rows of the same keys to a CSV file and return its path."""
-    path = Path(file)
-    try:
-        with path.open("w" if overwrite else "x", encoding="utf-8", newline="") as stream:
-            writer = csv.DictWriter(stream, list(rows[0]))
-            writer.writeheader()
-            writer.writerows(rows)
-    except FileExistsError:
-        raise LimitBlocksError(f"{path} exists; give another name or overwrite=True") from None
-    except OSError as error:
-        raise LimitBlocksError(f"cannot write {path}: {error.strerror}") from None
-    return path
+    stream = io.StringIO(newline="")
+    writer = csv.DictWriter(stream, list(rows[0]))
+    writer.writeheader()
+    writer.writerows(rows)
+    return write(Path(file), stream.getvalue(), overwrite)
 
 
 def _answer(load_factor: float, result: Result | None, error: str, analysis: str) -> dict[str, Any]:

@@ -59,8 +59,8 @@ def directions(
     if live is None:
         turned(model.live, (1.0, 0.0, 0.0))  # a live load that cannot be turned is no matter of one row
     models = _made(lambda direction: replace(model, live=loads(direction)), units)
-    found = analyse_all(models, analysis, settings, workers, progress)
-    return Directions(*_columns(analysis, found), directions=read_only(units))
+    outcomes = analyse_all(models, analysis, settings, workers, progress)
+    return Directions(*_columns(analysis, outcomes), directions=read_only(units))
 
 
 def moving_load(
@@ -98,8 +98,8 @@ def moving_load(
     if not callable(load):
         top_force(load, (0.0, 0.0))  # a wrong force is no matter of one row
     models = _made(lambda place: replace(model, live=at(place)), places)
-    found = analyse_all(models, analysis, settings, workers, progress)
-    return MovingLoad(*_columns(analysis, found), positions=read_only(given))
+    outcomes = analyse_all(models, analysis, settings, workers, progress)
+    return MovingLoad(*_columns(analysis, outcomes), positions=read_only(given))
 
 
 def sweep(
@@ -135,24 +135,24 @@ def sweep(
     given = tuple(values)
     if not given:
         raise ModelError("sweep: there are no values, expected at least one")
-    found = analyse_all(_made(maker, given), analysis, settings, workers, progress)
-    return Sweep(*_columns(analysis, found), parameter=parameter, values=given)
+    outcomes = analyse_all(_made(maker, given), analysis, settings, workers, progress)
+    return Sweep(*_columns(analysis, outcomes), parameter=parameter, values=given)
 
 
 def _made(maker: Callable[[Any], Model], values: Iterable[Any]) -> list[Model | Outcome]:
     """The model of each value, or the outcome that there is none."""
-    found: list[Model | Outcome] = []
+    made: list[Model | Outcome] = []
     for value in values:
         try:
-            found.append(maker(value))
+            made.append(maker(value))
         except ModelError as error:
-            found.append(failed(error))
-    return found
+            made.append(failed(error))
+    return made
 
 
-def _columns(analysis: str, found: list[Outcome]) -> tuple[str, Array, tuple[Any, ...], tuple[str, ...]]:
-    load_factors = read_only([outcome.load_factor for outcome in found])
-    return analysis, load_factors, tuple(o.result for o in found), tuple(o.error for o in found)
+def _columns(analysis: str, outcomes: list[Outcome]) -> tuple[str, Array, tuple[Any, ...], tuple[str, ...]]:
+    load_factors = read_only([outcome.load_factor for outcome in outcomes])
+    return analysis, load_factors, tuple(o.result for o in outcomes), tuple(o.error for o in outcomes)
 
 
 def _table(values: npt.ArrayLike, columns: int, word: str) -> Array:

@@ -52,15 +52,15 @@ def thinnest():
 
 
 def thrust():
-    model, weight_per_angle, found = thinnest()
-    pairs = zip(model.interfaces, found.stress_resultants, strict=True)
+    model, weight_per_angle, pair = thinnest()
+    pairs = zip(model.interfaces, pair.stress_resultants, strict=True)
     return float(np.mean([abs(i.axes.T @ Q[:3])[0] for i, Q in pairs]) / weight_per_angle)
 
 
 def haunch():
     """Mean angle from the crown of the joints that open at the haunches, degrees."""
-    model, _, found = thinnest()
-    spin = {b.name: u[4] for b, u in zip(model.blocks, found.displacement_rates, strict=True)}
+    model, _, pair = thinnest()
+    spin = {b.name: u[4] for b, u in zip(model.blocks, pair.displacement_rates, strict=True)}
     opening = np.array([abs(spin[i.block_j] - spin[i.block_i]) for i in model.interfaces])
     angle = np.degrees([np.arctan2(abs(i.centroid[0]), i.centroid[2]) for i in model.interfaces])
     near = (angle > 20) & (angle < 80)

@@ -24,10 +24,10 @@ class Case:
     quick: bool = False
     at_least: bool = False  # every value from the published one upwards is right
 
-    def met(self, found):
+    def met(self, computed):
         if self.at_least:
-            return found >= self.published - self.tolerance
-        return found == self.published or abs(found - self.published) <= self.tolerance
+            return computed >= self.published - self.tolerance
+        return computed == self.published or abs(computed - self.published) <= self.tolerance
 
 
 def associated(build, joint):
@@ -40,9 +40,9 @@ def associated(build, joint):
 
 def nonassociated(build, joint):
     model = build(joint)
-    found = lb.nonassociated(model)
-    lb.check_mcp(model, found).require()
-    return found.load_factor
+    result = lb.nonassociated(model)
+    lb.check_mcp(model, result).require()
+    return result.load_factor
 
 
 def end_of_path(build, joint):

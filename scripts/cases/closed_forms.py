@@ -16,8 +16,10 @@ def jammed(joint):
         lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
         lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
     ]
-    found = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["floor", "ceiling"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    interfaces = lb.find_interfaces(blocks, joint)
+    return lb.Model(
+        blocks, ["floor", "ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    )
 
 
 def leaves(joint):
@@ -27,8 +29,8 @@ def leaves(joint):
         lb.Block.box("inner", (1.0, 0.12, 2.4), (0, -0.06, 1.2), 20e3),
         lb.Block.box("outer", (1.0, 0.12, 2.4), (0, 0.06, 1.2), 20e3),
     ]
-    found = [i for i in lb.find_interfaces(blocks, joint) if "base" in (i.block_i, i.block_j)]
-    return lb.Model(blocks, ["base"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    interfaces = [i for i in lb.find_interfaces(blocks, joint) if "base" in (i.block_i, i.block_j)]
+    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
 
 
 def pushed_at(z, joint):

@@ -1,20 +1,12 @@
 """Starting elsewhere than from the permanent loads: any state, another dilatancy."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated.closing import leap, reached
-from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, permanent_state
-from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
-from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.evidence.residuals import Residual, Residuals
-from limitblocks.problem import Flow
 
 MU = 0.6
 KINDS = [lb.OrdunaLourenco, lb.PointContact]
@@ -92,19 +84,6 @@ def test_a_start_that_is_no_state_is_refused(kind):
         lb.nonassociated(model, start=stresses[:-1])
     with pytest.raises(lb.ModelError, match="finite"):
         lb.nonassociated(model, start=np.where(stresses == stresses.max(), np.nan, stresses))
-
-
-@pytest.mark.parametrize("flow", [0.0, 1e-12, 1e-3, 1.0])
-def test_a_leap_is_never_shorter_than_the_step_before_it(flow):
-    """However small the flow residual is, also none: only another residual is then above the tolerance."""
-    problem = structures.block(lb.PointContact(MU), width=0.4, height=1.0).problem
-    W = problem.compliance
-    x = permanent_state(problem, W)
-    step = Loading(Flow(problem), InterfaceBlocks(problem), W, x, np.zeros(len(problem.g)), 0.1, 0.0)
-    start = reached(step, NearestStresses(problem, W), implicit_step(step, 60), "step", 0)
-    claimed = replace(start.stage, residuals=Residuals((Residual("flow", flow, ""),)))
-    far = leap(start._replace(stage=claimed), 1e-6, lb.Settings())
-    assert step.rho / 300 <= far.loading.rho <= step.rho
 
 
 def test_a_start_without_dilatancy_is_not_taken_for_the_associated_answer():

@@ -74,7 +74,7 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
             return -1.0
         return float(np.sign(inner(walk.path.cones, walk.z, turn, walk.base.tangent)))
 
-    monkeypatch.setattr(tracking._Walk, "_heading", by_angle)
+    monkeypatch.setattr(tracking.Walk, "_heading", by_angle)
     _, path = track(*begin, barrier=barrier, seed=1, budget=250)
     assert not path.closed
 

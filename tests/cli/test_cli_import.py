@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -23,7 +24,12 @@ def obj(tmp_path):
 
 def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
     result = run(obj, *OPTIONS, "--supports", "base", "--units", "mm")
-    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.exit_code == 0
+    assert result.stderr.splitlines() == [
+        "note: too few joints to tell how accurate the faces are; gap 0.68 mm, angle 0.01 rad, "
+        "least width 0.68 mm",
+        "note: nothing found beside the interfaces with these tolerances",
+    ]
     model = lb.read(tmp_path / "two.json")
     assert "1 blocks, 1 supports, 1 interfaces" in result.stdout
     assert model.blocks[1].volume == pytest.approx(0.25)
@@ -49,13 +55,46 @@ def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
         lb.Block.box("stone", (0.5, 1, 1), (0.004, 0, 0.5)),
     ]
     result = run(lb.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
-    note, warning = result.stderr.splitlines()
+    note, used, warning = result.stderr.splitlines()
     assert note == "note: 2 blocks are named 'stone'; all but the first got a number"
+    assert used.startswith("note: too few joints to tell how accurate the faces are; gap 0.79 mm, ")
     assert warning.startswith("warning: ")
     assert "stone|stone 2" in warning
     wide = run(tmp_path / "gap.stl", *OPTIONS, "--supports", "base", "--gap", "0.01", "--force")
     assert "warning" not in wide.stderr
     assert "3 interfaces" in wide.stdout
+
+
+def test_joints_drawn_open_are_told_with_the_option(tmp_path):
+    """The distance, 10 mm, and the option that takes it; the advice works."""
+    stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
+    stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]
+    file = lb.write_blocks(stones, tmp_path / "open.obj")
+    refused = run(file, *OPTIONS, "--supports", "base")
+    assert refused.exit_code == 2
+    assert "4 blocks without any interface would touch with gap=0.05 (block lengths, " in refused.stderr
+    assert "import --gap 0.05): are the joints drawn open?" in refused.stderr
+    assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.05").exit_code == 0
+
+
+def test_noisy_meshes_are_refused_and_healed(tmp_path):
+    rng = np.random.default_rng(1)
+    clean = lb.structures.corner(lb.OrdunaLourenco(0.6), length=2.4, return_length=2.4, courses=4)
+    stones = [
+        lb.Block(b.name, b.vertices + rng.uniform(-3e-3, 3e-3, b.vertices.shape), b.triangles.tolist())
+        for b in clean.blocks
+    ]
+    file = lb.write_blocks(stones, tmp_path / "scan.obj")
+    options = ["--friction", "0.6", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
+    refused = run(file, *options)
+    assert refused.exit_code == 2
+    assert "import --heal" in refused.stderr
+    healed = run(file, *options, "--heal")
+    assert healed.exit_code == 0
+    assert "vertices moved by up to" in healed.stderr
+    model = lb.read(tmp_path / "scan.json")
+    assert model.tolerances.gap > 1e-2
+    assert lb.bounds(model).lower == pytest.approx(lb.bounds(clean).lower, rel=1e-2)
 
 
 WRONG = {

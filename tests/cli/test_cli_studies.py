@@ -26,9 +26,9 @@ def file(tmp_path):
 def test_directions_are_printed_and_written(file, tmp_path):
     rows, result = tmp_path / "rows.csv", tmp_path / "rows.json"
     options = ("--count", 4, "--workers", 1, "--csv", rows, "--output", result)
-    found = run("directions", file, *options)
-    assert (found.exit_code, found.stderr) == (0, "")
-    assert "4 analyses, least load factor 0.5 at" in found.stdout
+    done = run("directions", file, *options)
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert "4 analyses, least load factor 0.5 at" in done.stdout
     with rows.open(newline="") as stream:
         factors = [float(row["load_factor"]) for row in csv.DictReader(stream)]
     assert factors == pytest.approx([0.5, 0.8, 0.5, 0.8], rel=1e-6)
@@ -39,25 +39,25 @@ def test_directions_are_printed_and_written(file, tmp_path):
 
 
 def test_json_is_json_and_nothing_else(file):
-    found = run("directions", file, "--count", 2, "--workers", 1, "--nonassociated", "--json")
-    assert json.loads(found.stdout)["rows"][0]["load_factor"] == pytest.approx(0.5, rel=1e-5)
+    done = run("directions", file, "--count", 2, "--workers", 1, "--nonassociated", "--json")
+    assert json.loads(done.stdout)["rows"][0]["load_factor"] == pytest.approx(0.5, rel=1e-5)
 
 
 def test_unlimited_load_is_a_row_and_a_warning(file):
-    found = run("directions", file, "--count", 1, "--vertical", "--workers", 1)
-    assert found.exit_code == 0
-    assert "inf" in found.stdout
-    assert "warning: row 3: UnlimitedLoad" in found.stdout
+    done = run("directions", file, "--count", 1, "--vertical", "--workers", 1)
+    assert done.exit_code == 0
+    assert "inf" in done.stdout
+    assert "warning: row 3: UnlimitedLoad" in done.stdout
 
 
 def test_moving_load_is_printed(file):
     line = ("--from", -0.5, 0, "--to", 0.5, 0, "--count", 3, "--workers", 1)
-    found = run("moving", file, "--load", 3e4, 0, -1e4, *line)
-    assert found.exit_code == 0, found.output
+    done = run("moving", file, "--load", 3e4, 0, -1e4, *line)
+    assert done.exit_code == 0, done.output
     # about the edge at x = 0.5: W b / 2 over H h - V (0.5 - x), the last on the edge itself
     factors = [32e3 * 2 * 0.5 / (3e4 * 2 - 1e4 * (0.5 - x)) for x in (-0.5, 0.0, 0.5)]
     for factor in factors:
-        assert f"{factor:.4g}" in found.stdout
+        assert f"{factor:.4g}" in done.stdout
 
 
 @pytest.mark.parametrize(
@@ -71,10 +71,10 @@ def test_moving_load_is_printed(file):
 )
 def test_failures_have_their_codes(file, arguments, code):
     verb, *options = arguments
-    found = run(verb, file, *options)
-    assert found.exit_code == code
-    assert "Traceback" not in found.output
-    assert found.stderr
+    done = run(verb, file, *options)
+    assert done.exit_code == code
+    assert "Traceback" not in done.output
+    assert done.stderr
 
 
 def test_a_live_load_that_does_not_turn_is_code_2(file, tmp_path):
@@ -82,6 +82,6 @@ def test_a_live_load_that_does_not_turn_is_code_2(file, tmp_path):
     document["live"] = [{"type": "Moment", "block": "block", "moment": [0, 1, 0]}]
     other = tmp_path / "other.json"
     other.write_text(json.dumps(document))
-    found = run("directions", other, "--workers", 1)
-    assert (found.exit_code, found.stdout) == (2, "")
-    assert "Moment" in found.stderr
+    done = run("directions", other, "--workers", 1)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "Moment" in done.stderr

@@ -27,10 +27,10 @@ def placed(interface):
     return interface.centroid + interface.polygon @ interface.axes[:2]
 
 
-def check_pieces(found, whole):
+def check_pieces(result, whole):
     """The interfaces are convex, do not overlap, and fill the plane area `whole` in X and Y."""
-    assert not any(map(interface_fault, found))
-    flat = [shapely.Polygon(placed(one)[:, :2]) for one in found]
+    assert not any(map(interface_fault, result))
+    flat = [shapely.Polygon(placed(one)[:, :2]) for one in result]
     assert sum(piece.area for piece in flat) == pytest.approx(whole.area, rel=1e-6)
     assert shapely.union_all(flat).symmetric_difference(whole).area < 1e-6 * whole.area
 
@@ -44,10 +44,10 @@ def decks(outline, low="low", high="high"):
 )
 def test_contact_of_two_prisms(outline, count):
     blocks = decks(outline)
-    found = find_interfaces(blocks, None)
-    assert len(found) == count  # the least number of convex pieces
-    check_pieces(found, shapely.Polygon(outline))
-    assert all(one.axes[2] == pytest.approx([0, 0, 1]) for one in found)
+    interfaces = find_interfaces(blocks, None)
+    assert len(interfaces) == count  # the least number of convex pieces
+    check_pieces(interfaces, shapely.Polygon(outline))
+    assert all(one.axes[2] == pytest.approx([0, 0, 1]) for one in interfaces)
 
 
 def test_contact_of_crossed_u_blocks_is_the_common_area():
@@ -58,8 +58,8 @@ def test_contact_of_crossed_u_blocks_is_the_common_area():
     common = shapely.Polygon(U) & shapely.affinity.translate(
         shapely.affinity.rotate(shapely.Polygon(U), 90, origin=(0, 0)), 3, 0
     )
-    found = find_interfaces([low, high], None)
-    check_pieces(found, common)
+    interfaces = find_interfaces([low, high], None)
+    check_pieces(interfaces, common)
 
 
 def test_feet_of_a_u_block_stand_apart():
@@ -67,9 +67,9 @@ def test_feet_of_a_u_block_stand_apart():
     legs = np.array([(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)], dtype=float)
     arch = extruded("arch", legs).moved(Rotation.from_rotvec([np.pi / 2, 0, 0]).as_matrix(), (0, 1, 0))
     ground = Block.box("ground", (5, 5, 1), (1.5, 0.5, -0.5))
-    found = find_interfaces([ground, arch], None)
-    assert [area(one) for one in found] == pytest.approx([1, 1])
-    assert sorted(one.centroid.tolist() for one in found) == pytest.approx(
+    interfaces = find_interfaces([ground, arch], None)
+    assert [area(one) for one in interfaces] == pytest.approx([1, 1])
+    assert sorted(one.centroid.tolist() for one in interfaces) == pytest.approx(
         [pytest.approx([0.5, 0.5, 0]), pytest.approx([2.5, 0.5, 0])]
     )
 
@@ -77,25 +77,25 @@ def test_feet_of_a_u_block_stand_apart():
 @pytest.mark.parametrize("side", [1.0, 0.3])
 def test_contact_round_a_hole(side):
     outer, inner = 2 * SQUARE, side * SQUARE + 0.1
-    found = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
-    assert len(found) == 4
-    check_pieces(found, shapely.Polygon(outer, [inner]))
+    interfaces = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
+    assert len(interfaces) == 4
+    check_pieces(interfaces, shapely.Polygon(outer, [inner]))
 
 
 @pytest.mark.parametrize("n", [3, 5, 12, 40])
 def test_contact_of_two_tubes(n):
     outer, inner = regular(n, 2.0), regular(n, 1.5)
-    found = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
-    assert len(found) == n
-    check_pieces(found, shapely.Polygon(outer, [inner]))
+    interfaces = find_interfaces([ring("low", outer, inner, 0, 1), ring("high", outer, inner, 1, 2)], None)
+    assert len(interfaces) == n
+    check_pieces(interfaces, shapely.Polygon(outer, [inner]))
 
 
 def test_shaft_through_two_plates_touches_all_round():
     plate = ring("plate", 4 * SQUARE, SQUARE)
     shaft = Block.box("shaft", (1, 1, 3), (0, 0, 0))
-    found = find_interfaces([plate, shaft], None)
-    assert [area(one) for one in found] == pytest.approx([1] * 4)
-    assert {tuple(np.round(one.axes[2]).tolist()) for one in found} == {
+    interfaces = find_interfaces([plate, shaft], None)
+    assert [area(one) for one in interfaces] == pytest.approx([1] * 4)
+    assert {tuple(np.round(one.axes[2]).tolist()) for one in interfaces} == {
         (1, 0, 0),
         (-1, 0, 0),
         (0, 1, 0),
@@ -104,19 +104,21 @@ def test_shaft_through_two_plates_touches_all_round():
 
 
 def test_stone_in_a_cavity_touches_its_walls():
-    found = find_interfaces([hollow("hollow", 2.0, 1.0), Block.box("stone", (1, 1, 1), (0, 0, 0))], None)
-    assert [area(one) for one in found] == pytest.approx([1] * 6)
+    interfaces = find_interfaces([hollow("hollow", 2.0, 1.0), Block.box("stone", (1, 1, 1), (0, 0, 0))], None)
+    assert [area(one) for one in interfaces] == pytest.approx([1] * 6)
 
 
 @pytest.mark.parametrize("n", [6, 24, 96])
 def test_coaxial_cylinders_touch_facet_by_facet(n):
     core, sleeve = extruded("core", regular(n, 1.0)), ring("sleeve", regular(n, 2.0), regular(n, 1.0))
     for blocks in ([core, sleeve], [triangulated(core), triangulated(sleeve)]):
-        found = find_interfaces(blocks, None)
-        assert len(found) == n
-        assert [area(one) for one in found] == pytest.approx([2 * np.sin(np.pi / n)] * n)
-        radial = [one.centroid[:2] / np.linalg.norm(one.centroid[:2]) for one in found]
-        assert [one.axes[2, :2] for one in found] == [pytest.approx(normal, abs=1e-6) for normal in radial]
+        interfaces = find_interfaces(blocks, None)
+        assert len(interfaces) == n
+        assert [area(one) for one in interfaces] == pytest.approx([2 * np.sin(np.pi / n)] * n)
+        radial = [one.centroid[:2] / np.linalg.norm(one.centroid[:2]) for one in interfaces]
+        assert [one.axes[2, :2] for one in interfaces] == [
+            pytest.approx(normal, abs=1e-6) for normal in radial
+        ]
 
 
 @pytest.mark.parametrize("turn", [0.1, 0.6, 1.5])
@@ -126,14 +128,14 @@ def test_rectangles_turned_about_their_normal(turn):
     low = Block.box("low", (long, a, 1), (0, 0, 0))
     rotation = Rotation.from_rotvec([0, 0, turn]).as_matrix()
     high = Block.box("high", (long, b, 1), (0, 0, 1)).moved(rotation, (0, 0, 0))
-    (found,) = find_interfaces([low, high], None)
-    assert area(found) == pytest.approx(a * b / np.sin(turn))
-    assert found.centroid == pytest.approx([0, 0, 0.5], abs=1e-9)
+    (interfaces,) = find_interfaces([low, high], None)
+    assert area(interfaces) == pytest.approx(a * b / np.sin(turn))
+    assert interfaces.centroid == pytest.approx([0, 0, 0.5], abs=1e-9)
 
 
-def shapes_of(found):
+def shapes_of(result):
     """Each interface as its corners in global axes, sorted, whichever block comes first."""
-    return sorted(np.round(placed(one), 6)[np.lexsort(np.round(placed(one), 6).T)].tolist() for one in found)
+    return sorted(np.round(placed(one), 6)[np.lexsort(np.round(placed(one), 6).T)].tolist() for one in result)
 
 
 NEST = [ring("b", 2 * SQUARE, SQUARE, 0, 1), *decks(L, "c", "a"), extruded("d", PLUS, -1, 0)]
@@ -176,17 +178,17 @@ def test_noise_on_an_edge_does_not_divide_a_convex_area():
     points = np.concatenate([np.linspace(a, b, 6)[:-1] for a, b in pairwise(corners)])
     noise = np.random.default_rng(1).uniform(-2e-4, 2e-4, points.shape)
     low, high = extruded("low", points + noise), extruded("high", 2 * SQUARE, 1, 2)
-    (found,) = find_interfaces([low, high], None)
-    assert interface_fault(found) == ""
-    assert area(found) == pytest.approx(1.0, rel=1e-3)
+    (interfaces,) = find_interfaces([low, high], None)
+    assert interface_fault(interfaces) == ""
+    assert area(interfaces) == pytest.approx(1.0, rel=1e-3)
 
 
 def test_notch_larger_than_the_tolerance_divides_an_area():
     for depth, count in ((0.5e-3, 1), (0.05, 2)):
         notch = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (0, 0.5 - depth), (-0.5, 0.5)]
-        found = find_interfaces(decks(notch), None)
-        assert len(found) == count
-        assert sum(map(area, found)) == pytest.approx(1 - depth / 2, rel=1e-3)
+        interfaces = find_interfaces(decks(notch), None)
+        assert len(interfaces) == count
+        assert sum(map(area, interfaces)) == pytest.approx(1 - depth / 2, rel=1e-3)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -194,12 +196,12 @@ def test_star_shaped_areas_at_random(seed):
     rng = np.random.default_rng(seed)
     angle = np.sort(rng.uniform(0, 2 * np.pi, 15))
     outline = np.column_stack([np.cos(angle), np.sin(angle)]) * rng.uniform(0.4, 1.0, 15)[:, None]
-    found = find_interfaces(decks(outline), None)
-    check_pieces(found, shapely.Polygon(outline))
+    interfaces = find_interfaces(decks(outline), None)
+    check_pieces(interfaces, shapely.Polygon(outline))
     sides = np.roll(outline, -1, axis=0) - outline
     (x, y), (u, v) = np.roll(sides, 1, axis=0).T, sides.T
     turns = x * v - y * u
-    assert len(found) <= 2 * (turns < 0).sum() + 1  # Hertel & Mehlhorn: two diagonals a reflex corner
+    assert len(interfaces) <= 2 * (turns < 0).sum() + 1  # Hertel & Mehlhorn: two diagonals a reflex corner
 
 
 @pytest.mark.parametrize("form", [lambda block: block, triangulated])
@@ -229,13 +231,13 @@ def test_rubble_of_pairs_of_cells_that_fills_a_cube(seed, form):
     blocks, _, _ = moved(blocks, seed)
     contacts = find_contacts(blocks, None)
     assert contacts.overlaps == ()
-    found = {}
+    values = {}
     for one in [*contacts.interfaces, *contacts.slivers]:
         ends = tuple(sorted((int(one.block_i), int(one.block_j))))
-        found[ends] = found.get(ends, 0.0) + (area(one) if one in contacts.interfaces else one.area)
-    assert found.keys() <= expected.keys()
+        values[ends] = values.get(ends, 0.0) + (area(one) if one in contacts.interfaces else one.area)
+    assert values.keys() <= expected.keys()
     for ends, size in expected.items():
-        assert found.get(ends, 0.0) == pytest.approx(size, rel=1e-4, abs=1e-6)
+        assert values.get(ends, 0.0) == pytest.approx(size, rel=1e-4, abs=1e-6)
 
 
 def test_polygons_that_share_a_side_have_no_common_area():
@@ -275,9 +277,9 @@ def test_curved_surfaces_in_small_triangles_touch_all_over(seed):
     top = [k for k, face in enumerate(blocks[0].faces) if min(face) >= 144]
     if seed is not None:
         blocks, _, _ = moved(blocks, seed, 1e5)
-    found = find_contacts(blocks, None)
-    assert sum(map(area, found.interfaces)) == pytest.approx(blocks[0].areas[top].sum(), rel=1e-4)
-    assert found.overlaps == ()
+    contacts = find_contacts(blocks, None)
+    assert sum(map(area, contacts.interfaces)) == pytest.approx(blocks[0].areas[top].sum(), rel=1e-4)
+    assert contacts.overlaps == ()
 
 
 def test_chamfer_is_no_part_of_the_face_beside_it():
@@ -287,16 +289,16 @@ def test_chamfer_is_no_part_of_the_face_beside_it():
     turn = Rotation.from_rotvec([np.pi / 2, 0, 0]).as_matrix()
     low = extruded("low", outline).moved(turn, (0, 1, 0))
     high = Block.box("high", (1, 1, 1), (0.5, 0.5, 1.5))
-    (found,) = find_interfaces([low, high], None)
-    assert area(found) == pytest.approx(1 - leg)
+    (interfaces,) = find_interfaces([low, high], None)
+    assert area(interfaces) == pytest.approx(1 - leg)
 
 
 # ---------------------------------------------------------------------------------------------- overlaps
 
 
 def overlap_of(*blocks):
-    (found,) = find_contacts(blocks, None).overlaps
-    return found
+    (contacts,) = find_contacts(blocks, None).overlaps
+    return contacts
 
 
 def slab(a, b, thickness):
@@ -310,10 +312,10 @@ def test_overlap_of_an_l_block(depth, seed):
     blocks = [extruded("L", L), Block.box("b", (1, 1, 1), (1.5 - depth, 1.5, 0.5))]
     if seed is not None:
         blocks, _, _ = moved(blocks, seed)
-    found = overlap_of(*blocks)
-    assert (found.block_i, found.block_j) == ("L", "b")
-    assert found.volume == pytest.approx(depth)
-    assert found.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
+    result = overlap_of(*blocks)
+    assert (result.block_i, result.block_j) == ("L", "b")
+    assert result.volume == pytest.approx(depth)
+    assert result.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
     with pytest.raises(GeometryError, match=f"blocks 'L' and 'b' overlap by {depth:.3g} m3"):
         find_interfaces(blocks, None)
 
@@ -333,9 +335,9 @@ def test_blocks_that_fill_each_others_notches_do_not_overlap(seed):
 
 def test_overlap_of_two_legs_counts_each_by_itself():
     depth = 0.05
-    found = overlap_of(extruded("U", U), Block.box("b", (1 + 2 * depth, 1, 1), (1.5, 1.5, 0.5)))
-    assert found.volume == pytest.approx(2 * depth)
-    assert found.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
+    result = overlap_of(extruded("U", U), Block.box("b", (1 + 2 * depth, 1, 1), (1.5, 1.5, 0.5)))
+    assert result.volume == pytest.approx(2 * depth)
+    assert result.depth == pytest.approx(slab(1, 1, depth), rel=1e-3)
 
 
 def test_tolerance_of_overlap_of_bodies_that_are_not_convex():
@@ -346,9 +348,9 @@ def test_tolerance_of_overlap_of_bodies_that_are_not_convex():
 
 
 def test_stone_within_a_body_with_a_cavity():
-    found = overlap_of(hollow("h", 4.0, 1.0), Block.box("stone", (0.5, 0.5, 0.5), (1.2, 1.2, 1.2)))
-    assert found.volume == pytest.approx(0.5**3)
-    assert found.depth == pytest.approx(0.5 / 3, rel=1e-3)
+    result = overlap_of(hollow("h", 4.0, 1.0), Block.box("stone", (0.5, 0.5, 0.5), (1.2, 1.2, 1.2)))
+    assert result.volume == pytest.approx(0.5**3)
+    assert result.depth == pytest.approx(0.5 / 3, rel=1e-3)
 
 
 @pytest.mark.parametrize("at", [0.0, 0.2])
@@ -356,9 +358,9 @@ def test_thin_blocks_do_not_hide_an_overlap(at):
     # thinner than the tolerance of 1e-3 block lengths
     plate = Block.box("plate", (0.5, 0.25, 1e-4), (0, 0, at))
     for stone in (Block.box("stone", (1, 1, 1), (0, 0, 0)), hollow("stone", 1.0, 0.05, (0.3, 0.3, 0.3))):
-        found = overlap_of(stone, plate, Block.box("other", (1, 1, 1), (5, 0, 0)))
-        assert found.volume == pytest.approx(0.5 * 0.25 * 1e-4)
-        assert found.tolerance < 0.5e-4
+        result = overlap_of(stone, plate, Block.box("other", (1, 1, 1), (5, 0, 0)))
+        assert result.volume == pytest.approx(0.5 * 0.25 * 1e-4)
+        assert result.tolerance < 0.5e-4
     half_in = plate.moved(np.eye(3), (0, 0, 0.5 - at - 1e-5))
     assert overlap_of(Block.box("stone", (1, 1, 1), (0, 0, 0)), half_in).depth == pytest.approx(6e-5)
     resting = plate.moved(np.eye(3), (0, 0, 0.5 - at + 0.5e-4))

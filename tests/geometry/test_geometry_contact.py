@@ -92,33 +92,33 @@ def test_local_axes_and_vertex_order_of_a_rectangle(shift):
 
 def test_block_i_is_the_earlier_and_order_is_by_blocks():
     wall = running_bond(3, 3)
-    found = find_interfaces(wall, JOINT)
+    interfaces = find_interfaces(wall, JOINT)
     place = {block.name: k for k, block in enumerate(wall)}
-    ranks = [(place[i], place[j]) for i, j in pairs(found)]
+    ranks = [(place[i], place[j]) for i, j in pairs(interfaces)]
     assert ranks == sorted(ranks)
     assert all(i < j for i, j in ranks)
     backward = find_interfaces(wall[::-1], JOINT)
-    assert sorted(pairs(found)) == sorted((j, i) for i, j in pairs(backward))
-    for interface in found:
+    assert sorted(pairs(interfaces)) == sorted((j, i) for i, j in pairs(backward))
+    for interface in interfaces:
         middle = wall[place[interface.block_j]].centroid - wall[place[interface.block_i]].centroid
         assert interface.axes[2] @ middle > 0
 
 
 def test_running_bond_wall():
     courses, n, x, y, z = 5, 4, 0.4, 0.2, 0.2
-    found = find_interfaces(running_bond(courses, n, x, y, z), JOINT)
-    assert len(found) == courses * (n - 1) + (courses - 1) * (2 * n - 1)
+    interfaces = find_interfaces(running_bond(courses, n, x, y, z), JOINT)
+    assert len(interfaces) == courses * (n - 1) + (courses - 1) * (2 * n - 1)
     expected = courses * (n - 1) * y * z + (courses - 1) * (2 * n - 1) * (x / 2) * y
-    assert total_area(found) == pytest.approx(expected, rel=1e-9)
+    assert total_area(interfaces) == pytest.approx(expected, rel=1e-9)
 
 
 @pytest.mark.parametrize("shift", [0.0, FAR])
 def test_voussoirs(shift):
     n, inner, outer, width = 9, 2.0, 2.5, 0.8
     blocks = [b.moved(np.eye(3), np.zeros(3) + shift) for b in arch(n, inner, outer, width)]
-    found = find_interfaces(blocks, JOINT)
-    assert pairs(found) == [(f"v{k}", f"v{k + 1}") for k in range(n - 1)]
-    for k, interface in enumerate(found):
+    interfaces = find_interfaces(blocks, JOINT)
+    assert pairs(interfaces) == [(f"v{k}", f"v{k + 1}") for k in range(n - 1)]
+    for k, interface in enumerate(interfaces):
         angle = np.pi * (k + 1) / n
         radius = np.array([np.cos(angle), 0, np.sin(angle)])
         assert area(interface) == pytest.approx((outer - inner) * width, rel=1e-8)
@@ -194,19 +194,19 @@ def test_rubble_that_fills_a_cube(seed):
     blocks, areas = voronoi_blocks(30, seed)
     assert sum(block.volume for block in blocks) == pytest.approx(1.0, rel=1e-9)
     turned, _, _ = moved(blocks, seed)
-    found = {(int(f.block_i), int(f.block_j)): area(f) for f in find_interfaces(turned, JOINT)}
-    assert set(found) <= set(areas)
+    interfaces = {(int(f.block_i), int(f.block_j)): area(f) for f in find_interfaces(turned, JOINT)}
+    assert set(interfaces) <= set(areas)
     for ends, expected in areas.items():
-        assert found.get(ends, 0.0) == pytest.approx(expected, rel=1e-6, abs=1e-3 * 30 ** (-2 / 3))
-    assert all(found[ends] == pytest.approx(areas[ends], rel=1e-6) for ends in found)
+        assert interfaces.get(ends, 0.0) == pytest.approx(expected, rel=1e-6, abs=1e-3 * 30 ** (-2 / 3))
+    assert all(interfaces[ends] == pytest.approx(areas[ends], rel=1e-6) for ends in interfaces)
 
 
 @pytest.mark.parametrize(("gap", "count"), [(0.99e-3, 1), (1.01e-3, 0), (-0.99e-3, 1)])
 def test_gap_tolerance(gap, count):
     blocks = [box("low", (1, 1, 1), (0, 0, 0)), box("high", (1, 1, 1), (0.2, 0, 1 + gap))]
-    found = find_interfaces(blocks, JOINT)
-    assert len(found) == count
-    for interface in found:
+    interfaces = find_interfaces(blocks, JOINT)
+    assert len(interfaces) == count
+    for interface in interfaces:
         assert interface.centroid == pytest.approx([0.1, 0, 0.5 + gap / 2])
     assert len(find_interfaces(blocks, JOINT, gap=2e-3)) == 1
 
@@ -224,9 +224,9 @@ def test_angle_tolerance(tilt, count):
     turn = Rotation.from_rotvec([0, tilt, 0]).as_matrix()
     edge = np.array([0.5, 0, 0.5])
     high = box("high", (1, 1, 1), (0, 0, 1)).moved(turn, edge - turn @ edge)
-    found = find_interfaces([box("low", (1, 1, 1), (0, 0, 0)), high], JOINT, gap=0.05, angle=0.02)
-    assert len(found) == count
-    for interface in found:
+    interfaces = find_interfaces([box("low", (1, 1, 1), (0, 0, 0)), high], JOINT, gap=0.05, angle=0.02)
+    assert len(interfaces) == count
+    for interface in interfaces:
         half = Rotation.from_rotvec([0, tilt / 2, 0]).as_matrix()
         assert interface.axes[2] == pytest.approx(half @ [0, 0, 1])
         assert area(interface) == pytest.approx(np.cos(tilt / 2), rel=1e-9)
@@ -265,9 +265,11 @@ def test_collinear_vertices_are_removed():
 def test_triangles_in_one_plane_are_one_face():
     low = Block.box("low", (1, 1, 1), (0, 0, 0))
     triangles = [t for a, b, c, d in low.faces for t in ((a, b, c), (a, c, d))]
-    found = find_interfaces([Block("low", low.vertices, triangles), box("high", (1, 1, 1), (0, 0, 1))], JOINT)
-    assert [area(f) for f in found] == pytest.approx([1.0])
-    assert all(len(f.polygon) == 4 for f in found)
+    interfaces = find_interfaces(
+        [Block("low", low.vertices, triangles), box("high", (1, 1, 1), (0, 0, 1))], JOINT
+    )
+    assert [area(f) for f in interfaces] == pytest.approx([1.0])
+    assert all(len(f.polygon) == 4 for f in interfaces)
 
 
 def test_octagonal_contact_of_two_squares():

@@ -33,21 +33,21 @@ def turned(blocks, tilt):
 
 
 def test_sound_wall_has_nothing_to_report():
-    found = find_contacts(wall(), None)
-    assert len(found.interfaces) == len(find_interfaces(wall(), None))
-    assert (found.near_misses, found.overlaps, found.isolated, found.slivers) == ((), (), (), ())
-    assert found.warnings == []
+    contacts = find_contacts(wall(), None)
+    assert len(contacts.interfaces) == len(find_interfaces(wall(), None))
+    assert (contacts.near_misses, contacts.overlaps, contacts.isolated, contacts.slivers) == ((), (), (), ())
+    assert contacts.warnings == []
 
 
 @pytest.mark.parametrize(("gap", "near"), [(0.9e-3, 0), (1.1e-3, 1), (9.9e-3, 1), (10.1e-3, 0)])
 def test_gaps_beyond_the_tolerance(gap, near):
-    found = find_contacts([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (0.25, 0, 1 + gap))], None)
-    assert len(found.near_misses) == near
-    for miss in found.near_misses:
+    contacts = find_contacts([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (0.25, 0, 1 + gap))], None)
+    assert len(contacts.near_misses) == near
+    for miss in contacts.near_misses:
         assert (miss.block_i, miss.block_j) == ("low", "high")
         assert (miss.gap, miss.angle, miss.area) == pytest.approx((gap, 0, 0.75), abs=1e-9)
-        assert found.isolated == ("low", "high")
-        assert found.warnings[0] == f"no interface between blocks that nearly touch: {miss}"
+        assert contacts.isolated == ("low", "high")
+        assert contacts.warnings[0] == f"no interface between blocks that nearly touch: {miss}"
         assert f"gap {gap:.3g} m" in str(miss)
 
 
@@ -55,10 +55,10 @@ def test_gaps_beyond_the_tolerance(gap, near):
 def test_gap_is_the_largest_over_the_area(tilt, near):
     # a wedge that is closed at one edge and open by sin(tilt) at the other: within the angle, not the gap
     blocks = turned([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (0, 0, 1))], tilt)
-    found = find_contacts(blocks, None)
-    assert len(found.interfaces) == (tilt < 1e-3)
-    assert len(found.near_misses) == near
-    for miss in found.near_misses:
+    contacts = find_contacts(blocks, None)
+    assert len(contacts.interfaces) == (tilt < 1e-3)
+    assert len(contacts.near_misses) == near
+    for miss in contacts.near_misses:
         assert miss.gap == pytest.approx(2 * np.tan(tilt / 2) * np.cos(tilt / 2), rel=1e-2)
         assert miss.angle == pytest.approx(tilt)
 
@@ -66,41 +66,43 @@ def test_gap_is_the_largest_over_the_area(tilt, near):
 @pytest.mark.parametrize(("tilt", "near"), [(0.9e-2, 0), (2e-2, 1), (9.9e-2, 1), (10.1e-2, 0)])
 def test_angles_beyond_the_tolerance(tilt, near):
     blocks = turned([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (0, 0, 1))], tilt)
-    found = find_contacts(blocks, None, gap=0.2)
-    assert len(found.interfaces) == (tilt < 1e-2)
-    assert [miss.angle for miss in found.near_misses] == pytest.approx([tilt] * near)
+    contacts = find_contacts(blocks, None, gap=0.2)
+    assert len(contacts.interfaces) == (tilt < 1e-2)
+    assert [miss.angle for miss in contacts.near_misses] == pytest.approx([tilt] * near)
 
 
 def test_overlaps_are_listed_and_are_no_near_misses():
     blocks = [box("low", UNIT, (0, 0, 0)), box("high", UNIT, (0, 0, 1 - 5e-3)), box("far", UNIT, (9, 9, 9))]
-    found = find_contacts(blocks, None)
-    (overlap,) = found.overlaps
+    contacts = find_contacts(blocks, None)
+    (overlap,) = contacts.overlaps
     assert (overlap.block_i, overlap.block_j) == ("low", "high")
     assert (overlap.depth, overlap.volume, overlap.tolerance) == pytest.approx((5e-3, 5e-3, 1e-3))
-    assert found.near_misses == ()
-    assert found.isolated == ("low", "high", "far")
-    assert found.warnings[0].startswith("blocks 'low' and 'high' overlap by 0.005 m3, 0.005 m deep")
+    assert contacts.near_misses == ()
+    assert contacts.isolated == ("low", "high", "far")
+    assert contacts.warnings[0].startswith("blocks 'low' and 'high' overlap by 0.005 m3, 0.005 m deep")
     with pytest.raises(lb.GeometryError, match=r"blocks 'low' and 'high' overlap by 0.005 m3"):
         find_interfaces(blocks, None)
 
 
 @pytest.mark.parametrize(("overlap", "slivers"), [(1.1e-3, 0), (0.9e-3, 1), (1e-5, 1), (0.0, 0)])
 def test_slivers(overlap, slivers):
-    found = find_contacts([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (1 - overlap, 0, 1))], None)
-    assert len(found.slivers) == slivers
-    for sliver in found.slivers:
+    contacts = find_contacts([box("low", UNIT, (0, 0, 0)), box("high", UNIT, (1 - overlap, 0, 1))], None)
+    assert len(contacts.slivers) == slivers
+    for sliver in contacts.slivers:
         assert (sliver.area, sliver.width) == pytest.approx((overlap, overlap), rel=2e-3)
-        assert "contacts left out because they are too small: low|high" in found.warnings[1]
+        assert "contacts left out because they are too small: low|high" in contacts.warnings[1]
 
 
 def test_contacts_are_plain_data():
     blocks = [*wall(), box("near", UNIT, (0, 0, -0.55 - 1e-3)), box("in", UNIT, (0, 0, -0.7))]
-    found = find_contacts(blocks, None)
-    again = json.loads(json.dumps(found.to_dict()))
-    assert len(again["interfaces"]) == len(found.interfaces)
-    assert again["overlaps"][0]["depth"] == found.overlaps[0].depth
-    assert [miss["gap"] for miss in again["near_misses"]] == [miss.gap for miss in found.near_misses]
-    assert str(found).startswith(f"{len(found.interfaces)} interfaces, {len(found.near_misses)} near misses")
+    contacts = find_contacts(blocks, None)
+    again = json.loads(json.dumps(contacts.to_dict()))
+    assert len(again["interfaces"]) == len(contacts.interfaces)
+    assert again["overlaps"][0]["depth"] == contacts.overlaps[0].depth
+    assert [miss["gap"] for miss in again["near_misses"]] == [miss.gap for miss in contacts.near_misses]
+    assert str(contacts).startswith(
+        f"{len(contacts.interfaces)} interfaces, {len(contacts.near_misses)} near misses"
+    )
 
 
 def noisy(blocks, noise, seed):
@@ -121,10 +123,10 @@ def test_noise_on_a_wall_500_km_away(seed, form):
     """A tenth of a millimetre on every vertex: what is lost is reported, and a wider gap finds all."""
     expected = find_interfaces(wall(), None)
     blocks = noisy([form(block) for block in wall()], 1e-4, seed)
-    found = find_contacts(blocks, None)  # accepts gaps of 0.13 mm
-    assert ends(found.interfaces) <= ends(expected)
-    lost = ends(expected) - ends(found.interfaces)
-    assert lost <= ends(found.near_misses) | ends(found.overlaps)
+    contacts = find_contacts(blocks, None)  # accepts gaps of 0.13 mm
+    assert ends(contacts.interfaces) <= ends(expected)
+    lost = ends(expected) - ends(contacts.interfaces)
+    assert lost <= ends(contacts.near_misses) | ends(contacts.overlaps)
     wide = find_contacts(blocks, None, gap=5e-3)
     assert [(i.block_i, i.block_j) for i in wide.interfaces] == [(i.block_i, i.block_j) for i in expected]
     areas = [[float(polygon.areas(i.polygon)) for i in some] for some in (wide.interfaces, expected)]
@@ -134,11 +136,13 @@ def test_noise_on_a_wall_500_km_away(seed, form):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_without_noise_the_wall_500_km_away_is_the_same(seed):
-    expected, found = find_interfaces(wall(), None), find_contacts(noisy(wall(), 0.0, seed), None)
-    assert [(i.block_i, i.block_j) for i in found.interfaces] == [(i.block_i, i.block_j) for i in expected]
-    for old, new in zip(expected, found.interfaces, strict=True):
+    expected, interfaces = find_interfaces(wall(), None), find_contacts(noisy(wall(), 0.0, seed), None)
+    assert [(i.block_i, i.block_j) for i in interfaces.interfaces] == [
+        (i.block_i, i.block_j) for i in expected
+    ]
+    for old, new in zip(expected, interfaces.interfaces, strict=True):
         assert polygon.areas(new.polygon) == pytest.approx(polygon.areas(old.polygon), rel=1e-6)
-    assert found.warnings == []
+    assert interfaces.warnings == []
 
 
 # ---------------------------------------------------------------------------------------------- models
@@ -157,13 +161,13 @@ BLOCKS = [
 
 
 def test_model_with_all_its_interfaces_has_nothing_to_report():
-    found = lb.diagnose(model_of(BLOCKS, find_interfaces(BLOCKS, lb.PointContact(0.6))))
-    assert (found.interfaces, found.warnings) == ((), [])
+    interfaces = lb.diagnose(model_of(BLOCKS, find_interfaces(BLOCKS, lb.PointContact(0.6))))
+    assert (interfaces.interfaces, interfaces.warnings) == ((), [])
 
 
 def test_contact_without_an_interface_in_the_model():
-    found = find_interfaces(BLOCKS, lb.PointContact(0.6))
-    model = model_of(BLOCKS, [one for one in found if one.block_i == "ground"])
+    interfaces = find_interfaces(BLOCKS, lb.PointContact(0.6))
+    model = model_of(BLOCKS, [one for one in interfaces if one.block_i == "ground"])
     assert ends(lb.diagnose(model).interfaces) == {("left", "right")}
     assert lb.diagnose(model).warnings == ["no interface between blocks that touch: left|right"]
 
@@ -177,9 +181,9 @@ def test_what_is_between_supports_is_left_out():
         box("beside", UNIT, (-0.5, -1.002, 0.5)),  # a near miss of the left block
     ]
     interfaces = find_interfaces(BLOCKS, lb.PointContact(0.6))
-    found = lb.diagnose(model_of(blocks, interfaces, ["ground", "other", "third", "alone", "beside"]))
-    assert ends(found.near_misses) == {("left", "beside")}
-    assert found.overlaps == ()
-    assert found.isolated == ("other", "alone", "beside")
-    assert "blocks without any interface: other, alone, beside" in found.warnings
-    assert str(found).startswith("beside the interfaces of the model: ")
+    values = lb.diagnose(model_of(blocks, interfaces, ["ground", "other", "third", "alone", "beside"]))
+    assert ends(values.near_misses) == {("left", "beside")}
+    assert values.overlaps == ()
+    assert values.isolated == ("other", "alone", "beside")
+    assert "blocks without any interface: other, alone, beside" in values.warnings
+    assert str(values).startswith("beside the interfaces of the model: ")

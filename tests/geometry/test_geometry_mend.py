@@ -25,12 +25,12 @@ def soup(block, rng, turned=0.5):
     return triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
 
 
-def same_solid(found, block, tolerance=1e-12):
+def same_solid(result, block, tolerance=1e-12):
     scale = block.size
-    assert found.volume == pytest.approx(block.volume, rel=tolerance)
-    assert np.abs(found.centroid - block.centroid).max() <= tolerance * scale
-    assert len(found.faces) == len(block.faces)
-    assert sorted(found.areas) == pytest.approx(sorted(block.areas), rel=tolerance)
+    assert result.volume == pytest.approx(block.volume, rel=tolerance)
+    assert np.abs(result.centroid - block.centroid).max() <= tolerance * scale
+    assert len(result.faces) == len(block.faces)
+    assert sorted(result.areas) == pytest.approx(sorted(block.areas), rel=tolerance)
 
 
 @given(st.integers(0, 2**31), st.sampled_from([BOX, VOUSSOIR]), st.floats(-1e3, 1e3))
@@ -39,29 +39,29 @@ def test_triangle_soup_gives_the_solid_back(seed, block, far):
     turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     turn *= np.sign(np.linalg.det(turn))
     block = block.moved(turn, (far, -far, far / 2))
-    found, notes = mended("stone", *soup(block, rng))
-    same_solid(found, block, 1e-9)
-    assert len(found.vertices) == len(block.vertices)
+    result, notes = mended("stone", *soup(block, rng))
+    same_solid(result, block, 1e-9)
+    assert len(result.vertices) == len(block.vertices)
     assert all(note.startswith("block 'stone': ") for note in notes)
 
 
 def test_sound_solid_stays_as_it_is_without_a_note():
-    found, notes = mended("box", BOX.vertices, BOX.faces, 20e3)
-    same_solid(found, BOX)
-    assert found.unit_weight == 20e3
+    result, notes = mended("box", BOX.vertices, BOX.faces, 20e3)
+    same_solid(result, BOX)
+    assert result.unit_weight == 20e3
     assert notes == ()
 
 
 def test_inside_out_is_turned_with_a_note():
-    found, notes = mended("box", BOX.vertices, [face[::-1] for face in BOX.faces])
-    same_solid(found, BOX)
+    values, notes = mended("box", BOX.vertices, [face[::-1] for face in BOX.faces])
+    same_solid(values, BOX)
     assert notes == ("block 'box': all faces pointed inward and are turned",)
 
 
 def test_repeated_and_flat_faces_go_with_a_note():
     flat = [(0, 0, 1), (2, 2, 2)]
-    found, notes = mended("box", BOX.vertices, [*BOX.faces, *flat, BOX.faces[0], BOX.faces[1][::-1]])
-    same_solid(found, BOX)
+    values, notes = mended("box", BOX.vertices, [*BOX.faces, *flat, BOX.faces[0], BOX.faces[1][::-1]])
+    same_solid(values, BOX)
     assert notes == (
         "block 'box': 2 of 10 faces without area left out",
         "block 'box': 2 of 8 faces repeat another one and are left out",
@@ -74,8 +74,8 @@ def test_crack_up_to_the_tolerance_is_closed_with_its_width(width):
     vertices, faces = soup(BOX, rng, turned=0.0)
     shift = rng.normal(size=vertices.shape)
     shift *= width * BOX.size / 2.0 / np.linalg.norm(shift, axis=1)[:, None]  # ends at most `width` apart
-    found, notes = mended("box", vertices + shift, faces)
-    assert found.volume == pytest.approx(BOX.volume, rel=10 * width)
+    result, notes = mended("box", vertices + shift, faces)
+    assert result.volume == pytest.approx(BOX.volume, rel=10 * width)
     assert "merged" in notes[0] or "crack" in notes[0]
 
 
@@ -90,9 +90,9 @@ def test_wider_crack_is_an_open_surface_with_its_place():
 def test_vertex_on_the_edge_of_another_face_closes_it():
     middle = (BOX.vertices[0] + BOX.vertices[4]) / 2.0
     faces = [*BOX.faces[1:], (0, 8, 6, 2), (8, 4, 6)]  # BOX.faces[0] is (0, 4, 6, 2)
-    found, notes = mended("box", [*BOX.vertices, middle], faces)
-    same_solid(found, BOX)
-    assert len(found.vertices) == 8  # a vertex in the middle of an edge says nothing
+    values, notes = mended("box", [*BOX.vertices, middle], faces)
+    same_solid(values, BOX)
+    assert len(values.vertices) == 8  # a vertex in the middle of an edge says nothing
     assert notes == (
         "block 'box': 1 vertices inserted where they lie on the edge of another face, within 0 m",
     )
@@ -105,8 +105,8 @@ def test_needle_triangles_join_the_plane_of_their_longest_side():
     ring = (*below[k:], *below[:k])  # from 4 round to 0
     assert ring[1] == 0 or ring[-1] == 0
     faces = [*BOX.faces[1:], (0, 8, 6, 2), (8, 4, 6), (0, 4, 8)]
-    found, _ = mended("box", [*BOX.vertices, middle], faces)
-    same_solid(found, BOX)
+    values, _ = mended("box", [*BOX.vertices, middle], faces)
+    same_solid(values, BOX)
 
 
 def test_faces_of_a_round_body_are_not_merged():
@@ -118,9 +118,9 @@ def test_faces_of_a_round_body_are_not_merged():
     after = (k + 1) % n
     sides = np.vstack([np.column_stack([k, after, after + n]), np.column_stack([k, after + n, k + n])])
     ends = np.vstack([np.column_stack([k * 0, after, k])[1:-1], np.column_stack([k * 0, k, after])[1:-1] + n])
-    found, notes = mended("drum", vertices, [*sides.tolist(), *ends.tolist()])
-    assert len(found.faces) == n + 2
-    assert found.volume == pytest.approx(n / 2.0 * np.sin(2.0 * np.pi / n))  # regular n-gon
+    values, notes = mended("drum", vertices, [*sides.tolist(), *ends.tolist()])
+    assert len(values.faces) == n + 2
+    assert values.volume == pytest.approx(n / 2.0 * np.sin(2.0 * np.pi / n))  # regular n-gon
     assert notes == ()
 
 
@@ -130,8 +130,8 @@ def test_slightly_warped_quadrilateral_is_taken_as_flat_with_a_note():
     faces = [
         part for face in BOX.faces for part in ((face[0], face[1], face[2]), (face[0], face[2], face[3]))
     ]
-    found, notes = mended("box", vertices, faces)
-    assert len(found.faces) == 6
+    result, notes = mended("box", vertices, faces)
+    assert len(result.faces) == 6
     assert "flat within" in notes[0]
 
 
@@ -143,8 +143,8 @@ def test_outline_bridged_to_a_hole_is_read():
     bottom = tuple(v - 8 for v in reversed(top))
     sides = [(k, (k + 1) % 4, (k + 1) % 4 + 8, k + 8) for k in range(4)]
     sides += [((k + 1) % 4 + 4, k + 4, k + 12, (k + 1) % 4 + 12) for k in range(4)]
-    found, notes = mended("frame", vertices, [top, bottom, *sides])
-    assert found.volume == pytest.approx(8.0)
+    values, notes = mended("frame", vertices, [top, bottom, *sides])
+    assert values.volume == pytest.approx(8.0)
     assert notes == ()
 
 

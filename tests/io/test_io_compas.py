@@ -54,11 +54,11 @@ def mesh_data(k=0, name=None, dtype="compas.datastructures/Mesh"):
 def test_round_trip(tmp_path, name):
     model = STRUCTURES[name]
     path = lb.write_blocks(model, tmp_path / "a.json")
-    found = lb.read_blocks(path)
-    assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
-    assert found.supports == model.supports
-    assert not found.notes
-    interfaces = lb.find_interfaces(found.blocks, JOINT)
+    imported = lb.read_blocks(path)
+    assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
+    assert imported.supports == model.supports
+    assert not imported.notes
+    interfaces = lb.find_interfaces(imported.blocks, JOINT)
     assert len(interfaces) == len(model.interfaces)
     assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
     assert lb.write_blocks(model, tmp_path / "b.json").read_bytes() == path.read_bytes()
@@ -96,10 +96,10 @@ def test_what_compas_writes(tmp_path):
         graph.add_node(k, block=mesh, is_support=k == 0)
     polyhedron = Polyhedron(*CUBES[1].to_vertices_and_faces())
     for k, value in enumerate((meshes, CUBES, {"supports": meshes[:1], "stones": [polyhedron]}, graph)):
-        found = lb.read_blocks(dumped(tmp_path / f"{k}.json", value))
-        assert [block.volume for block in found.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
-        assert [block.centroid[2] for block in found.blocks] == pytest.approx([0.5, 1.5], rel=1e-12)
-        assert len(found.supports) == (k >= 2)
+        imported = lb.read_blocks(dumped(tmp_path / f"{k}.json", value))
+        assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
+        assert [block.centroid[2] for block in imported.blocks] == pytest.approx([0.5, 1.5], rel=1e-12)
+        assert len(imported.supports) == (k >= 2)
 
 
 def test_assembly_of_parts_that_hold_their_shape(tmp_path):
@@ -225,21 +225,21 @@ def network_document():
 
 @pytest.mark.parametrize("make", [assembly_document, old_model_document, compas_1_document, network_document])
 def test_layouts(tmp_path, make):
-    found = lb.read_blocks(written(tmp_path / "a.json", make()))
-    assert [block.name for block in found.blocks] == ["block 0", "block 1"]
-    assert [block.volume for block in found.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
-    assert found.supports == ("block 0",)
-    assert found.layers == {"block 0": "support", "block 1": "block"}
-    assert len(lb.find_interfaces(found.blocks, JOINT)) == 1
+    imported = lb.read_blocks(written(tmp_path / "a.json", make()))
+    assert [block.name for block in imported.blocks] == ["block 0", "block 1"]
+    assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
+    assert imported.supports == ("block 0",)
+    assert imported.layers == {"block 0": "support", "block 1": "block"}
+    assert len(lb.find_interfaces(imported.blocks, JOINT)) == 1
 
 
 def test_transformations_of_a_model(tmp_path):
-    found = lb.read_blocks(written(tmp_path / "a.json", model_document()), unit_weight={"LIMESTONE": 22e3})
-    assert found.supports == ("block 0",)
-    assert set(found.layers.values()) == {"LIMESTONE"}
+    imported = lb.read_blocks(written(tmp_path / "a.json", model_document()), unit_weight={"LIMESTONE": 22e3})
+    assert imported.supports == ("block 0",)
+    assert set(imported.layers.values()) == {"LIMESTONE"}
     # the model turns by 90 degrees what its group and the element itself moved by 10 each
-    assert found.blocks[1].centroid == pytest.approx([0.0, 20.0, 1.5], abs=1e-9)
-    assert found.blocks[1].weight == pytest.approx(22e3, rel=1e-12)
+    assert imported.blocks[1].centroid == pytest.approx([0.0, 20.0, 1.5], abs=1e-9)
+    assert imported.blocks[1].weight == pytest.approx(22e3, rel=1e-12)
 
 
 def test_box_in_a_frame(tmp_path):

@@ -19,8 +19,8 @@ NAMES = list(EXAMPLES)
 def example(name):
     """The structure with all the interfaces that its blocks have; a two-leaf wall leaves out some."""
     model = EXAMPLES[name](JOINT)
-    found = lb.find_interfaces(model.blocks, JOINT)
-    return replace(model, interfaces=found, dead=lb.self_weight(), live=LIVE)
+    interfaces = lb.find_interfaces(model.blocks, JOINT)
+    return replace(model, interfaces=interfaces, dead=lb.self_weight(), live=LIVE)
 
 
 def through(model, file):

@@ -133,12 +133,12 @@ def test_only_our_errors_come_out_of_wrong_terms(tmp_path_factory, place, value)
     changed = EVERY | {"live": [*EVERY["live"][:k], EVERY["live"][k] | {key: value}, *EVERY["live"][k + 1 :]]}
     file = tmp_path_factory.mktemp("fuzz") / "model.json"
     file.write_text(json.dumps(changed))
-    found = outcome(file)
-    if isinstance(found, lb.LimitBlocksError):
-        assert all(str(file) in problem for problem in found.problems)
-        assert "\n" not in str(found)
+    imported = outcome(file)
+    if isinstance(imported, lb.LimitBlocksError):
+        assert all(str(file) in problem for problem in imported.problems)
+        assert "\n" not in str(imported)
     else:
-        assert lb.read(found.save(file, overwrite=True)).digest == found.digest
+        assert lb.read(imported.save(file, overwrite=True)).digest == imported.digest
 
 
 def outcome(file):

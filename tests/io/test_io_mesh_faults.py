@@ -111,12 +111,12 @@ def test_damaged_file_gives_blocks_or_one_clean_error(form, files, tmp_path):
     path = tmp_path / form
     assert len(outcome_of(path, files[form])) >= 1  # sound before it is damaged
     for _ in range(int(os.environ.get("MUTATIONS", "200"))):
-        found = outcome_of(path, mutated(files[form], rng))
-        if isinstance(found, lb.ModelError):
-            assert str(found).startswith(str(path))
-            assert "\n" not in str(found)
+        imported = outcome_of(path, mutated(files[form], rng))
+        if isinstance(imported, lb.ModelError):
+            assert str(imported).startswith(str(path))
+            assert "\n" not in str(imported)
         else:
-            assert all(block.volume > 0.0 for block in found)
+            assert all(block.volume > 0.0 for block in imported)
 
 
 def outcome_of(path, data):
@@ -146,8 +146,8 @@ def test_gltf_with_odd_values_gives_blocks_or_one_clean_error(files, tmp_path):
         for step in steps:
             part = part[step]
         part[last] = ODD[rng.integers(len(ODD))]
-        found = outcome_of(tmp_path / "odd.gltf", json.dumps(document).encode())
-        assert isinstance(found, lb.ModelError) or all(block.volume > 0.0 for block in found)
+        imported = outcome_of(tmp_path / "odd.gltf", json.dumps(document).encode())
+        assert isinstance(imported, lb.ModelError) or all(block.volume > 0.0 for block in imported)
 
 
 def changed(data, old, new):
@@ -238,11 +238,11 @@ DAMAGE = {
 def test_damage_is_named_in_one_line(name, files, tmp_path):
     form, damage, said = DAMAGE[name]
     path = tmp_path / form
-    found = outcome_of(path, damage(files[form]))
-    assert isinstance(found, lb.ModelError)
-    assert str(found).startswith(str(path))
-    assert said in str(found)
-    assert "\n" not in str(found)
+    imported = outcome_of(path, damage(files[form]))
+    assert isinstance(imported, lb.ModelError)
+    assert str(imported).startswith(str(path))
+    assert said in str(imported)
+    assert "\n" not in str(imported)
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb", ".gltf"])

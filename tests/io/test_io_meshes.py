@@ -35,7 +35,7 @@ def same_interfaces(blocks, model, tolerance):
     before, after = lb.find_interfaces(model.blocks, JOINT), lb.find_interfaces(blocks, JOINT)
     assert len(after) == len(before)
     assert area(after) == pytest.approx(area(before), rel=tolerance)
-    places = [np.array([interface.centroid for interface in found]) for found in (before, after)]
+    places = [np.array([interface.centroid for interface in result]) for result in (before, after)]
     assert np.abs(places[1] - places[0]).max() <= 10 * tolerance * np.abs(places[0]).max()
 
 
@@ -44,14 +44,14 @@ def same_interfaces(blocks, model, tolerance):
 def test_structure_keeps_its_interfaces(name, suffix, tmp_path):
     model = STRUCTURES[name]
     path = lb.write_blocks(model, tmp_path / f"structure{suffix}")
-    found = lb.read_blocks(path, unit_weight=20e3)
-    same_interfaces(found.blocks, model, PRECISION[suffix])
+    imported = lb.read_blocks(path, unit_weight=20e3)
+    same_interfaces(imported.blocks, model, PRECISION[suffix])
     if suffix == ".ply":  # has no names
-        assert found.blocks[1].name == "structure 2"
+        assert imported.blocks[1].name == "structure 2"
     else:
-        assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
-        assert found.notes == ()
-    assert all(block.unit_weight == 20e3 for block in found.blocks)
+        assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
+        assert imported.notes == ()
+    assert all(block.unit_weight == 20e3 for block in imported.blocks)
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".glb"])
@@ -107,11 +107,11 @@ def test_files_of_another_writer_are_read(suffix, tmp_path):
             (tmp_path / (path.name if file.endswith(".gltf") else file)).write_bytes(data)
     else:
         scene.export(path)
-    found = lb.read_blocks(path, up="z")
-    faces = {len(block.faces): block.volume for block in found.blocks}
+    imported = lb.read_blocks(path, up="z")
+    faces = {len(block.faces): block.volume for block in imported.blocks}
     # a regular 12-gon of radius 1/2 has the area 12/2 sin(30 deg) / 4 = 3/4
     assert faces == pytest.approx({14: 0.75, 6: 4.0}, rel=1e-6)
-    (interface,) = lb.find_interfaces(found.blocks, JOINT)
+    (interface,) = lb.find_interfaces(imported.blocks, JOINT)
     assert areas(interface.polygon) == pytest.approx(0.75, rel=1e-6)
 
 
@@ -142,9 +142,9 @@ def test_obj_has_blocks_by_object_or_group_and_layers(tmp_path):
     high = "".join(f"f {' '.join(str(v - 9) for v in quad)}\n" for quad in quads)  # back from the last
     path = tmp_path / "two.obj"
     path.write_text(f"mtllib x.mtl\n{cube}g base\nusemtl granite\n{low}g shaft\nusemtl brick\n{high}")
-    found = lb.read_blocks(path, unit_weight={"brick": 18e3})
-    assert dict(found.layers) == {"base": "granite", "shaft": "brick"}
-    assert [block.unit_weight for block in found.blocks] == [None, 18e3]
+    imported = lb.read_blocks(path, unit_weight={"brick": 18e3})
+    assert dict(imported.layers) == {"base": "granite", "shaft": "brick"}
+    assert [block.unit_weight for block in imported.blocks] == [None, 18e3]
     path.write_text(f"{cube}o stone\ng pier\n{low}o stone #2\ng pier\n{high}")
     assert dict(lb.read_blocks(path).layers) == {"stone": "pier", "stone #2": "pier"}
     path.write_text(f"{cube}{low}{high}")
@@ -172,9 +172,9 @@ def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
 
 def test_names_become_unique_and_say_so(tmp_path):
     boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(["a", "a", "a 2", "a"])]
-    found = lb.read_blocks(lb.write_blocks(boxes, tmp_path / "a.stl"))
-    assert [block.name for block in found.blocks] == ["a", "a 3", "a 2", "a 4"]
-    assert found.notes == ("3 blocks are named 'a'; all but the first got a number",)
+    imported = lb.read_blocks(lb.write_blocks(boxes, tmp_path / "a.stl"))
+    assert [block.name for block in imported.blocks] == ["a", "a 3", "a 2", "a 4"]
+    assert imported.notes == ("3 blocks are named 'a'; all but the first got a number",)
 
 
 def test_cavity_belongs_to_the_block_around_it(tmp_path):
@@ -184,9 +184,9 @@ def test_cavity_belongs_to_the_block_around_it(tmp_path):
     beside.apply_translation((3, 0, 0))
     path = tmp_path / "hollow.stl"
     trimesh.util.concatenate([inner, outer, beside]).export(path)
-    found = lb.read_blocks(path)
-    assert [block.volume for block in found.blocks] == pytest.approx([26.0, 27.0])
-    again = lb.read_blocks(lb.write_blocks(found, tmp_path / "again.obj"))
+    imported = lb.read_blocks(path)
+    assert [block.volume for block in imported.blocks] == pytest.approx([26.0, 27.0])
+    again = lb.read_blocks(lb.write_blocks(imported, tmp_path / "again.obj"))
     assert [block.volume for block in again.blocks] == pytest.approx([26.0, 27.0])
 
 

@@ -192,8 +192,8 @@ def test_cells_stay_in_order_where_faces_have_different_numbers_of_corners(tmp_p
         1.0,
     )
     blocks = [lb.Block.box("ground", (1, 1, 1), (0.5, 0.5, -0.5)), prism]
-    found = lb.find_interfaces(blocks, joint)
-    model = lb.Model(blocks, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    interfaces = lb.find_interfaces(blocks, joint)
+    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     mesh = meshio.read(lb.write_vtu(model, tmp_path / "two.vtu")[0])
     cells = [tuple(cell) for run in mesh.cells for cell in run.data.tolist()]
     starts = {"ground": 0, "prism": 8}

@@ -80,11 +80,11 @@ def extrusion(outline, height):
 @pytest.mark.parametrize("name", STRUCTURES)
 def test_round_trip(tmp_path, name):
     model = STRUCTURES[name]
-    found = lb.read_blocks(lb.write_blocks(model, tmp_path / "a.3dm"))
-    assert [block.name for block in found.blocks] == [block.name for block in model.blocks]
-    assert found.supports == model.supports
-    assert not found.notes
-    interfaces = lb.find_interfaces(found.blocks, JOINT)
+    imported = lb.read_blocks(lb.write_blocks(model, tmp_path / "a.3dm"))
+    assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
+    assert imported.supports == model.supports
+    assert not imported.notes
+    interfaces = lb.find_interfaces(imported.blocks, JOINT)
     assert len(interfaces) == len(model.interfaces)
     assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
 
@@ -98,16 +98,16 @@ def test_round_trip_bounds(tmp_path):
 
 def test_every_digit_survives_far_from_the_origin(tmp_path):
     blocks = [lb.Block.box("a", (1 / 3, 1 / 7, 1.1), (123456.7, -765432.1, 1 / 3))]
-    found = lb.read_blocks(lb.write_blocks(blocks, tmp_path / "a.3dm"))
-    assert {*map(tuple, found.blocks[0].vertices.tolist())} == {*map(tuple, blocks[0].vertices.tolist())}
+    imported = lb.read_blocks(lb.write_blocks(blocks, tmp_path / "a.3dm"))
+    assert {*map(tuple, imported.blocks[0].vertices.tolist())} == {*map(tuple, blocks[0].vertices.tolist())}
 
 
 def test_block_that_is_not_convex(tmp_path):
     drawing = Drawing()
     drawing.add(extrusion(L_SHAPE, 2.0), "L")
-    found = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
-    assert found.blocks[0].volume == pytest.approx(3.0 * 2.0, rel=1e-12)
-    again = lb.read_blocks(lb.write_blocks(found, tmp_path / "b.3dm"))
+    imported = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
+    assert imported.blocks[0].volume == pytest.approx(3.0 * 2.0, rel=1e-12)
+    again = lb.read_blocks(lb.write_blocks(imported, tmp_path / "b.3dm"))
     assert again.blocks[0].volume == pytest.approx(3.0 * 2.0, rel=1e-12)
 
 
@@ -125,14 +125,14 @@ def test_polysurfaces_extrusions_layers_and_what_is_hidden(tmp_path):
     drawing.add(box(), "no", hidden)
     drawing.add(box(), "no", below)
     drawing.model.Objects.AddLine(rhino3dm.Point3d(0, 0, 0), rhino3dm.Point3d(1, 1, 1))
-    found = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
-    assert [block.name for block in found.blocks] == ["ground", "wedge"]
-    assert [block.volume for block in found.blocks] == pytest.approx([0.1, 0.25], rel=1e-12)
-    assert dict(found.layers) == {"ground": "Support", "wedge": "stone::north"}
-    assert found.supports == ("ground",)
-    assert found.notes == ("left out: 1 LineCurve, 3 hidden objects",)
-    again = lb.read_blocks(lb.write_blocks(found, tmp_path / "b.3dm"))
-    assert again.layers == dict(found.layers) | {"ground": "support"}
+    imported = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
+    assert [block.name for block in imported.blocks] == ["ground", "wedge"]
+    assert [block.volume for block in imported.blocks] == pytest.approx([0.1, 0.25], rel=1e-12)
+    assert dict(imported.layers) == {"ground": "Support", "wedge": "stone::north"}
+    assert imported.supports == ("ground",)
+    assert imported.notes == ("left out: 1 LineCurve, 3 hidden objects",)
+    again = lb.read_blocks(lb.write_blocks(imported, tmp_path / "b.3dm"))
+    assert again.layers == dict(imported.layers) | {"ground": "support"}
 
 
 @pytest.mark.parametrize(("units", "metres"), [("Centimeters", 0.01), ("Feet", 0.3048), ("Inches", 0.0254)])
@@ -165,15 +165,15 @@ def test_instances(tmp_path):
         place.M22 = scale
         drawing.add(rhino3dm.InstanceReference(key, place), f"i{k}", layer)
     drawing.add(rhino3dm.InstanceReference(key, turn), "turned", layer)
-    found = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
-    assert [block.name for block in found.blocks] == ["i0", "i1", "i2", "turned"]
-    assert [block.volume for block in found.blocks] == pytest.approx([6.0, 12.0, 6.0, 6.0], rel=1e-9)
+    imported = lb.read_blocks(drawing.saved(tmp_path / "a.3dm"))
+    assert [block.name for block in imported.blocks] == ["i0", "i1", "i2", "turned"]
+    assert [block.volume for block in imported.blocks] == pytest.approx([6.0, 12.0, 6.0, 6.0], rel=1e-9)
     heights = (1.5, 3.0, -1.5)
     for k in range(3):
         middle = [10.0 * k + 0.5, 1 / 3 + 1.0, 1e6 + 0.1 + heights[k]]
-        assert found.blocks[k].centroid == pytest.approx(middle, rel=1e-12)
-    assert found.blocks[3].centroid == pytest.approx([-1.0, 0.5, 1.5], rel=1e-12)
-    assert not found.notes
+        assert imported.blocks[k].centroid == pytest.approx(middle, rel=1e-12)
+    assert imported.blocks[3].centroid == pytest.approx([-1.0, 0.5, 1.5], rel=1e-12)
+    assert not imported.notes
 
 
 def curved():

@@ -60,12 +60,12 @@ def rows_by_mode(joint, Q):
     """-(F Q + g) of planes and ||z|| - t of cones, the largest of each mode, for states Q (k, 6)."""
     rows = joint.yield_rows(RECTANGLE[None])
     value = Q @ rows.F[0].T + rows.g[0]
-    found, k = {}, 0
+    result, k = {}, 0
     for size in (*([1] * rows.linear), *rows.cones):
         margin = value[:, k] - np.linalg.norm(value[:, k + 1 : k + size], axis=1)
-        found.setdefault(rows.modes[k], []).append(-margin)
+        result.setdefault(rows.modes[k], []).append(-margin)
         k += size
-    return {mode: np.max(values, axis=0) for mode, values in found.items()}
+    return {mode: np.max(values, axis=0) for mode, values in result.items()}
 
 
 def test_row_counts():
@@ -102,9 +102,9 @@ def test_rows_are_the_printed_equations():
 )
 def test_table_4_lies_on_eq_30_and_on_the_surface(M1, M2, T):
     Q = -N * np.array([(0, 0, -1, a * M1, b * M2, c * T) for a in (1, -1) for b in (1, -1) for c in (1, -1)])
-    found = rows_by_mode(PAPER, Q / -N)
-    np.testing.assert_allclose(found["moment-twist"], 0, atol=1e-12)
-    assert max(values.max() for values in found.values()) <= 1e-12
+    result = rows_by_mode(PAPER, Q / -N)
+    np.testing.assert_allclose(result["moment-twist"], 0, atol=1e-12)
+    assert max(values.max() for values in result.values()) <= 1e-12
     interface = lb.interface(RECTANGLE, None)
     for state in Q:
         assert "moment-twist" in PAPER.active_modes(interface, state)
@@ -155,14 +155,14 @@ def test_inner_and_outer_polygons_enclose_the_circle(sides):
 
 def test_gap_of_the_polygons_falls_as_the_square_of_their_sides():
     gaps = [1 - np.cos(np.pi / sides) for sides in (8, 16, 32)]
-    interface, found = lb.interface(RECTANGLE, None), []
+    interface, values = lb.interface(RECTANGLE, None), []
     for sides in (8, 16, 32):
         angle = np.pi / sides
         d = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
         joint = lb.OrdunaLourenco(MU, slip="inner", sides=sides)
-        found.append(1 - joint.strength(interface, d, COMPRESSION) / (-MU * N))
-    np.testing.assert_allclose(found, gaps, rtol=1e-9)
-    assert found[0] / found[1] == pytest.approx(4, rel=0.02)
+        values.append(1 - joint.strength(interface, d, COMPRESSION) / (-MU * N))
+    np.testing.assert_allclose(values, gaps, rtol=1e-9)
+    assert values[0] / values[1] == pytest.approx(4, rel=0.02)
 
 
 def test_paper_octagon_is_too_strong_by_eight_per_cent():

@@ -143,16 +143,18 @@ def test_noise_in_a_stress_state_does_not_stop_the_solver():
                 ((-0.5 * MU * N, 0, N, 0, 0, 0), 0.5),
                 ((0, 0, N, 0.3 * N * L2, 0, 0), 0.3),
             ):
-                found = lb.PointContact(MU).utilisation(interface, np.add(Q, noise))
-                assert found == pytest.approx(share, abs=20 * size + 1e-8)
+                values = lb.PointContact(MU).utilisation(interface, np.add(Q, noise))
+                assert values == pytest.approx(share, abs=20 * size + 1e-8)
 
 
 def test_utilisation_of_every_interface_of_a_wall():
     """A stress state of the static theorem is within every yield set; HiGHS's presolve gave up on one."""
     model = lb.structures.ferris_tin_loi_wall(1, lb.PointContact(0.6))
-    found = lb.bounds(model)
-    used = [i.joint.utilisation(i, Q) for i, Q in zip(model.interfaces, found.stress_resultants, strict=True)]
-    carries = np.abs(found.stress_resultants[:, 2]) > 1e-3 * model.free_blocks[0].weight
+    result = lb.bounds(model)
+    used = [
+        i.joint.utilisation(i, Q) for i, Q in zip(model.interfaces, result.stress_resultants, strict=True)
+    ]
+    carries = np.abs(result.stress_resultants[:, 2]) > 1e-3 * model.free_blocks[0].weight
     assert np.all(np.array(used)[carries] <= 1 + 1e-5)
     assert max(np.array(used)[carries]) == pytest.approx(1, abs=1e-5)  # it collapses
 
@@ -161,8 +163,8 @@ def test_an_interface_that_carries_rounding_alone():
     """HiGHS gave up on such states, 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side."""
     polygon = np.array([(0.3, -0.1), (0.3, 0.1), (-0.3, 0.1), (-0.3, -0.1)])
     V2, N2, M1 = 5.51144723e-12, -3.90941282e-11, 5.87182741e-13
-    found = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
-    assert found == pytest.approx(max(V2 / (0.6 * -N2), M1 / (0.1 * -N2)), rel=1e-7)
+    result = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
+    assert result == pytest.approx(max(V2 / (0.6 * -N2), M1 / (0.1 * -N2)), rel=1e-7)
 
 
 def test_given_stresses_outside_are_refused_even_if_the_direction_leads_inside():

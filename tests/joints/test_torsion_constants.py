@@ -32,8 +32,8 @@ def test_rectangle_is_eq_17(l1, l2):
 
 
 def test_rectangle_limits_are_eq_22():
-    found = rectangle_torsion_constant([0.0, 3.0, 0.0, 1e-300, 1e-8], [3.0, 0.0, 0.0, 3.0, 3.0])
-    np.testing.assert_allclose(found, [1.5, 1.5, 0.0, 1.5, 1.5], rtol=1e-14)
+    values = rectangle_torsion_constant([0.0, 3.0, 0.0, 1e-300, 1e-8], [3.0, 0.0, 0.0, 3.0, 3.0])
+    np.testing.assert_allclose(values, [1.5, 1.5, 0.0, 1.5, 1.5], rtol=1e-14)
 
 
 def test_square():

@@ -106,8 +106,8 @@ def triangle(a, b):
 
 @pytest.mark.parametrize(("a", "b"), [(1.0, 1.0), (2.0, 0.3), (0.2, 5.0)])
 def test_right_triangle_is_eqs_11_to_15(a, b):
-    found = values(np.array([(0, 0), (a, 0), (a, b)]), (0.0, 0.0))[:5]
-    np.testing.assert_allclose(found, triangle(a, b), rtol=1e-12)
+    result = values(np.array([(0, 0), (a, 0), (a, b)]), (0.0, 0.0))[:5]
+    np.testing.assert_allclose(result, triangle(a, b), rtol=1e-12)
 
 
 def test_printed_sign_of_eq_14_contradicts_t1_plus_t2():
@@ -132,10 +132,10 @@ def test_limits_of_a_and_b(slender):
 def test_centre_on_the_boundary_is_the_limit_of_its_neighbours(place):
     for shift in (1e-7, 1e-12, 1e-18, 1e-200):
         around = np.array(place) + shift * np.array([(1, 0), (-1, 0), (0, 1), (0, -1), (0, 0)])
-        found = values(SQUARE, around)
-        assert np.isfinite(found).all()
+        result = values(SQUARE, around)
+        assert np.isfinite(result).all()
         np.testing.assert_allclose(
-            found, found[:, -1:] * np.ones(5), rtol=20 * shift + 1e-12, atol=1e-13 + 20 * shift
+            result, result[:, -1:] * np.ones(5), rtol=20 * shift + 1e-12, atol=1e-13 + 20 * shift
         )
 
 

@@ -75,8 +75,8 @@ def test_mass_on_an_unknown_block_is_refused_by_the_model():
 @pytest.mark.parametrize("analysis", [lb.bounds, lb.nonassociated])
 def test_tangent_of_the_tilting_angle_is_friction_or_slenderness(friction, analysis):
     tilt = lb.tilting((2.0, 0.0, 0.0))
-    found = analysis(block(lb.PointContact(friction), tilt.dead, tilt.live))
-    load_factor = found.lower if analysis is lb.bounds else found.load_factor
+    result = analysis(block(lb.PointContact(friction), tilt.dead, tilt.live))
+    load_factor = result.lower if analysis is lb.bounds else result.load_factor
     assert np.tan(tilt.angle(load_factor)) == pytest.approx(min(friction, B / H), rel=1e-5)
 
 
@@ -100,10 +100,10 @@ def test_tilting_towards_no_horizontal_direction_is_refused(direction):
 
 def test_compass_points():
     assert lb.compass(4).tolist() == [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
-    found = lb.compass(16, vertical=True)
-    assert np.linalg.norm(found, axis=1) == pytest.approx(1.0)
-    assert found[:16].sum(axis=0) == pytest.approx(0.0, abs=1e-12)
-    assert found[16:].tolist() == [[0, 0, 1], [0, 0, -1]]
+    directions = lb.compass(16, vertical=True)
+    assert np.linalg.norm(directions, axis=1) == pytest.approx(1.0)
+    assert directions[:16].sum(axis=0) == pytest.approx(0.0, abs=1e-12)
+    assert directions[16:].tolist() == [[0, 0, 1], [0, 0, -1]]
     with pytest.raises(lb.ModelError, match="count"):
         lb.compass(0)
 

@@ -232,22 +232,22 @@ class _Embedding:
             dx = scaled - np.einsum("pij,pj->pi", squares, ds)
             return dx, ds, dy, d_alpha, d_tau, (product - self.kappa * d_tau) / self.tau
 
-        found = direction(ONE, -square, -self.tau * self.kappa)
-        share = (ONE - self.step(found)) ** 3
-        target = -square - jordan(scaling.times(found[0]), scaling.times(found[1], -ONE))
+        result = direction(ONE, -square, -self.tau * self.kappa)
+        share = (ONE - self.step(result)) ** 3
+        target = -square - jordan(scaling.times(result[0]), scaling.times(result[1], -ONE))
         target[:, 0] += share * mu
-        product = share * mu - self.tau * self.kappa - found[4] * found[5]
-        found = direction(ONE - share, target, product)
-        step = self.step(found) * Decimal("0.99")
-        steps = [step * part for part in found]
+        product = share * mu - self.tau * self.kappa - result[4] * result[5]
+        result = direction(ONE - share, target, product)
+        step = self.step(result) * Decimal("0.99")
+        steps = [step * part for part in result]
         self.x, self.s, self.y = self.x + steps[0], self.s + steps[1], self.y + steps[2]
         self.alpha += steps[3]
         self.tau += steps[4]
         self.kappa += steps[5]
 
-    def step(self, found):
-        step = min(longest(self.x, found[0]), longest(self.s, found[1]))
-        for value, rate in ((self.tau, found[4]), (self.kappa, found[5])):
+    def step(self, result):
+        step = min(longest(self.x, result[0]), longest(self.s, result[1]))
+        for value, rate in ((self.tau, result[4]), (self.kappa, result[5])):
             if rate < 0:
                 step = min(step, -value / rate)
         return step

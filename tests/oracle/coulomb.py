@@ -91,11 +91,11 @@ class Group:
     def sensitivity(self, answer):
         """Change of the optimum for unit relative changes of every number of the program, at worst."""
         rates, forces, at = abs(answer.rates), abs(answer.forces).ravel(), 0
-        found = rates @ abs(self.dead) + abs(answer.value)
+        result = rates @ abs(self.dead) + abs(answer.value)
         for rows, matrix in self.columns:
-            found += rates[rows] @ abs(matrix) @ forces[at : at + matrix.shape[1]]
+            result += rates[rows] @ abs(matrix) @ forces[at : at + matrix.shape[1]]
             at += matrix.shape[1]
-        return found
+        return result
 
     def margin(self):
         """Largest m such that the dead loads stand with every force m within its cone (see `wrenches`)."""

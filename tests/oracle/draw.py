@@ -74,13 +74,13 @@ def assembled(draw, boxes, supports=()):
         shapes.box(name, *ends, None if name in supports else draw.weight())
         for name, ends in everything.items()
     ]
-    found = [
+    interfaces = [
         one
         for one in shapes.touching(everything, draw.joint)
         if not {one.block_i, one.block_j} <= set(supports)
     ]
-    order = draw.rng.permutation(len(found))
-    return Parts(blocks, list(supports), [found[k] for k in order])
+    order = draw.rng.permutation(len(interfaces))
+    return Parts(blocks, list(supports), [interfaces[k] for k in order])
 
 
 def moved(parts, turn, shift=(0.0, 0.0, 0.0)):

@@ -47,10 +47,10 @@ def truth_of(case: Case, record: dict[str, dict] | None = None) -> Truth:
     digest = case.model.digest
     if record is not None and digest in record:
         return Truth(**record[digest])
-    found = truth(case.model)
+    known = truth(case.model)
     if record is not None:
-        record[digest] = asdict(found)
-    return found
+        record[digest] = asdict(known)
+    return known
 
 
 def recorded(file: Path = RECORD) -> dict[str, dict]:
@@ -68,7 +68,7 @@ def judged(model: lb.Model, expected: Truth) -> Verdict:
     if expected.verdict == "undecided":
         return Verdict("undecided")
     try:
-        found = lb.bounds(model)
+        result = lb.bounds(model)
     except (lb.NoEquilibrium, lb.UnlimitedLoad) as error:
         word = "falls" if isinstance(error, lb.NoEquilibrium) else "unlimited"
         return Verdict("right" if expected.verdict == word else f"says {word}", str(error))
@@ -76,20 +76,20 @@ def judged(model: lb.Model, expected: Truth) -> Verdict:
         return Verdict("refused", str(error))
     except Exception as error:
         return Verdict("crashed", f"{type(error).__name__}: {error}")
-    said = f"{found.lower:.12g} to {found.upper:.12g}"
+    said = f"{result.lower:.12g} to {result.upper:.12g}"
     if expected.verdict != "number":
         return Verdict(f"number for {expected.verdict}", said)
     value = expected.load_factor
-    slack = (PROVEN if found.proven else RELATIVE) * value + ROUNDING
+    slack = (PROVEN if result.proven else RELATIVE) * value + ROUNDING
     said += f", truth {value:.12g}"
-    if found.lower > value + slack:
+    if result.lower > value + slack:
         return Verdict("lower too high", said)
-    if found.upper < value - slack:
+    if result.upper < value - slack:
         return Verdict("upper too low", said)
-    width = found.upper - found.lower
+    width = result.upper - result.lower
     # bounds that hold but lie farther apart than the library promises
     wide = width > 2 * (RELATIVE * value + ROUNDING)
-    return Verdict("wide" if wide else "right", said, width / value if found.proven and value else None)
+    return Verdict("wide" if wide else "right", said, width / value if result.proven and value else None)
 
 
 def judged_nonassociated(case: Case, expected: Truth) -> Verdict:
@@ -97,8 +97,8 @@ def judged_nonassociated(case: Case, expected: Truth) -> Verdict:
     if expected.verdict == "undecided":
         return Verdict("undecided")
     try:
-        found = lb.nonassociated(case.model)
-        passed = lb.check_mcp(case.model, found).passed
+        result = lb.nonassociated(case.model)
+        passed = lb.check_mcp(case.model, result).passed
     except lb.NoEquilibrium as error:
         return Verdict("right" if expected.verdict == "falls" else "says falls", str(error))
     except lb.NotConverged as error:
@@ -107,12 +107,12 @@ def judged_nonassociated(case: Case, expected: Truth) -> Verdict:
         return Verdict("refused", str(error))
     except Exception as error:
         return Verdict("crashed", f"{type(error).__name__}: {error}")
-    said = f"{found.load_factor:.12g}, associated truth {expected.load_factor:.12g}"
+    said = f"{result.load_factor:.12g}, associated truth {expected.load_factor:.12g}"
     if expected.verdict == "falls":
         return Verdict("number for falls", said)
     if not passed:
         return Verdict("check fails", said)
-    return Verdict(_nonassociated_number(case, expected, found.load_factor), said)
+    return Verdict(_nonassociated_number(case, expected, result.load_factor), said)
 
 
 def _nonassociated_number(case: Case, expected: Truth, value: float) -> str:

@@ -40,9 +40,9 @@ def forest(draw):
             places.append((name, low[:2], np.array([at - 0.02 * sides[0], high[1]])))
             places.append((name, np.array([at + 0.02 * sides[0], low[1]]), high[:2]))
     boxes = {**floor_under(boxes), **boxes}
-    found = [one for name, parent in below.items() for one in stood(boxes, name, parent, draw.joint)]
+    interfaces = [one for name, parent in below.items() for one in stood(boxes, name, parent, draw.joint)]
     blocks = [shapes.box(n, *ends, draw.weight() if n in below else None) for n, ends in boxes.items()]
-    return Parts(blocks, ["floor"], found, [loaded_on(name, below) for name in below])
+    return Parts(blocks, ["floor"], interfaces, [loaded_on(name, below) for name in below])
 
 
 def stood(boxes, name, parent, joint_of):
@@ -72,7 +72,7 @@ def spire(draw):
     ring = np.array([(np.cos(a), np.sin(a)) for a in 2 * np.pi * (np.arange(n) + 0.3 * np.cos(corners)) / n])
     size, at, z = draw.size(), np.zeros(2), 0.0
     blocks = [shapes.frustum("floor", 2 * size * ring, 2 * size * ring, (-size, 0.0))]
-    found, below = [], {}
+    values, below = [], {}
     for k in range(draw.count(2, 7)):
         name, top = f"b{k}", size * draw.uniform(0.5, 1.1)
         tip = at + draw.uniform(-0.2, 0.2, 2) * size
@@ -82,11 +82,11 @@ def spire(draw):
         blocks.append(replace(made, unit_weight=draw.weight() / made.volume))
         lower = blocks[-2].name
         level = np.column_stack([foot, np.full(n, z)])
-        found.append(shapes.interface(lower, name, level, (0, 0, 1), draw.joint()))
+        values.append(shapes.interface(lower, name, level, (0, 0, 1), draw.joint()))
         below[name] = lower
         z, size = z + height, top * 10 ** -abs(draw.uniform(0, draw.size_spread / 3))
         at = tip + draw.uniform(-0.5, 0.5, 2) * (top - size) * 0.5
-    return Parts(blocks, ["floor"], found, [loaded_on(name, below) for name in below])
+    return Parts(blocks, ["floor"], values, [loaded_on(name, below) for name in below])
 
 
 def row(draw):
@@ -189,7 +189,7 @@ def in_groove(draw):
     faces = ((0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0))
     prism = lb.Block("prism", np.concatenate(ends), faces, 1.0)
     prism = replace(prism, unit_weight=draw.weight() / prism.volume)
-    supports, found = [], []
+    supports, values = [], []
     for name, sign in (("right", 1.0), ("left", -1.0)):
         out = np.array([sign * np.cos(w), 0.0, -np.sin(w)])  # out of the prism
         edge = np.array([sign * wide, 0.0, deep])
@@ -197,10 +197,10 @@ def in_groove(draw):
         corners = (
             corners if np.cross(corners[1] - corners[0], corners[2] - corners[1]) @ out > 0 else corners[::-1]
         )
-        found.append(shapes.interface("prism", name, corners, out, joint))
+        values.append(shapes.interface("prism", name, corners, out, joint))
         at = np.array([sign * 2 * wide, along / 2, -deep])
         supports.append(lb.Block.box(name, (wide, along, deep), at))
-    return Parts([*supports, prism], ["right", "left"], found, known=lambda: groove(mu, w))
+    return Parts([*supports, prism], ["right", "left"], values, known=lambda: groove(mu, w))
 
 
 def beside(draw):

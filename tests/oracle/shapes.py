@@ -58,11 +58,11 @@ def touching(boxes, joint_of):
 
     `joint_of()` gives the joint of each.
     """
-    found, names = [], list(boxes)
+    values, names = [], list(boxes)
     for a, i in enumerate(names):
         for j in names[a + 1 :]:
-            found += [one for axis in range(3) for one in _faces(boxes, i, j, axis, joint_of)]
-    return found
+            values += [one for axis in range(3) for one in _faces(boxes, i, j, axis, joint_of)]
+    return values
 
 
 def _faces(boxes, i, j, axis, joint_of):

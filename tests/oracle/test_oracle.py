@@ -19,18 +19,18 @@ EXACT = 1e-12  # what the doubles of the geometry leave
 
 
 def assert_load_factor(model, expected, rel=EXACT):
-    found = truth(model)
-    assert found.verdict == "number"
-    assert found.load_factor == pytest.approx(expected, rel=rel)
+    known = truth(model)
+    assert known.verdict == "number"
+    assert known.load_factor == pytest.approx(expected, rel=rel)
 
 
 def on_floor(boxes, joints, direction=(1, 0, 0)):
     """Model of boxes {name: (low, high, weight)} on a floor, joints {"i|j": joint}."""
     ends = {name: box[:2] for name, box in boxes.items()}
     ends = {**draw.floor_under(ends), **ends}
-    found = [replace(one, joint=joints[one.name]) for one in shapes.touching(ends, lambda: None)]
+    interfaces = [replace(one, joint=joints[one.name]) for one in shapes.touching(ends, lambda: None)]
     blocks = [shapes.box(name, *box, boxes[name][2] if name in boxes else None) for name, box in ends.items()]
-    return lb.Model(blocks, ["floor"], found, lb.self_weight(), lb.mass_proportional(direction))
+    return lb.Model(blocks, ["floor"], interfaces, lb.self_weight(), lb.mass_proportional(direction))
 
 
 @pytest.mark.parametrize("friction", [1e-9, 1e-6, 0.3, 0.9, 1e8])
@@ -151,10 +151,10 @@ def test_a_load_on_one_of_two_blocks_leaves_the_other_to_stand_or_fall():
             lb.self_weight(),
             lb.force("p block 1", (1.0, 0, 0), at=(0.5, 0, 0.1)),
         )
-        found = truth(model)
-        assert found.verdict == verdict
+        known = truth(model)
+        assert known.verdict == verdict
         if verdict == "number":
-            assert found.load_factor == pytest.approx(0.4 * model.free_blocks[0].weight, rel=EXACT)
+            assert known.load_factor == pytest.approx(0.4 * model.free_blocks[0].weight, rel=EXACT)
 
 
 def parts_of(model):
@@ -167,10 +167,10 @@ def test_random_forests_spires_slopes_and_grooves(start):
     cases = [case for case in cases if case.known is not None and case.kind != "paper"]
     assert len(cases) > 10
     for case in cases[:8]:
-        found = truth(case.model)
-        assert found.verdict == case.known.verdict, case
-        if found.verdict == "number":
-            assert found.load_factor == pytest.approx(case.known.load_factor, rel=1e-10), case
+        known = truth(case.model)
+        assert known.verdict == case.known.verdict, case
+        if known.verdict == "number":
+            assert known.load_factor == pytest.approx(case.known.load_factor, rel=1e-10), case
 
 
 @pytest.mark.parametrize(

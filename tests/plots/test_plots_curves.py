@@ -15,8 +15,8 @@ RECTANGLE = lb.interface([(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)], JOINT)
 
 
 def curve(ax, label=None):
-    found = [line for line in ax.lines if label is None or line.get_label() == label]
-    return found[0].get_xydata()
+    values = [line for line in ax.lines if label is None or line.get_label() == label]
+    return values[0].get_xydata()
 
 
 def contains(points, wanted):
@@ -218,13 +218,13 @@ def test_polar_refuses_what_it_cannot_draw(arguments, message):
 
 
 def test_bracket_draws_every_load_factor():
-    found = path().collapse
-    ax = lb.plots.bracket(path(), found, bounds(rocking))
+    result = path().collapse
+    ax = lb.plots.bracket(path(), result, bounds(rocking))
     names = [text.get_text() for text in ax.get_yticklabels()]
     widths = dict(zip(names, [bar.get_width() for bar in ax.patches], strict=True))
     assert list(widths) == ["frictionless", "non-associated", "load path", "associated"]
-    assert np.isclose(widths["frictionless"], found.frictionless, atol=1e-9)
-    assert widths["non-associated"] == widths["load path"] == found.load_factor
+    assert np.isclose(widths["frictionless"], result.frictionless, atol=1e-9)
+    assert widths["non-associated"] == widths["load path"] == result.load_factor
     assert np.isclose(widths["associated"], 0.25, rtol=1e-6)  # width / height
     assert {"0.25"} <= {text.get_text() for text in ax.texts}
     assert "(–)" in ax.get_xlabel()
@@ -232,9 +232,18 @@ def test_bracket_draws_every_load_factor():
 
 
 def test_bracket_says_unlimited():
-    odd = dataclasses.replace(path().collapse, associated=np.inf, frictionless=np.nan)
+    odd = dataclasses.replace(path().collapse, associated=np.inf)
     ax = lb.plots.bracket(odd)
-    assert {"unlimited", "does not stand"} <= {text.get_text() for text in ax.texts}
+    assert "unlimited" in {text.get_text() for text in ax.texts}
+
+
+def test_bracket_claims_a_lower_end_for_all_results_or_for_none():
+    result = path().collapse
+    turned = dataclasses.replace(result, frictionless=np.nan, unclaimed="a joint can give power")
+    for results in ((turned,), (result, turned), (turned, result)):
+        said = {text.get_text() for text in lb.plots.bracket(*results).texts}
+        assert "not claimed" in said
+    assert "not claimed" not in {text.get_text() for text in lb.plots.bracket(result).texts}
 
 
 @pytest.mark.parametrize(

@@ -29,8 +29,8 @@ def drawn(name, make, *args, **settings):
 
 def polygons(ax):
     """Corners of all filled polygons of an elevation but the lines of interfaces."""
-    found = [c for c in ax.collections if isinstance(c, PolyCollection) and not c.get_label().count("(")]
-    return [path.vertices[:-1] for c in found for path in c.get_paths()]
+    values = [c for c in ax.collections if isinstance(c, PolyCollection) and not c.get_label().count("(")]
+    return [path.vertices[:-1] for c in values for path in c.get_paths()]
 
 
 def has(ax, corners):

@@ -53,9 +53,9 @@ def test_the_identity_of_the_product(a):
 
 @given(interior())
 def test_inverse_arrow(a):
-    found = (CONES.inverse_arrow(a) @ CONES.arrow(a)).toarray()
+    result = (CONES.inverse_arrow(a) @ CONES.arrow(a)).toarray()
     condition = np.linalg.cond(CONES.arrow(a).toarray())
-    np.testing.assert_allclose(found, np.eye(12), atol=1e-13 * condition)
+    np.testing.assert_allclose(result, np.eye(12), atol=1e-13 * condition)
 
 
 @given(interior(), VECTORS)
@@ -140,10 +140,10 @@ def test_share_of_nothing_held():
 
 @pytest.mark.parametrize("size", [2, 3, 4])
 def test_rays_lie_on_the_boundary_in_the_planes_of_two_axes(size):
-    found = rays(size, 8)
-    np.testing.assert_allclose(found[:, 0], np.linalg.norm(found[:, 1:], axis=1), atol=1e-15)
-    assert (np.count_nonzero(np.abs(found[:, 1:]) > 1e-12, axis=1) <= 2).all()
-    assert len(found) == {2: 2, 3: 8, 4: 24}[size]
+    result = rays(size, 8)
+    np.testing.assert_allclose(result[:, 0], np.linalg.norm(result[:, 1:], axis=1), atol=1e-15)
+    assert (np.count_nonzero(np.abs(result[:, 1:]) > 1e-12, axis=1) <= 2).all()
+    assert len(result) == {2: 2, 3: 8, 4: 24}[size]
 
 
 @given(VECTORS, st.floats(1e-9, 10.0))

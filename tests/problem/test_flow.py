@@ -69,9 +69,9 @@ def two_frictions():
         lb.Block.box("lower", (1, 1, 0.5), (0, 0, 0.25), 20e3),
         lb.Block.box("upper", (1, 1, 0.5), (0, 0, 0.75), 20e3),
     ]
-    found = [*lb.find_interfaces(blocks[:2], lb.OrdunaLourenco(0.3))]
-    found += lb.find_interfaces(blocks[1:], lb.OrdunaLourenco(0.6))
-    return lb.Model(blocks, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    interfaces = [*lb.find_interfaces(blocks[:2], lb.OrdunaLourenco(0.3))]
+    interfaces += lb.find_interfaces(blocks[1:], lb.OrdunaLourenco(0.6))
+    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
 
 
 @every_joint
@@ -124,9 +124,9 @@ def test_slip_lifts_by_the_dilatancy(dilatancy):
     normal = int(np.flatnonzero(point.F.toarray()[t])[0])
     across = [int(np.flatnonzero(point.F.toarray()[row])[0]) for row in (z1, z2)]
     direction = np.array([0.6, -0.8])  # of V; the multipliers are (1, -direction)
-    found = -G.T[:, [t, z1, z2]] @ np.concatenate([[1.0], -direction])
-    assert found[normal] / np.hypot(*found[across]) == pytest.approx(dilatancy)
-    np.testing.assert_allclose(found[across] / np.hypot(*found[across]), direction)
+    values = -G.T[:, [t, z1, z2]] @ np.concatenate([[1.0], -direction])
+    assert values[normal] / np.hypot(*values[across]) == pytest.approx(dilatancy)
+    np.testing.assert_allclose(values[across] / np.hypot(*values[across]), direction)
 
 
 def test_every_mode_flows_the_way_its_stress_pushes():
@@ -176,9 +176,9 @@ def test_about_the_centroid_nothing_slips_and_g_is_constant():
     problem = problem_of(JOINTS[0])
     flow = Flow(problem)
     assert flow.constant
-    found = rates(flow, bent_state(problem))
-    np.testing.assert_array_equal(found, rates(flow, np.zeros(6)))
-    np.testing.assert_array_equal(found[rows_of(problem, Mode.MOMENT_TWIST), :5], 0.0)
+    result = rates(flow, bent_state(problem))
+    np.testing.assert_array_equal(result, rates(flow, np.zeros(6)))
+    np.testing.assert_array_equal(result[rows_of(problem, Mode.MOMENT_TWIST), :5], 0.0)
 
 
 def test_the_centre_stays_near_the_interface_where_the_quotient_is_noise():
@@ -206,10 +206,10 @@ def test_the_derivative_of_the_flow(joint, turning, dilatancy, seed):
         return -flow.matrix(stresses).T @ y
 
     columns = [(strain_rates(x + step * e) - strain_rates(x - step * e)) / (2 * step) for e in np.eye(len(x))]
-    found = flow.derivative(x, y).toarray()
-    np.testing.assert_allclose(found, np.transpose(columns), atol=1e-7 * max(1.0, np.abs(found).max()))
+    result = flow.derivative(x, y).toarray()
+    np.testing.assert_allclose(result, np.transpose(columns), atol=1e-7 * max(1.0, np.abs(result).max()))
     turns = turning is Turning.PRESSURE and problem.pivot.any() and dilatancy < MU
-    assert (np.abs(found).max() > 1e-3) == turns == (not flow.constant)
+    assert (np.abs(result).max() > 1e-3) == turns == (not flow.constant)
 
 
 def states_at_yield(problem, seed):
@@ -229,28 +229,28 @@ def dissipations(turning, ratio, modes=None):
     problem = problem_of(JOINTS[0], (float(ratio), 1.0))
     flow = Flow(problem, 0.0, turning)
     unit = np.eye(len(problem.g))
-    found = [
+    values = [
         flow.dissipation(x, unit[row])[0]
         for x, active in states_at_yield(problem, ratio)
         for row in active
         if modes is None or problem.row_mode[row] in modes
     ]
-    return np.array(found)
+    return np.array(values)
 
 
 @RATIOS
 def test_turning_about_the_centroid_never_does_negative_work(ratio):
-    found = dissipations(Turning.CENTROID, ratio)
-    assert len(found) >= STATES
-    assert found.min() >= -1e-12
+    result = dissipations(Turning.CENTROID, ratio)
+    assert len(result) >= STATES
+    assert result.min() >= -1e-12
 
 
 @RATIOS
 def test_table_5_does_negative_work(ratio):
     """About 8 % of these states at yield by bending and torsion; how many depends on how they are drawn."""
-    found = dissipations(Turning.PRESSURE, ratio, {Mode.MOMENT_TWIST})
-    assert len(found) > 100
-    assert (found < -1e-6).mean() > 0.05
+    values = dissipations(Turning.PRESSURE, ratio, {Mode.MOMENT_TWIST})
+    assert len(values) > 100
+    assert (values < -1e-6).mean() > 0.05
 
 
 def test_dissipation_is_the_power_of_the_stresses_on_the_strain_rates():

@@ -10,6 +10,7 @@ from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, Pat
 from limitblocks.problem import Turning
 from limitblocks.report import curve
 from limitblocks.report.comparison import comparison
+from limitblocks.report.terminal import print_result
 
 
 def portal(name="lintel"):
@@ -108,13 +109,32 @@ def test_answers_stand_side_by_side_with_what_they_mean():
 
 
 def test_missing_limits_are_said_in_words():
-    result = replace(RESULT, frictionless=np.nan, associated=np.inf)
+    why = "without friction the dead loads do not stand"
+    result = replace(RESULT, frictionless=np.nan, unclaimed=why, associated=np.inf)
     report = lb.report(MODEL, result)
     text = words(report.html)
-    assert "Frictionless none without friction the dead loads do not stand" in text
+    assert f"Frictionless not claimed {why}" in text
     assert "Associated unlimited dilating joints jam" in text
     content = json.loads(report.json, parse_constant=pytest.fail)
     assert content["results"][0]["associated"] is None
+
+
+def test_a_lower_end_that_is_no_theorem_is_not_claimed(capsys):
+    """In every format, and beside a result that has one."""
+    why = "with this turning a joint can give power"
+    turned = replace(RESULT, turning=Turning.PRESSURE, frictionless=np.nan, unclaimed=why)
+    for results in ((RESULT, turned), (turned, RESULT), (load_path(end=turned),)):
+        rows = {name: (value, meaning) for name, value, meaning in comparison(results)}
+        assert rows["Frictionless"] == ("not claimed", why)
+    report = lb.report(MODEL, turned)
+    assert f"Frictionless not claimed {why}" in words(report.html)
+    assert f"| Frictionless | not claimed | {why} |" in report.markdown
+    content = json.loads(report.json)
+    assert (content["results"][0]["frictionless"], content["results"][0]["unclaimed"]) == (None, why)
+    print_result(MODEL, turned)
+    assert re.search(r"Frictionless +not claimed", capsys.readouterr().out)
+    print_result(MODEL, RESULT)
+    assert "not claimed" not in capsys.readouterr().out + words(lb.report(MODEL, RESULT).html)
 
 
 def test_what_did_not_converge_is_not_sold_as_a_solution():
@@ -139,7 +159,8 @@ def test_results_of_other_models_are_refused():
         with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
             lb.report(portal("beam"), result)
     with pytest.raises(
-        lb.LimitBlocksError, match="expected a result: Bounds, Check, LoadPath, Nonassociated"
+        lb.LimitBlocksError,
+        match="expected a result: Bounds, Check, LoadFactorRange, LoadPath, Nonassociated",
     ):
         lb.report(MODEL, "result")
 

@@ -35,8 +35,8 @@ def test_example_touches_exactly(models, name):
         return  # by design no joint between the leaves
     supports = set(model.supports)
     for gap, angle in ((1e-2, 5e-2), (1e-5, 1e-5)):
-        found = lb.find_interfaces(model.blocks, JOINT, gap=gap, angle=angle)
-        assert Counter(i.name for i in found if not {i.block_i, i.block_j} <= supports) == Counter(
+        interfaces = lb.find_interfaces(model.blocks, JOINT, gap=gap, angle=angle)
+        assert Counter(i.name for i in interfaces if not {i.block_i, i.block_j} <= supports) == Counter(
             i.name for i in model.interfaces
         )
 

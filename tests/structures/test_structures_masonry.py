@@ -22,9 +22,9 @@ def leaves(**change):
 
 
 def load_factor(model):
-    found = lb.bounds(model)
-    assert found.gap < 1e-6
-    return found.lower
+    result = lb.bounds(model)
+    assert result.gap < 1e-6
+    return result.lower
 
 
 def test_leaves_without_headers_rock_one_by_one():
@@ -39,10 +39,10 @@ def test_headers_tie_the_leaves():
     """From the leaves by themselves towards one piece, the closer the headers the stronger."""
     b, height = 0.15, 1.2
     spacings = [(0.8, 3), (0.8, 2), (0.4, 1)]
-    found = [load_factor(leaves(header_spacing=s, header_courses=c)) for s, c in spacings]
-    assert np.all(np.diff(found) > 0.0)
-    assert found[0] > 1.2 * b / height
-    assert found[-1] < 2 * b / height
+    load_factors = [load_factor(leaves(header_spacing=s, header_courses=c)) for s, c in spacings]
+    assert np.all(np.diff(load_factors) > 0.0)
+    assert load_factors[0] > 1.2 * b / height
+    assert load_factors[-1] < 2 * b / height
 
 
 def test_a_collar_joint_helps_the_headers():
@@ -102,9 +102,9 @@ def test_tower_with_openings():
 
 def test_tower_resists_less_than_one_piece():
     """As one piece it would overturn at the width over the height."""
-    found = [load_factor(structures.tower(JOINT, length=2.4, width=2.4, courses=c)) for c in (2, 4)]
-    assert 0.4 / 1.6 < found[1] < found[0]
-    assert found[1] <= 2.4 / 1.6
+    load_factors = [load_factor(structures.tower(JOINT, length=2.4, width=2.4, courses=c)) for c in (2, 4)]
+    assert 0.4 / 1.6 < load_factors[1] < load_factors[0]
+    assert load_factors[1] <= 2.4 / 1.6
 
 
 @pytest.mark.parametrize("bonded", [True, False])
@@ -125,13 +125,13 @@ def test_buttress(bonded):
 def test_a_buttress_props_the_wall_and_holds_it_back_if_bonded():
     change = {"length": 2.0, "courses": 6, "buttress_length": 0.8}
     alone = 0.4 / 2.4
-    found = {}
+    values = {}
     for bonded in (True, False):
         model = structures.buttressed_wall(JOINT, **change, bonded=bonded)
         back = replace(model, live=lb.mass_proportional((0.0, -1.0, 0.0)))
-        found[bonded] = load_factor(model), load_factor(back)
-    assert found[True][0] > found[False][0] > 1.2 * alone
-    assert found[True][1] > found[False][1] >= alone
+        values[bonded] = load_factor(model), load_factor(back)
+    assert values[True][0] > values[False][0] > 1.2 * alone
+    assert values[True][1] > values[False][1] >= alone
 
 
 def test_without_dilatancy_a_wall_leaves_its_loose_buttress_at_b_over_h():
@@ -159,11 +159,11 @@ def test_cantilever_stair(overlap):
 
 
 def test_more_wall_above_carries_more():
-    found = [
+    load_factors = [
         load_factor(structures.cantilever_stair(JOINT, treads=2, overlap=0.0, courses_above=k))
         for k in (1, 3, 5)
     ]
-    assert np.all(np.diff(found) > 0.0)
+    assert np.all(np.diff(load_factors) > 0.0)
 
 
 def test_a_single_corbel_by_hand():

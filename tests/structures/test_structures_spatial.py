@@ -141,10 +141,10 @@ def test_eccentric_lintel_is_governed_by_twist():
     assert len(model.interfaces) == heads + beds
     assert volume(model) == pytest.approx(thickness * height * (3 * 2.4 + 1.6 + 1.6 + 0.4))
     assert {"lintel", "load"} < {block.name for block in model.free_blocks}
-    found = lb.bounds(model)
-    assert 0.0 < found.lower < 0.3  # less than sliding
+    result = lb.bounds(model)
+    assert 0.0 < result.lower < 0.3  # less than sliding
     names = [block.name for block in model.blocks]
-    rates = found.displacement_rates[names.index("lintel"), 3:]
+    rates = result.displacement_rates[names.index("lintel"), 3:]
     assert abs(rates[2]) > 5.0 * np.abs(rates[:2]).max()  # about Z
 
 

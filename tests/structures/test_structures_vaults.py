@@ -20,14 +20,14 @@ def volume(model):
 
 def contact_areas(model):
     """Area of all interfaces by kind: vertical on a diagonal, across an axis, or anything else."""
-    found = Counter()
+    result = Counter()
     for interface in model.interfaces:
         normal = np.abs(interface.axes[2])
         kind = "bed"
         if normal[2] < 1e-9:
             kind = "diagonal" if abs(normal[0] - normal[1]) < 1e-9 else "head"
-        found[kind] += float(area_of(interface.polygon))
-    return found
+        result[kind] += float(area_of(interface.polygon))
+    return result
 
 
 def section(radius, thickness, courses, embrace):
@@ -81,8 +81,10 @@ def test_thicker_vaults_are_stronger(name):
     change = {"radius": 2.0, "courses": 7, "stone_length": 1.0} | (
         {"length": 5.2} if name == "groin_vault" else {}
     )
-    found = [lb.bounds(getattr(structures, name)(JOINT, thickness=t, **change)).lower for t in (0.3, 0.5)]
-    assert 0.0 < found[0] < found[1]
+    load_factors = [
+        lb.bounds(getattr(structures, name)(JOINT, thickness=t, **change)).lower for t in (0.3, 0.5)
+    ]
+    assert 0.0 < load_factors[0] < load_factors[1]
 
 
 @pytest.mark.parametrize("running_bond", [True, False])
@@ -128,11 +130,11 @@ def test_dome_of_many_stones_is_a_spherical_shell():
 
 def test_bond_makes_a_dome_stronger_and_thickness_too():
     change = {"radius": 2.0, "courses": 3, "stones": 6}
-    found = [
+    load_factors = [
         lb.bounds(structures.dome(JOINT, **change, thickness=t, running_bond=bond)).lower
         for t, bond in ((0.2, False), (0.2, True), (0.3, True))
     ]
-    assert 0.0 < found[0] < found[1] < found[2]
+    assert 0.0 < load_factors[0] < load_factors[1] < load_factors[2]
 
 
 @pytest.mark.parametrize("angle", [0.1, 1.0])

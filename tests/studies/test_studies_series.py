@@ -40,23 +40,23 @@ def slab(overhang=1.5, half=1.0):
 def test_rocking_against_direction(analysis):
     """About the nearer edge: min(b1 / (h |cos|), b2 / (h |sin|))."""
     count = 16 if analysis == "bounds" else 4
-    found = studies.directions(block(), count, analysis=analysis)
-    assert found.angles == pytest.approx(2 * np.pi * np.arange(count) / count)
+    series = studies.directions(block(), count, analysis=analysis)
+    assert series.angles == pytest.approx(2 * np.pi * np.arange(count) / count)
     with np.errstate(divide="ignore"):
-        x, y = B1 / (H * np.abs(np.cos(found.angles))), B2 / (H * np.abs(np.sin(found.angles)))
-    assert found.load_factors == pytest.approx(np.minimum(x, y), rel=1e-5)
-    assert found.errors == ("",) * count
-    assert all(result.displacement_rates.shape == (2, 6) for result in found.results)
-    assert found.load_factors[found.least] == pytest.approx(B1 / H, rel=1e-5)
+        x, y = B1 / (H * np.abs(np.cos(series.angles))), B2 / (H * np.abs(np.sin(series.angles)))
+    assert series.load_factors == pytest.approx(np.minimum(x, y), rel=1e-5)
+    assert series.errors == ("",) * count
+    assert all(result.displacement_rates.shape == (2, 6) for result in series.results)
+    assert series.load_factors[series.least] == pytest.approx(B1 / H, rel=1e-5)
 
 
 def test_directions_up_and_down():
-    found = studies.directions(block(), lb.compass(1, vertical=True))
-    assert found.load_factors[1] == pytest.approx(1.0)  # lifted by its own weight
-    assert found.load_factors[2] == np.inf
-    assert found.errors[2].startswith("UnlimitedLoad: ")
-    assert np.isnan(found.angles).tolist() == [False, True, True]
-    assert found.results[2] is None
+    series = studies.directions(block(), lb.compass(1, vertical=True))
+    assert series.load_factors[1] == pytest.approx(1.0)  # lifted by its own weight
+    assert series.load_factors[2] == np.inf
+    assert series.errors[2].startswith("UnlimitedLoad: ")
+    assert np.isnan(series.angles).tolist() == [False, True, True]
+    assert series.results[2] is None
 
 
 def test_live_load_that_cannot_be_turned():
@@ -67,9 +67,9 @@ def test_live_load_that_cannot_be_turned():
     def push(direction):
         return lb.force("block", 1e3 * np.array(direction), (0, 0, H))
 
-    found = studies.directions(model, 4, live=push)
+    series = studies.directions(model, 4, live=push)
     sides = WEIGHT / (2e3 * H) * np.array([B1, B2, B1, B2])
-    assert found.load_factors == pytest.approx(sides, rel=1e-6)
+    assert series.load_factors == pytest.approx(sides, rel=1e-6)
 
 
 @pytest.mark.parametrize("wrong", [[(1, 0)], [], [(0, 0, 0)], [(np.nan, 0, 0)], "north", 0])
@@ -80,38 +80,38 @@ def test_wrong_directions_are_refused(wrong):
 
 def test_load_moving_over_a_cantilever():
     places = [(x, 0.0) for x in (0.0, 1.2, 2.0, 2.4, 2.6)]
-    found = studies.moving_load(slab(), (0, 0, -1e3), places)
+    series = studies.moving_load(slab(), (0, 0, -1e3), places)
     weight = 20e3 * 5.0 * 0.2
-    assert found.load_factors[0] == np.inf
-    assert found.load_factors[1:4] == pytest.approx([weight / 1e3 / (x - 1.0) for x in (1.2, 2.0, 2.4)])
-    assert np.isnan(found.load_factors[4])
-    assert "no free block" in found.errors[4]
-    assert found.worst_position == (2.4, 0.0)
-    assert "least load factor 14.2857 at x 2.4, y 0; 2 without an answer" in str(found)
+    assert series.load_factors[0] == np.inf
+    assert series.load_factors[1:4] == pytest.approx([weight / 1e3 / (x - 1.0) for x in (1.2, 2.0, 2.4)])
+    assert np.isnan(series.load_factors[4])
+    assert "no free block" in series.errors[4]
+    assert series.worst_position == (2.4, 0.0)
+    assert "least load factor 14.2857 at x 2.4, y 0; 2 without an answer" in str(series)
 
 
 def test_load_moving_over_an_arch_is_symmetric_and_worst_off_the_crown():
     arch = lb.structures.arch(lb.PointContact(0.8), radius=5.0, thickness=0.8, voussoirs=15)
     x = np.linspace(-4.0, 4.0, 17)
-    found = studies.moving_load(arch, (0, 0, -1e3), np.column_stack([x, 0 * x]))
-    assert found.load_factors == pytest.approx(found.load_factors[::-1], rel=1e-6)
-    assert 0.0 < abs(found.worst_position[0]) < 4.0
+    series = studies.moving_load(arch, (0, 0, -1e3), np.column_stack([x, 0 * x]))
+    assert series.load_factors == pytest.approx(series.load_factors[::-1], rel=1e-6)
+    assert 0.0 < abs(series.worst_position[0]) < 4.0
     least = lb.Model(
         arch.blocks,
         arch.supports,
         arch.interfaces,
         arch.dead,
-        lb.top_force((0, 0, -1e3), found.worst_position),
+        lb.top_force((0, 0, -1e3), series.worst_position),
     )
-    assert lb.bounds(least).lower == found.load_factors[found.least]
+    assert lb.bounds(least).lower == series.load_factors[series.least]
 
 
 def test_axles_by_a_function_of_the_place():
     def axles(place):
         return lb.top_force((0, 0, -1e3), place) + lb.top_force((0, 0, -1e3), (place[0] - 0.4, 0))
 
-    found = studies.moving_load(slab(), axles, [(2.4, 0.0)])
-    assert found.load_factors == pytest.approx([20e3 / (1e3 * (1.4 + 1.0))])
+    series = studies.moving_load(slab(), axles, [(2.4, 0.0)])
+    assert series.load_factors == pytest.approx([20e3 / (1e3 * (1.4 + 1.0))])
 
 
 @pytest.mark.parametrize("wrong", [{"load": (0, 0)}, {"positions": [(0, 0, 0)]}, {"positions": []}])
@@ -123,36 +123,36 @@ def test_wrong_moving_load_is_refused(wrong):
 @pytest.mark.parametrize("joint_type", [lb.PointContact, lb.OrdunaLourenco])
 def test_sweep_over_friction(joint_type):
     frictions = (0.1, 0.3, 0.5, 0.7)
-    found = studies.sweep(lambda mu: block(joint_type(mu)), frictions, parameter="friction")
-    assert found.load_factors == pytest.approx([min(mu, B1 / H) for mu in frictions], rel=1e-5)
-    assert (found.parameter, found.values) == ("friction", frictions)
+    series = studies.sweep(lambda mu: block(joint_type(mu)), frictions, parameter="friction")
+    assert series.load_factors == pytest.approx([min(mu, B1 / H) for mu in frictions], rel=1e-5)
+    assert (series.parameter, series.values) == ("friction", frictions)
 
 
 def test_one_failure_does_not_lose_the_others():
     """A width that is no width, one that stands, one whose dead load pushes it over."""
     push = lb.self_weight() + lb.force("block", (0.3 * WEIGHT, 0, 0), (0, 0, H / 2))
     done = []
-    found = studies.sweep(
+    series = studies.sweep(
         lambda width: block(width=width, dead=push),
         [-1.0, 1.0, 0.5],
         parameter="width",
         progress=lambda k, n: done.append((k, n)),
     )
-    assert [error.split(":")[0] for error in found.errors] == ["GeometryError", "", "NoEquilibrium"]
-    assert np.isnan(found.load_factors).tolist() == [True, False, True]
-    assert found.load_factors[1] == pytest.approx(1.0 / H - 0.3)
+    assert [error.split(":")[0] for error in series.errors] == ["GeometryError", "", "NoEquilibrium"]
+    assert np.isnan(series.load_factors).tolist() == [True, False, True]
+    assert series.load_factors[1] == pytest.approx(1.0 / H - 0.3)
     assert done == [(2, 3), (3, 3)]
 
 
 def test_not_converged_keeps_the_best_state():
-    found = studies.sweep(
+    series = studies.sweep(
         lambda mu: block(lb.PointContact(mu)), [0.3], analysis="nonassociated", means=[Means(Barrier(), 0, 0)]
     )
-    assert found.errors[0].startswith("NotConverged: ")
-    assert np.isnan(found.load_factors[0])
-    assert not found.results[0].converged
+    assert series.errors[0].startswith("NotConverged: ")
+    assert np.isnan(series.load_factors[0])
+    assert not series.results[0].converged
     with pytest.raises(lb.SolveError, match="NotConverged"):
-        _ = found.least
+        _ = series.least
 
 
 def test_errors_of_the_maker_that_are_not_ours_are_raised():
@@ -181,23 +181,23 @@ def test_a_process_that_dies_is_our_error():
 
 
 def test_rows_as_text_numbers_and_csv(tmp_path):
-    found = studies.directions(block(), lb.compass(2, vertical=True))
-    table = found.table().splitlines()
+    series = studies.directions(block(), lb.compass(2, vertical=True))
+    table = series.table().splitlines()
     assert table[0].split()[:5] == ["angle", "x", "y", "z", "load_factor"]
     assert len(table) == 5
-    file = found.write_csv(tmp_path / "rows.csv")
+    file = series.write_csv(tmp_path / "rows.csv")
     with file.open(newline="", encoding="utf-8") as stream:
         rows = list(csv.DictReader(stream))
-    assert [float(row["load_factor"]) for row in rows] == found.load_factors.tolist()
+    assert [float(row["load_factor"]) for row in rows] == series.load_factors.tolist()
     assert "UnlimitedLoad" in rows[3]["error"]
     with pytest.raises(lb.LimitBlocksError, match="exists"):
-        found.write_csv(file)
-    found.write_csv(file, overwrite=True)
+        series.write_csv(file)
+    series.write_csv(file, overwrite=True)
     with pytest.raises(lb.LimitBlocksError, match="cannot write"):
-        found.write_csv(tmp_path / "no" / "rows.csv")
-    written = json.loads(lb.write_result(found, tmp_path / "rows.json").read_text())
+        series.write_csv(tmp_path / "no" / "rows.csv")
+    written = json.loads(lb.write_result(series, tmp_path / "rows.json").read_text())
     assert (written["study"], written["of"], len(written["rows"])) == ("Directions", "bounds", 4)
-    assert written["rows"][0]["load_factor"] == found.load_factors[0]
+    assert written["rows"][0]["load_factor"] == series.load_factors[0]
     assert written["rows"][3]["load_factor"] is None  # JSON has no infinity
     with pytest.raises(lb.ModelError, match="holds a study"):
         lb.read_result(tmp_path / "rows.json")

@@ -24,42 +24,42 @@ def wall(width, push=PUSH, joint=None):
 
 def test_least_width_of_a_pushed_wall():
     """gamma b h b / 2 = P h / 2: b = sqrt(P / gamma)."""
-    found = studies.minimum(wall, 0.1, 2.0, parameter="width")
-    low, high = found.bracket
-    assert high - low <= found.tolerance == pytest.approx(1.9e-6)
-    assert found.value == found.stands == high
+    threshold = studies.minimum(wall, 0.1, 2.0, parameter="width")
+    low, high = threshold.bracket
+    assert high - low <= threshold.tolerance == pytest.approx(1.9e-6)
+    assert threshold.value == threshold.stands == high
     assert low - 2e-6 <= np.sqrt(PUSH / GAMMA) <= high + 2e-6
-    assert len(found.trials) < 25  # a smooth margin: not twenty halvings and two ends
+    assert len(threshold.trials) < 25  # a smooth margin: not twenty halvings and two ends
 
 
 def test_least_width_with_a_load_factor():
     """gamma b h b / 2 = (P + a gamma b h) h / 2: b^2 - a h b - P / gamma = 0."""
     a = 0.1
-    found = studies.minimum(wall, 0.1, 2.0, load_factor=a)
+    threshold = studies.minimum(wall, 0.1, 2.0, load_factor=a)
     width = (a * H + np.sqrt((a * H) ** 2 + 4 * PUSH / GAMMA)) / 2
-    assert found.value == pytest.approx(width, abs=4e-6)
+    assert threshold.value == pytest.approx(width, abs=4e-6)
     assert lb.bounds(wall(width)).lower == pytest.approx(a, rel=1e-4)
 
 
 def test_largest_push():
-    found = studies.maximum(lambda push: wall(1.0, push), 0.0, 1e6, parameter="push", tolerance=1.0)
-    assert found.value == pytest.approx(GAMMA, abs=2.0)
-    assert found.stands < found.falls
-    assert "push" in str(found)
+    threshold = studies.maximum(lambda push: wall(1.0, push), 0.0, 1e6, parameter="push", tolerance=1.0)
+    assert threshold.value == pytest.approx(GAMMA, abs=2.0)
+    assert threshold.stands < threshold.falls
+    assert "push" in str(threshold)
 
 
 def test_ends_of_the_bracket_stand_and_fall():
-    found = studies.minimum(wall, 0.1, 2.0, tolerance=1e-3)
-    lb.bounds(wall(found.stands))
+    threshold = studies.minimum(wall, 0.1, 2.0, tolerance=1e-3)
+    lb.bounds(wall(threshold.stands))
     with pytest.raises(lb.NoEquilibrium):
-        lb.bounds(wall(found.falls))
+        lb.bounds(wall(threshold.falls))
 
 
 def test_sliding():
     """mu gamma b h = P."""
     mu = 0.3
-    found = studies.minimum(lambda b: wall(b, joint=lb.OrdunaLourenco(mu)), 0.05, 2.0)
-    assert found.value == pytest.approx(max(PUSH / (mu * GAMMA * H), np.sqrt(PUSH / GAMMA)), abs=1e-5)
+    threshold = studies.minimum(lambda b: wall(b, joint=lb.OrdunaLourenco(mu)), 0.05, 2.0)
+    assert threshold.value == pytest.approx(max(PUSH / (mu * GAMMA * H), np.sqrt(PUSH / GAMMA)), abs=1e-5)
 
 
 def test_least_thickness_of_a_semicircular_arch():
@@ -68,8 +68,8 @@ def test_least_thickness_of_a_semicircular_arch():
     def arch(thickness):
         return lb.structures.arch(lb.PointContact(0.5), radius=10.0, thickness=thickness, voussoirs=27)
 
-    found = studies.minimum(arch, 0.9, 1.3, parameter="thickness")
-    assert 1.067 <= found.value <= 1.068
+    threshold = studies.minimum(arch, 0.9, 1.3, parameter="thickness")
+    assert 1.067 <= threshold.value <= 1.068
 
 
 def test_margin_of_a_pushed_wall():
@@ -106,15 +106,15 @@ def test_frictionless_joints_have_no_margin_but_yes_and_no():
 
 def test_numbers_and_csv(tmp_path):
     tried = []
-    found = studies.minimum(wall, 0.1, 2.0, parameter="width", tolerance=1e-2, progress=tried.append)
-    assert tried == [value for value, _ in found.trials]
-    rows = found.rows()
+    threshold = studies.minimum(wall, 0.1, 2.0, parameter="width", tolerance=1e-2, progress=tried.append)
+    assert tried == [value for value, _ in threshold.trials]
+    rows = threshold.rows()
     stands = [row["stands"] for row in rows]
     assert stands == sorted(stands)
-    assert len(found.table().splitlines()) == 1 + len(rows)
-    assert found.write_csv(tmp_path / "a.csv").read_text().splitlines()[0] == "width,margin,stands"
-    written = json.loads(lb.write_result(found, tmp_path / "a.json").read_text())
-    assert written["bracket"] == list(found.bracket)
+    assert len(threshold.table().splitlines()) == 1 + len(rows)
+    assert threshold.write_csv(tmp_path / "a.csv").read_text().splitlines()[0] == "width,margin,stands"
+    written = json.loads(lb.write_result(threshold, tmp_path / "a.json").read_text())
+    assert written["bracket"] == list(threshold.bracket)
 
 
 @pytest.mark.parametrize(

@@ -60,8 +60,8 @@ def thrust_line_margin(inner, outer, weight, moment):
     (a, p), (b, q) = moments(inner), moments(outer)
     ones = np.ones((len(a), 1))
     rows = np.vstack([np.hstack([a, ones]), np.hstack([-b, ones])])
-    found = linprog([0, 0, -1], rows, np.concatenate([-p, q]), bounds=[(0, None), (0, None), (None, None)])
-    return found.x[2]
+    values = linprog([0, 0, -1], rows, np.concatenate([-p, q]), bounds=[(0, None), (0, None), (None, None)])
+    return values.x[2]
 
 
 def circular_half(thickness, *, radius=1.0, shift=0.0, embrace=np.pi, cuts=4001, lumped=False):
@@ -81,6 +81,20 @@ def circular_half(thickness, *, radius=1.0, shift=0.0, embrace=np.pi, cuts=4001,
         ends = [np.vstack([top, end]) for top, end in zip(apex, ends, strict=True)]
         weight, moment = (np.vstack([np.zeros_like(part[:1]), part]) for part in (weight, moment))
     return *ends, weight.sum(axis=1), moment.sum(axis=1)
+
+
+def vertical_half(thickness, *, cuts=4001):
+    """Right half of a semicircle of radius 1 with vertical cuts down to the intrados, then the springing."""
+    x = (1 - thickness / 2) * np.sin(np.linspace(0.0, np.pi / 2, cuts))
+    x = np.append(x, 1 + thickness / 2)  # all beyond the last vertical cut bears on the springing
+    ends, weight, moment = [], 0.0, 0.0
+    for r, sign in ((1 - thickness / 2, -1), (1 + thickness / 2, 1)):
+        at = np.minimum(x, r)
+        height = np.sqrt(np.maximum(r**2 - at**2, 0.0))
+        ends.append(np.column_stack([at, height]))
+        weight = weight + sign * (at * height + r**2 * np.arcsin(at / r)) / 2
+        moment = moment + sign * (r**3 - height**3) / 3
+    return *ends, weight, moment
 
 
 def elliptical_half(thickness, *, a, b, cuts=4001):

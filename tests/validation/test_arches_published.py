@@ -22,9 +22,9 @@ def crown_force(model):
     keystone = model.free_blocks[len(model.free_blocks) // 2]
     weight = 0.02 * sum(block.weight for block in model.free_blocks)
     push = lb.force(keystone.name, (0, 0, -weight), at=keystone.centroid)
-    found = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
-    assert found.gap < 1e-6
-    return found.lower
+    result = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
+    assert result.gap < 1e-6
+    return result.lower
 
 
 def least_thickness(joint, voussoirs, low, high, change=lambda model: model):
@@ -62,10 +62,10 @@ def test_least_thickness_of_many_voussoirs():
 @pytest.mark.parametrize(("friction", "expected"), [(0.7, 0.107426), (0.309215, 0.200637)])
 def test_least_thickness_with_weights_on_the_centreline(friction, expected):
     """Cocchetti & Rizzi (2020), Table 3: t/R by friction, many voussoirs."""
-    found = least_thickness(
+    thicknesses = least_thickness(
         lb.PointContact(friction), 201, 0.97 * expected, 1.03 * expected, lumped_on_the_centreline
     )
-    assert found == pytest.approx(expected, rel=2e-4)  # 201 voussoirs are not infinitely many
+    assert thicknesses == pytest.approx(expected, rel=2e-4)  # 201 voussoirs are not infinitely many
 
 
 def test_thrust_and_haunch_hinge_of_the_thinnest_arch():
@@ -77,13 +77,13 @@ def test_thrust_and_haunch_hinge_of_the_thinnest_arch():
     weight_per_angle = sum(block.weight for block in model.free_blocks) / np.pi
     keystone = model.free_blocks[n // 2]
     push = lb.force(keystone.name, (0, 0, -0.02 * np.pi * weight_per_angle), at=keystone.centroid)
-    found = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
-    assert found.lower == pytest.approx(1.0, abs=0.01)
+    result = lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
+    assert result.lower == pytest.approx(1.0, abs=0.01)
     horizontal = [
-        abs(i.axes.T @ Q[:3])[0] for i, Q in zip(model.interfaces, found.stress_resultants, strict=True)
+        abs(i.axes.T @ Q[:3])[0] for i, Q in zip(model.interfaces, result.stress_resultants, strict=True)
     ]
     assert np.array(horizontal) / weight_per_angle == pytest.approx(0.621772, rel=2e-3)
-    spin = {b.name: u[4] for b, u in zip(model.blocks, found.displacement_rates, strict=True)}
+    spin = {b.name: u[4] for b, u in zip(model.blocks, result.displacement_rates, strict=True)}
     opening = np.array([abs(spin[i.block_j] - spin[i.block_i]) for i in model.interfaces])
     angle = np.degrees([np.arctan2(abs(i.centroid[0]), i.centroid[2]) for i in model.interfaces])
     haunch = (angle > 20) & (angle < 80)
@@ -105,6 +105,6 @@ def test_oppenheim(joint_type):
     model = structures.arch(
         joint_type(0.7), radius=RADIUS, thickness=1.5, voussoirs=7, embrace=np.radians(157.5)
     )
-    found = lb.bounds(model)
-    assert found.lower == pytest.approx(0.37, abs=0.005)
-    assert found.gap < 1e-6
+    result = lb.bounds(model)
+    assert result.lower == pytest.approx(0.37, abs=0.005)
+    assert result.gap < 1e-6

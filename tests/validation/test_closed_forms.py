@@ -17,10 +17,10 @@ def joint_type(request):
 
 
 def assert_load_factor(model, expected):
-    found = lb.bounds(model)
-    assert found.lower == pytest.approx(expected, rel=1e-6)
-    assert found.upper == pytest.approx(expected, rel=1e-6)
-    assert found.gap < 1e-6
+    result = lb.bounds(model)
+    assert result.lower == pytest.approx(expected, rel=1e-6)
+    assert result.upper == pytest.approx(expected, rel=1e-6)
+    assert result.gap < 1e-6
 
 
 @pytest.mark.parametrize("friction", [0.2, 0.6])
@@ -73,11 +73,11 @@ def leaves(joint, between, b=0.12, height=2.4):
         lb.Block.box("inner", (1.0, b, height), (0, -b / 2, height / 2), 20e3),
         lb.Block.box("outer", (1.0, b, height), (0, b / 2, height / 2), 20e3),
     ]
-    found = lb.find_interfaces(blocks, joint)
+    interfaces = lb.find_interfaces(blocks, joint)
     vertical = {"inner", "outer"}
-    kept = [i for i in found if {i.block_i, i.block_j} != vertical]
+    kept = [i for i in interfaces if {i.block_i, i.block_j} != vertical]
     if between is not None:
-        kept += [replace(i, joint=between) for i in found if {i.block_i, i.block_j} == vertical]
+        kept += [replace(i, joint=between) for i in interfaces if {i.block_i, i.block_j} == vertical]
     return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
 
 
@@ -115,9 +115,9 @@ def test_block_jammed_under_a_ceiling_is_unlimited(joint_type):
 
 
 def test_block_under_a_ceiling_without_friction_slides_at_once(joint_type):
-    found = lb.bounds(jammed(joint_type(0.0)))
-    assert found.lower == pytest.approx(0.0, abs=1e-6)
-    assert found.upper == pytest.approx(0.0, abs=1e-6)
+    result = lb.bounds(jammed(joint_type(0.0)))
+    assert result.lower == pytest.approx(0.0, abs=1e-6)
+    assert result.upper == pytest.approx(0.0, abs=1e-6)
 
 
 def tilted(model, angle):

@@ -19,12 +19,12 @@ def lunes(thickness, voussoirs, angle=0.1):
 def test_hemisphere_of_lunes_converges_to_the_published_least_thickness():
     """t/R = 0.0428 (Heyman 1967: 0.042), two opposite lunes without hoop force."""
     counts = (25, 51)
-    found = np.array([least_thickness(partial(lunes, voussoirs=n), 0.0434) for n in counts])
+    thicknesses = np.array([least_thickness(partial(lunes, voussoirs=n), 0.0434) for n in counts])
     assert not stands(lunes(0.0427, 101))
     assert stands(lunes(0.0429, 101))
     limit = least_thickness_of_thrust_lines(lune_half, 0.03, 0.06)
     assert limit == pytest.approx(0.0428, abs=5e-5)
-    assert np.all(np.abs(found / limit - 1) * np.square(counts) < 6.0)
+    assert np.all(np.abs(thicknesses / limit - 1) * np.square(counts) < 6.0)
 
 
 @pytest.mark.parametrize("angle", [0.02, 0.5])

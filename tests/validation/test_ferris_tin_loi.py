@@ -12,17 +12,17 @@ ASSOCIATED = {1: 0.64286, 2: 0.58000, 3: 0.40369, 4: 0.33195}  # the source's ta
 @pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)
 @pytest.mark.parametrize("number", ASSOCIATED)
 def test_associated_load_factor_in_plane(number, joint):
-    found = lb.bounds(lb.structures.ferris_tin_loi_wall(number, joint))
-    assert found.lower == pytest.approx(ASSOCIATED[number], abs=1e-5)
-    assert found.upper == pytest.approx(ASSOCIATED[number], abs=1e-5)
-    assert found.gap < 1e-6
+    result = lb.bounds(lb.structures.ferris_tin_loi_wall(number, joint))
+    assert result.lower == pytest.approx(ASSOCIATED[number], abs=1e-5)
+    assert result.upper == pytest.approx(ASSOCIATED[number], abs=1e-5)
+    assert result.gap < 1e-6
 
 
 @pytest.mark.parametrize("thickness", [0.1, 1.0])
 @pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)
 def test_load_factor_in_plane_does_not_depend_on_the_thickness(joint, thickness):
-    found = lb.bounds(lb.structures.ferris_tin_loi_wall(3, joint, thickness=thickness))
-    assert found.lower == pytest.approx(ASSOCIATED[3], abs=1e-5)
+    result = lb.bounds(lb.structures.ferris_tin_loi_wall(3, joint, thickness=thickness))
+    assert result.lower == pytest.approx(ASSOCIATED[3], abs=1e-5)
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)
@@ -30,11 +30,11 @@ def test_load_factor_in_plane_does_not_depend_on_the_thickness(joint, thickness)
 @pytest.mark.parametrize("thickness", [0.2, 0.4])
 def test_plain_wall_pushed_out_of_plane_rocks_as_a_whole(number, joint, thickness):
     wall = lb.structures.ferris_tin_loi_wall(number, joint, thickness=thickness, direction=(0, 1, 0))
-    found = lb.bounds(wall)
+    result = lb.bounds(wall)
     expected = thickness / (len(COURSES[number]) * BLOCK_HEIGHT)
-    assert found.lower == pytest.approx(expected, rel=1e-6)
-    assert found.upper == pytest.approx(expected, rel=1e-6)
-    assert found.gap < 1e-6
+    assert result.lower == pytest.approx(expected, rel=1e-6)
+    assert result.upper == pytest.approx(expected, rel=1e-6)
+    assert result.gap < 1e-6
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.1), lb.PointContact(0.1)], ids=["OL", "PC"])

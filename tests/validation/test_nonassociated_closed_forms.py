@@ -17,9 +17,9 @@ def joint_type(request):
 
 
 def assert_load_factor(model, expected, **options):
-    found = lb.nonassociated(model, **options)
-    assert found.load_factor == pytest.approx(expected, rel=CLOSE)
-    assert lb.check_mcp(model, found).worst.value <= 1e-6
+    result = lb.nonassociated(model, **options)
+    assert result.load_factor == pytest.approx(expected, rel=CLOSE)
+    assert lb.check_mcp(model, result).worst.value <= 1e-6
 
 
 @pytest.mark.parametrize("friction", [0.2, 0.6])
@@ -34,9 +34,9 @@ def test_block_slides_or_rocks(joint_type, friction, b, h, direction):
 def test_a_block_slides_at_the_same_load_whatever_the_dilatancy(joint_type, share):
     """With dilatancy d it does the work -W d ds lifting; the load factor is statics alone: mu."""
     model = structures.block(joint_type(0.3), width=1.0, height=0.5)
-    found = lb.nonassociated(model, dilatancy=share * 0.3)
-    assert found.load_factor == pytest.approx(0.3, rel=CLOSE)
-    along, up = found.displacement_rates[1, [0, 2]]
+    result = lb.nonassociated(model, dilatancy=share * 0.3)
+    assert result.load_factor == pytest.approx(0.3, rel=CLOSE)
+    along, up = result.displacement_rates[1, [0, 2]]
     assert up == pytest.approx(share * 0.3 * along, abs=1e-5 * along)
 
 
@@ -74,11 +74,11 @@ def leaves(joint, between, b=0.12, height=2.4):
         lb.Block.box("inner", (1.0, b, height), (0, -b / 2, height / 2), 20e3),
         lb.Block.box("outer", (1.0, b, height), (0, b / 2, height / 2), 20e3),
     ]
-    found = lb.find_interfaces(blocks, joint)
+    interfaces = lb.find_interfaces(blocks, joint)
     vertical = {"inner", "outer"}
-    kept = [i for i in found if {i.block_i, i.block_j} != vertical]
+    kept = [i for i in interfaces if {i.block_i, i.block_j} != vertical]
     if between is not None:
-        kept += [replace(i, joint=between) for i in found if {i.block_i, i.block_j} == vertical]
+        kept += [replace(i, joint=between) for i in interfaces if {i.block_i, i.block_j} == vertical]
     return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
 
 
@@ -93,9 +93,9 @@ def test_two_leaves_with_a_rough_joint_rock_between_the_two(joint_type):
     """At least one by one, b / H; at most the associated value, itself below the monolithic 2 b / H."""
     b, height = 0.12, 2.4
     model = leaves(joint_type(0.6), joint_type(0.6), b, height)
-    found = lb.nonassociated(model)
-    assert b / height * (1 - CLOSE) <= found.load_factor <= found.associated < 2 * b / height
-    assert lb.check_mcp(model, found).passed
+    result = lb.nonassociated(model)
+    assert b / height * (1 - CLOSE) <= result.load_factor <= result.associated < 2 * b / height
+    assert lb.check_mcp(model, result).passed
 
 
 def jammed(joint):
@@ -118,10 +118,10 @@ def jammed(joint):
 def test_a_jammed_block_gets_one_checked_answer_of_infinitely_many(joint_type, friction, analysis):
     """Every value >= mu is a solution; the path takes one, and the bracket says that nothing bounds it."""
     model = jammed(joint_type(friction))
-    found = analysis(model)
-    assert friction * (1 - CLOSE) <= found.load_factor < np.inf
-    assert found.associated == np.inf
-    assert lb.check_mcp(model, found).worst.value <= 1e-6
+    result = analysis(model)
+    assert friction * (1 - CLOSE) <= result.load_factor < np.inf
+    assert result.associated == np.inf
+    assert lb.check_mcp(model, result).worst.value <= 1e-6
 
 
 def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):

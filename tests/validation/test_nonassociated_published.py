@@ -12,13 +12,13 @@ every_wall = pytest.mark.parametrize("number", NONASSOCIATED)
 both_joints = pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)
 
 
-def assert_published(model, found, number):
+def assert_published(model, result, number):
     """Not unique: 1 % of the reference, at most the associated value, and every residual of the MCP."""
-    assert found.load_factor == pytest.approx(NONASSOCIATED[number], rel=0.01)
-    assert found.load_factor <= ASSOCIATED[number] + 1e-5
-    assert found.associated == pytest.approx(ASSOCIATED[number], abs=1e-5)
-    assert found.frictionless == pytest.approx(0.0, abs=1e-9)  # the base resists no push
-    check = lb.check_mcp(model, found)
+    assert result.load_factor == pytest.approx(NONASSOCIATED[number], rel=0.01)
+    assert result.load_factor <= ASSOCIATED[number] + 1e-5
+    assert result.associated == pytest.approx(ASSOCIATED[number], abs=1e-5)
+    assert result.frictionless == pytest.approx(0.0, abs=1e-9)  # the base resists no push
+    check = lb.check_mcp(model, result)
     assert check.worst.value <= 1e-6
     assert not check.mechanism_found
 
@@ -43,12 +43,12 @@ def test_load_path_ends_at_the_nonassociated_load_factor(number, joint):
 
 def test_a_wall_checked_again_from_its_result_file(tmp_path):
     wall = lb.structures.ferris_tin_loi_wall(3, JOINTS[0])
-    found = lb.nonassociated(wall)
-    again = lb.read_result(lb.write_result(found, tmp_path / "wall.json"))
+    result = lb.nonassociated(wall)
+    again = lb.read_result(lb.write_result(result, tmp_path / "wall.json"))
     check = lb.check_mcp(wall, again)
     assert check.worst.value <= 1e-6
     assert not check.mechanism_found
-    assert again.load_factor == found.load_factor
+    assert again.load_factor == result.load_factor
     with pytest.raises(lb.ModelError, match="belongs to model"):
         lb.check_mcp(lb.structures.ferris_tin_loi_wall(3, JOINTS[1]), again)
 
@@ -58,6 +58,6 @@ def test_a_wall_checked_again_from_its_result_file(tmp_path):
 def test_plain_wall_pushed_out_of_plane_rocks_as_a_whole(joint, thickness):
     """Six courses of 0.175 m: no joint slides, so that thickness / height holds for any flow rule."""
     wall = lb.structures.ferris_tin_loi_wall(1, joint, thickness=thickness, direction=(0, 1, 0))
-    found = lb.nonassociated(wall)
-    assert found.load_factor == pytest.approx(thickness / (6 * 0.175), rel=1e-5)
-    assert lb.check_mcp(wall, found).passed
+    result = lb.nonassociated(wall)
+    assert result.load_factor == pytest.approx(thickness / (6 * 0.175), rel=1e-5)
+    assert lb.check_mcp(wall, result).passed

@@ -17,17 +17,25 @@ from coulomb import Truth
 
 SEEDS = range(60)
 RECORD = judge.recorded()
-TINY = 1e-5  # load factors that double precision may leave undecided: refused, never wrong
+NEEDED = {
+    399: "units of the state before",
+    585: "unlimited load on one block: what it does not reach is judged by the dead loads",
+    1770: "self-stress between two walls, bounded",
+    2132: "polish, weights over 13 decades",
+    2809: "shears in units of friction",
+    4261: "multipliers that follow the rates",
+}
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize(
+    "seed", [*SEEDS, *(pytest.param(seed, id=f"{seed} {NEEDED[seed]}") for seed in NEEDED)]
+)
 def test_random_model(seed):
     case = random_models.case(seed)
     expected = judge.truth_of(case, RECORD)
     assert expected.verdict != "undecided"
     verdict = judge.judged(case.model, expected)
-    tiny = expected.verdict == "number" and abs(expected.load_factor) < TINY
-    assert verdict.outcome in ({"right", "refused"} if tiny else {"right"}), verdict.said
+    assert verdict.outcome == "right", verdict.said
 
 
 def apart(*stones):
@@ -38,13 +46,13 @@ def apart(*stones):
         x += 3 * side
     floor = draw.floor_under(boxes)
     frictions = iter([friction for _, _, friction in stones])
-    found = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
+    interfaces = shapes.touching({**floor, **boxes}, lambda: lb.PointContact(next(frictions)))
     blocks = [shapes.box("floor", *floor["floor"])]
     blocks += [
         shapes.box(name, *ends, weight)
         for (name, ends), (_, weight, _) in zip(boxes.items(), stones, strict=True)
     ]
-    return lb.Model(blocks, ["floor"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return lb.Model(blocks, ["floor"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
 
 
 @pytest.mark.parametrize(

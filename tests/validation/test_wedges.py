@@ -66,8 +66,8 @@ def test_the_octagon_leaves_an_interval(degrees, friction):
     solutions = friction / (np.sin(w) + friction * shares * np.cos(w))
     for load_factor, share in zip(solutions, shares, strict=True):
         assert lb.check_mcp(model, claim(model, load_factor, share)).worst.value < 1e-9
-    found = lb.nonassociated(model).load_factor
-    assert solutions[-1] * (1 - CLOSE) <= found <= solutions[0] * (1 + CLOSE)
+    result = lb.nonassociated(model).load_factor
+    assert solutions[-1] * (1 - CLOSE) <= result <= solutions[0] * (1 + CLOSE)
 
 
 def test_the_circle_leaves_one_number():

@@ -1,13 +1,12 @@
 """One implicit step of loading, solved by an interior-point method with numpy and scipy.
 
-From the state (x0, y0) a step of size 1/rho finds x, u, y and the load factor a with
+From the stresses x0 a step of size 1/rho finds x, u, y and the load factor a with
 
     rho W (x - x0) = C u + G(x)^T y,   dead + a live = C^T x,   live . u = 1,
-    F x + g + (viscosity / rho) (y - y0) = s in K,   y in K*,   s o y = 0.
+    F x + g = s in K,   y in K*,   s o y = 0.
 
-Without viscosity it is a quasi-static step of rigid blocks on joints of compliance W; where x = x0 it is
-Eqs (54)-(59). The flow is not associated, so the central path can fold and the step have no solution
-near by (a snap of the structure); viscosity of the multipliers carries the state across.
+It is a quasi-static step of rigid blocks on joints of compliance W. The flow is not associated, so the
+central path can fold, and the step may have no solution near by.
 """
 
 from __future__ import annotations
@@ -31,18 +30,13 @@ JAMMED = 0.08  # mean length of six steps below which the central path has folde
 
 @dataclass(frozen=True, eq=False)
 class Loading:
-    """What a step starts from and how large it is.
-
-    `weights` is the compliance W of the joints, `damping` is the viscosity of the multipliers over rho.
-    """
+    """What a step starts from and how large it is; `weights` is the compliance W of the joints."""
 
     flow: Flow
     blocks: InterfaceBlocks
     weights: Array
     x0: Array
-    y0: Array
     rho: float
-    damping: float
 
     @property
     def problem(self) -> LimitProblem:
@@ -92,7 +86,7 @@ class Newton:
             loading.rho * loading.weights * (z.x - loading.x0) - self.GT @ z.y - p.C @ z.u,
             p.dead + z.load_factor * p.live - p.C.T @ z.x,
             float(p.live @ z.u - 1.0),
-            p.F @ z.x + p.g - z.s + loading.damping * (z.y - loading.y0),
+            p.F @ z.x + p.g - z.s,
         )
         self.mu = float(z.s @ z.y) / p.cones.degree
         self.size = max(float(np.abs(d).max()) for d in self.defect)
@@ -100,7 +94,7 @@ class Newton:
     def factorise(self) -> None:
         """Eliminate s and y, then x by interfaces; what is left couples the rates and the load factor."""
         step, p, z = self.loading, self.loading.problem, self.z
-        self.scaling = p.cones.inverse_arrow(z.s + step.damping * z.y)
+        self.scaling = p.cones.inverse_arrow(z.s)
         self.slope = sparse.csr_array(self.scaling @ p.cones.arrow(z.y))
         self.turn = step.flow.derivative(z.x, z.y)
         H = self.GT @ (self.slope @ p.F) + sparse.diags_array(step.rho * step.weights + REGULAR) + self.turn
@@ -124,7 +118,7 @@ class Newton:
                 -q1 - (elastic - self.GT @ d.y - p.C @ d.u),
                 -q2 + p.C.T @ d.x - p.live * d.load_factor,
                 -q3 - float(p.live @ d.u),
-                -q4 - (p.F @ d.x - d.s + step.damping * d.y),
+                -q4 - (p.F @ d.x - d.s),
                 q5 - p.cones.product(z.s, d.y) - p.cones.product(z.y, d.s),
             )
             d = d.moved(1.0, correction)
@@ -137,7 +131,7 @@ class Newton:
         dx = h + self.flexibility @ (p.C @ w[:-1])
         ds = p.F @ dx - q4
         dy = self.scaling @ (q5 - p.cones.product(self.z.y, ds))
-        return Point(dx, w[:-1], float(w[-1]), ds + self.loading.damping * dy, dy)
+        return Point(dx, w[:-1], float(w[-1]), ds, dy)
 
     def best_step(self) -> tuple[float, Point]:
         """Length and direction: Mehrotra's, or with more and more centring until it is long enough."""

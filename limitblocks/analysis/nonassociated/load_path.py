@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from typing import Literal
 
 import numpy as np
 
-from limitblocks.analysis.in_si import resultants_of
-from limitblocks.analysis.nonassociated.closing import evidence
-from limitblocks.analysis.nonassociated.loading import stages
-from limitblocks.analysis.nonassociated.loop import finished
+from limitblocks.analysis.nonassociated.loading import Pushed, pushed
+from limitblocks.analysis.nonassociated.loop import end, finished, small_barrier
+from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.nonassociated.stage import Stage
 from limitblocks.analysis.nonassociated.start import (
     Start,
     bracket,
@@ -20,26 +19,18 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
-from limitblocks.analysis.polish import polish
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration, LoadPath, PathStep
+from limitblocks.evidence.results import Iteration, LoadPath
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, LimitProblem, Turning, checked_dilatancy, turning_of
 
-FLOWING = 1e-6  # of the largest displacement rate: less counts as no flow
-# Small steps, halved where one fails; viscosity only where the structure snaps at every size.
-STEPS = Settings(
-    first=0.05,
-    growth=2.0,
-    retries=((1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (1.0, 1e-4), (1.0, 1e-3), (1.0, 1e-2)),
-    leap=0,
-    budget=3000,
-)
+AGREE = 1e-6  # relative difference of two load factors that agree
 
 Stiffness = tuple[float, float]
+Snaps = Literal["across", "along"]
 
 
 def load_path(
@@ -50,17 +41,20 @@ def load_path(
     tolerance: float = TOLERANCE,
     start: Start | None = None,
     stiffness: Stiffness | Mapping[Joint, Stiffness] | None = None,
-    settings: Settings = STEPS,
+    snaps: Snaps = "across",
+    settings: Settings | None = None,
     progress: Callable[[Iteration], None] | None = None,
     throw: bool = True,
 ) -> LoadPath:
     """Return the states through which the structure goes from the permanent loads to collapse.
 
     The blocks are rigid and the joints slightly compliant. The first state is that of the permanent loads
-    of least elastic energy; each implicit step pushes the blocks on by a prescribed work of the live load.
-    At collapse the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold.
-    What is unique: every step, for the compliance given, but where the structure snaps (a step of kind
-    "jump"). What is not: the permanent-load state without the compliance, and the collapse load itself.
+    of least elastic energy; increments of the displacement on which the live load works follow, each from
+    the stresses that the one before left, with slip and opening that do not go back. Each is followed by
+    arclength: where the displacement has to fall before it can grow again the structure snaps. At collapse
+    the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold. What is unique:
+    the way, for the compliance and the increments given. What is not: the permanent-load state without
+    the compliance, and the collapse load itself.
 
     Parameters
     ----------
@@ -73,19 +67,24 @@ def load_path(
         Normal and shear stiffness of the joints per area, N/m3. Their ratios influence the path; their size
         only the displacements. Without it both are one mean block weight per block length cubed, and
         displacements are relative.
-    settings : Settings
-        Size of the steps, and what is tried where one fails.
+    snaps : {"across", "along"}
+        What the steps show of a snap: "across" its two ends, as a slow experiment under control of the
+        displacement would, "along" the unstable states between them, too.
+    settings : Settings, optional
+        Size of the increments.
 
     Raises
     ------
     ModelError
-        If a stiffness is not positive or a joint has none, the dilatancy is out of range, or `start` belongs
-        to another model or is no state of it.
+        If a stiffness is not positive or a joint has none, `snaps` is unknown, the dilatancy is out of
+        range, or `start` belongs to another model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     NotConverged
-        If the path ends above the tolerance; carries the collapse state.
+        If the path ends above the tolerance; carries the last state.
     """
+    if snaps not in ("across", "along"):
+        raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
@@ -98,35 +97,51 @@ def load_path(
     scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
-    def record(stage: Stage) -> None:
-        history.append(iteration(problem, stage))
+    def record(iteration: Iteration) -> None:
+        history.append(iteration)
         if progress is not None:
-            progress(history[-1])
+            progress(iteration)
 
-    found = stages(flow, x0, weights, tolerance, settings, scale, record)
-    last = polish(flow, (found[-1] if found else initial(flow, x0)).state)
-    end = Stage(last, evidence(flow, last), np.inf, "polish", 0, 0)
-    how = "implicit steps of the load path"
+    found, last = pushed(
+        flow,
+        x0,
+        weights,
+        tolerance,
+        settings or Settings(),
+        scale,
+        lambda one: record(_iteration(problem, one)),
+    )
+    record(end(flow, last))
+    how = "increments of the load path"
     collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
-    return LoadPath(_steps(model, problem, x0, [*found, end], softness), collapse)
+    steps, folds, trace = told(model, flow, x0, found, last, Told(softness * _unit(model, problem), snaps))
+    tracked = small_barrier(flow, x0, scale, tolerance)
+    return LoadPath(steps, collapse, folds, trace, tracked, _remarks(collapse.load_factor, tracked))
 
 
-def initial(flow: Flow, x0: Array) -> Stage:
-    """The permanent-load state as a stage: what is left to show where no step succeeds."""
-    u, y = np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g))
-    state = State(0.0, x0, u, y)
-    return Stage(state, evidence(flow, state), np.inf, "step", 0, 0)
+def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:
+    """Whether the end agrees with that of the tracked path, in words."""
+    if np.isnan(tracked):
+        return ("the tracked path of nonassociated with a small barrier ends at no solution here",)
+    off = abs(tracked - load_factor)
+    if off <= AGREE * abs(load_factor):
+        return (f"the tracked path of nonassociated ends at the same load factor, within {AGREE:g}",)
+    share = 100.0 * off / max(abs(load_factor), abs(tracked))
+    return (
+        f"the tracked path of nonassociated ends at {tracked:.6g}, {share:.2g} % off: it pushes "
+        "once for all, so that slip may go back, and its barrier rounds the corners of yield",
+    )
 
 
-def iteration(problem: LimitProblem, stage: Stage) -> Iteration:
-    """What a stage tells the user."""
+def _iteration(problem: LimitProblem, one: Pushed) -> Iteration:
+    """What an increment tells the user."""
     return Iteration(
-        load_factor=stage.state.load_factor / problem.units.live,
-        kind=stage.kind,
-        step_size=1.0 / stage.rho,
-        residuals=stage.residuals.to_dict(),
-        inner=stage.inner,
-        failures=stage.failures,
+        load_factor=one.state.load_factor / problem.units.live,
+        kind="step",
+        step_size=1.0 / one.increment.rho,
+        residuals=one.residuals.to_dict(),
+        inner=one.factorisations,
+        failures=one.failures,
     )
 
 
@@ -167,51 +182,6 @@ def _means(problem: LimitProblem) -> tuple[float, float]:
     return float(problem.units.interface_force.mean()), float(problem.units.interface_length.mean())
 
 
-def _steps(
-    model: Model, problem: LimitProblem, x0: Array, found: list[Stage], softness: float
-) -> tuple[PathStep, ...]:
-    """The permanent-load state and every stage, with displacements added up, `softness` times as large."""
-    free = {block.name: k for k, block in enumerate(model.blocks)}
-    places = [free[name] for name in problem.blocks]
-    moved = np.zeros((len(model.blocks), 6))
-    unit = np.prod(_means(model.problem)) / problem.units.loads
-    first = {"equilibrium": 0.0, "yield": 0.0}
-    steps = [_step(problem, 0.0, x0, moved, (), first, "permanent loads")]
-    before: frozenset[tuple[str, str]] = frozenset()
-    for stage in found:
-        if stage.kind in ("step", "jump"):  # what follows changes the stresses at collapse, not the way to it
-            moved = moved.copy()
-            moved[places] += softness * (stage.state.u / stage.rho * unit).reshape(-1, 6)
-        flowing = _flowing(problem, stage.state)
-        state, residuals = stage.state, {name: stage.residuals[name] for name in first}
-        new = tuple(sorted(flowing - before))
-        steps.append(_step(problem, state.load_factor, state.x, moved, new, residuals, stage.kind))
-        before = flowing
-    return tuple(steps)
-
-
-def _step(
-    problem: LimitProblem,
-    load_factor: float,
-    x: Array,
-    moved: Array,
-    active: tuple[tuple[str, str], ...],
-    residuals: dict[str, float],
-    kind: str,
-) -> PathStep:
-    return PathStep(
-        load_factor=load_factor / problem.units.live,
-        stress_resultants=resultants_of(problem, x),
-        displacements=read_only(moved),
-        active=active,
-        residuals=residuals,
-        kind=kind,
-    )
-
-
-def _flowing(problem: LimitProblem, state: State) -> frozenset[tuple[str, str]]:
-    """(interface, mode) of every row with a multiplier."""
-    speed = np.abs(state.u / problem.units.loads).max()
-    rates = np.abs(state.y) * problem.multiplier_units * problem.units.live
-    rows = np.flatnonzero(rates > FLOWING * speed)
-    return frozenset((problem.interfaces[problem.row_interface[r]], problem.row_mode[r]) for r in rows)
+def _unit(model: Model, problem: LimitProblem) -> Array:
+    """Displacements of the free blocks (6 n,), m and rad, over dimensionless ones, for softness one."""
+    return np.asarray(np.prod(_means(model.problem)) / problem.units.loads)

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+
+import numpy as np
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
-from limitblocks.analysis.nonassociated.means import MEANS, Means, follow
+from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -21,18 +23,17 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
-from limitblocks.analysis.polish import polish
+from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NotConverged
+from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import checked_limit, settled, within
+from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
-
-SOFTENING = 1e-3  # of the force of an interface: the epsilon of Table 5 along the path
+from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
 
 def nonassociated(
@@ -55,7 +56,8 @@ def nonassociated(
     solution, on which compliance and a barrier fade to nothing; it is followed through folds by arclength,
     and Newton's method on the rows that yield takes its end to rounding. The load factor of a non-associated
     structure is not unique: this is one solution, the one that loading leads to where the barrier is small
-    (`how` says which path it was), between the frictionless and the associated value.
+    (`how` says which path it was), at most the associated value and, where twists are about the centroid, at
+    least the frictionless one.
 
     Parameters
     ----------
@@ -100,7 +102,8 @@ def nonassociated(
         If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
         without limit.
     NotConverged
-        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it.
+        If no path ends, or no round of the loop, within the tolerance, or the user interrupts it; NoSolution,
+        one of its kind, if it is proven that there is none.
     """
     way = method_of(method)
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
@@ -121,6 +124,8 @@ def nonassociated(
     state = flowing_state(model, flow, given)
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
+    elif (proven := state_without_solution(flow)) is not None:
+        state, how = proven, "statics alone"
     else:
         first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
         x0 = start_stresses(model, problem, problem.compliance, first)
@@ -128,46 +133,19 @@ def nonassociated(
             state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
         else:
             scale = load_scale(problem, enclosing.associated)
-            state, how = _reached(flow, x0, scale, means, tolerance, record)
-    record(_end(flow, state))
+            state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
+    record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
 
 
-def _reached(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
-) -> tuple[State, str]:
-    """The state to which one way after the other leads, and which it was: both load paths come first."""
-    smooth, weights = replace(flow, softening=SOFTENING), flow.problem.compliance
-    met: list[tuple[State, str]] = []
-    for one in means:
-        state, tracked = follow(
-            smooth,
-            x0,
-            weights,
-            means=[one],
-            power=scale / len(flow.problem.blocks),
-            progress=lambda at: record(_point(flow.problem, at)),
-        )
-        met.append((polish(flow, state), tracked[-1].how))
-        if tracked[-1].interrupted:
-            break
-        if mcp_residuals(flow, met[-1][0]).worst.value <= tolerance:
-            return met[-1]
-    state, how = min(met, key=lambda one: mcp_residuals(flow, one[0]).worst.value)
-    return state, f"{how}, {INTERRUPTED}" if tracked[-1].interrupted else how
-
-
-def _point(problem: LimitProblem, at: Progress) -> Iteration:
-    """What a point of the path tells the user."""
-    load_factor = at.load_factor / problem.units.live
-    return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
+@np.errstate(all="ignore")  # a state that ran away is no solution
+def small_barrier(flow: Flow, x0: Array, scale: float, tolerance: float) -> float:
+    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`."""
+    state, _ = first_to_solve(flow, x0, scale, MEANS[:1], tolerance, lambda _: None)
+    solved = mcp_residuals(flow, state).worst.value <= tolerance
+    return state.load_factor / flow.problem.units.live if solved else np.nan
 
 
 def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
@@ -177,7 +155,8 @@ def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
     return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)
 
 
-def _end(flow: Flow, state: State) -> Iteration:
+def end(flow: Flow, state: State) -> Iteration:
+    """What the polished end tells the user."""
     load_factor = state.load_factor / flow.problem.units.live
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
 
@@ -201,16 +180,15 @@ def finished(
     problem = flow.problem
     state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
-    worst = residuals.worst
-    converged = worst.value <= tolerance
-    change = fixed_point_change(flow, state) if confirm and converged else None
-    found = enclosing.bounds
+    status = _status(flow, state, how, tolerance)
+    change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
+    found, claimed = enclosing.bounds, enclosing.of(flow)
     dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
-    stopped = Status.INTERRUPTED if how.endswith(INTERRUPTED) else Status.OUT_OF_STEPS
-    near = Status.NEARBY if within(error, residuals, tolerance, limit) else stopped
+    if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
+        status = Status.NEARBY
     result = Nonassociated(
         load_factor=si.load_factor,
-        frictionless=enclosing.frictionless,
+        frictionless=claimed.frictionless,
         associated=enclosing.associated,
         stress_resultants=resultants_of(problem, state.x),
         generalised_stresses=read_only(si.x),
@@ -219,21 +197,51 @@ def finished(
         dead_load_stresses=dead,
         residuals=residuals,
         backward_error=error,
-        status=Status.CONVERGED if converged else near,
+        status=status,
         how=how,
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=locked_shear(flow, state) + unconfirmed(change),
+        remarks=given_power(flow, state, tolerance) + locked_shear(flow, state) + unconfirmed(change),
         tolerance=tolerance,
         digest=model.digest,
+        unclaimed=claimed.unclaimed,
         fixed_point_change=change,
     )
     if throw and not result.accepted:
-        why = INTERRUPTED if stopped is Status.INTERRUPTED else f"no solution within {tolerance:g}"
-        raise NotConverged(
-            f"{why}: {worst.name} residual {worst.value:.1e} at load factor {result.load_factor:.6g}, "
-            f"{error}; the error's result holds that state",
+        raise _refused(flow, result)
+    return result
+
+
+def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
+    """The error that says why a result is no solution."""
+    problem, worst = flow.problem, result.residuals.worst
+    state = state_without_solution(flow)
+    if result.status is Status.NO_SOLUTION and state is not None:
+        first = problem.member_interface[yielding(flow, state.x)]
+        return NoSolution(
+            "no solution exists: statics alone gives the stresses, "
+            f"{', '.join(dict.fromkeys(problem.interfaces[k] for k in first))} yields first, at load factor "
+            f"{state.load_factor / problem.units.live:.6g}, and the live load does no work on what can flow",
             result,
         )
-    return result
+    place = f" at {worst.where}" if worst.where else ""
+    interrupted = result.status is Status.INTERRUPTED
+    why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
+    return NotConverged(
+        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}, "
+        f"{result.backward_error}; the error's result holds that state",
+        result,
+    )
+
+
+def _status(flow: Flow, state: State, how: str, tolerance: float) -> Status:
+    equations_left, worst = left_over(flow, state, tolerance)
+    if worst <= tolerance:
+        return Status.CONVERGED
+    if how.endswith(INTERRUPTED):
+        return Status.INTERRUPTED
+    if not equations_left:
+        return Status.GIVES_POWER
+    proven = state_without_solution(flow) is not None
+    return Status.NO_SOLUTION if proven else Status.OUT_OF_STEPS

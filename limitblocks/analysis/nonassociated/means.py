@@ -29,6 +29,16 @@ MEANS = (
     Means(Barrier(3.0, 2.0), 1, 600),
     Means(Barrier(30.0, 2.0), 2, 600),
 )
+# With a flow that can give power, from the solution that twists about the centroid: a solution that gives
+# power at an interface is none, and another seed leads to another one.
+TURNED_MEANS = tuple(
+    Means(barrier, seed, 200)
+    for barrier in (Barrier(), Barrier(0.1, 2.0), Barrier(1.0, 2.0), Barrier(3.0, 1.0))
+    for seed in (0, 1)
+)
+# Epsilon of Table 5 along the path, of the force of an interface: paths from the permanent loads wind where
+# it is smaller; those that start near a solution end too far from the printed form where it is larger.
+SOFTENING, TURNED_SOFTENING = 1e-3, 1e-6
 
 
 def follow(

@@ -44,7 +44,7 @@ DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is 
 BUDGET = 600  # factorisations
 
 
-class _Lost(Exception):
+class Lost(Exception):
     """The path cannot be followed any further."""
 
 
@@ -94,7 +94,7 @@ def track(
         The solution, or the best state met, and how the path went.
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        walk = _Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
+        walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
         best = walk.best or walk.state
     found = Tracked(
@@ -114,7 +114,7 @@ def state_of(z: Point) -> State:
     return State(z.load_factor, z.x, z.u, z.y)
 
 
-class _Walk:
+class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
@@ -143,7 +143,7 @@ class _Walk:
                 if self.factorisations >= self.budget:
                     return "budget"
                 self._advance()
-        except _Lost as lost:
+        except Lost as lost:
             return str(lost)
         except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
             return "singular start"
@@ -199,7 +199,7 @@ class _Walk:
         if self.progress is not None:
             self.progress(self.points[-1])
         if self.z.theta > RETURNED:
-            raise _Lost("returned")
+            raise Lost("returned")
         if self.base is not None:
             self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)
         self.path = moved_on(self.path, self.z)
@@ -211,7 +211,7 @@ class _Walk:
         self.failures += 1
         self.length *= CUT
         if self.base is None or self.length < LEAST:
-            raise _Lost("no step succeeds")
+            raise Lost("no step succeeds")
         self._predict()
 
     def _predict(self) -> None:
@@ -227,7 +227,7 @@ class _Walk:
             return False
         z = self.base.point
         if z.theta < LAST:
-            raise _Lost("no solution at the end")
+            raise Lost("no solution at the end")
         self.tried = AGAIN * z.theta
         self._keep(polish(self.path.flow, self.state))
         here = mcp_residuals(self.path.flow, self.state)

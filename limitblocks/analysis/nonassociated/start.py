@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, is_dataclass, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,13 @@ from limitblocks.problem import Flow, LimitProblem, State
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
 
+BONDS = ("friction", "cohesion", "tensile_strength")  # what a joint without friction is without
+SHEAR = 1e-6  # of the largest force: less shear is none
+TURNED = "with this turning a joint can give power, so that solutions may be lower than without friction"
+FALLS = "without friction the dead loads do not stand, and nothing is known below"
+SHEARED = "a joint carries shear though its friction is zero"
+UNSOLVED = "the load factor without friction was not to be had"
+
 Start = Nonassociated | Bounds | npt.ArrayLike
 
 
@@ -31,13 +38,18 @@ Start = Nonassociated | Bounds | npt.ArrayLike
 class Bracket:
     """Associated load factors without friction and with it, which enclose every solution (Drucker 1954).
 
-    `frictionless` is NaN where the structure does not stand without friction, or the value is not to be had;
-    `associated` is infinite where the load is unlimited, and `bounds` its evidence otherwise.
+    `frictionless` is NaN where it is no lower end, and `unclaimed` says why; `associated` is infinite where
+    the load is unlimited, and `bounds` its evidence otherwise.
     """
 
     frictionless: float
     associated: float
     bounds: Bounds | None
+    unclaimed: str = ""
+
+    def of(self, flow: Flow) -> Bracket:
+        """Return what is claimed of the solutions of a flow rule: no lower end where it can give power."""
+        return self if flow.dissipative else replace(self, frictionless=np.nan, unclaimed=TURNED)
 
 
 def bracket(model: Model) -> Bracket:
@@ -48,21 +60,32 @@ def bracket(model: Model) -> Bracket:
 def _bracket(model: Model) -> Bracket:
     found = _limited(model)
     upper = found.upper if found else np.inf
-    lower = _frictionless(model)
+    lower, unclaimed = _frictionless(model)
     noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
-    return Bracket(0.0 if noise else lower, upper, found)
+    return Bracket(0.0 if noise else lower, upper, found, unclaimed)
 
 
-def _frictionless(model: Model) -> float:
-    if not all(is_dataclass(interface.joint) for interface in model.interfaces):
-        return np.nan
-    smooth = {i.joint: replace(i.joint, friction=0.0) for i in model.interfaces}  # type: ignore[type-var]
+def _frictionless(model: Model) -> tuple[float, str]:
+    """The load factor of joints without shear, or why there is none."""
+    smooth = {i.joint: _smooth(i.joint) for i in model.interfaces}
     interfaces = [replace(i, joint=smooth[i.joint]) for i in model.interfaces]
     try:
-        found = _limited(replace(model, interfaces=interfaces))
-    except (NoEquilibrium, SolverFailure):  # the lower end says little; its failure must not cost the answer
-        return np.nan
-    return found.lower if found else np.inf
+        bare = _limited(replace(model, interfaces=interfaces))
+    except NoEquilibrium:
+        return np.nan, FALLS
+    except (SolverFailure, ModelError):  # the lower end says little; its failure must not cost the answer
+        return np.nan, UNSOLVED
+    if bare is None:
+        return np.inf, ""
+    size = np.abs(bare.stress_resultants).max(initial=0.0)
+    sheared = np.abs(bare.stress_resultants[:, :2]).max(initial=0.0) > SHEAR * size
+    return (np.nan, SHEARED) if sheared else (bare.lower, "")
+
+
+def _smooth(joint: object) -> object:
+    """The joint without friction and what else lets it carry shear, or tension that sliding would break."""
+    known = {field.name for field in fields(joint)} if is_dataclass(joint) else set()
+    return replace(joint, **dict.fromkeys(known & set(BONDS), 0.0)) if known else joint  # type: ignore[type-var]
 
 
 def _limited(model: Model) -> Bounds | None:

@@ -50,10 +50,10 @@ def face_through(block: Block, point: Sequence[float]) -> int:
     """
     off = block.normals @ np.asarray(point) - block.offsets
     near = _NEAR * block.size
-    found = np.flatnonzero(np.abs(off) <= near) if off.max() <= near else np.zeros(0, dtype=int)
-    if len(found) == 1:
-        return int(found[0])
-    where = "on no face" if not len(found) else f"on an edge of faces {_listed(found)}"
+    faces = np.flatnonzero(np.abs(off) <= near) if off.max() <= near else np.zeros(0, dtype=int)
+    if len(faces) == 1:
+        return int(faces[0])
+    where = "on no face" if not len(faces) else f"on an edge of faces {_listed(faces)}"
     raise ModelError(f"block {block.name!r}: point {tuple(point)} is {where}, expected a point inside a face")
 
 
@@ -74,16 +74,16 @@ def part_where(corners: Array, values: Array) -> tuple[Array, Array]:
     """
     if values.max() <= 0.0:
         return np.zeros((0, 3)), np.zeros(0)
-    points, found = [], []
+    points, at_points = [], []
     after = np.roll(corners, -1, axis=0), np.roll(values, -1)
     for p, a, q, b in zip(corners, values, *after, strict=True):
         if a >= 0.0:
             points.append(p)
-            found.append(a)
+            at_points.append(a)
         if a * b < 0.0:
             points.append(p + (q - p) * (a / (a - b)))
-            found.append(0.0)
-    return np.array(points), np.array(found)
+            at_points.append(0.0)
+    return np.array(points), np.array(at_points)
 
 
 def integrals(ring: Array, values: Array, normal: Array) -> tuple[float, Array]:

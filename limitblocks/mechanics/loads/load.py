@@ -80,11 +80,11 @@ def unit_vector(values: Sequence[float], word: str) -> Vector:
 def number(value: float, word: str, unit: str, *, least: float = -np.inf, above: float = -np.inf) -> float:
     """Return `value` as a float; ModelError where it is not finite or too small."""
     try:
-        found = float(value)
+        real = float(value)
     except (TypeError, ValueError):
-        found = np.nan
-    if np.isfinite(found) and found >= least and found > above:
-        return found
+        real = np.nan
+    if np.isfinite(real) and real >= least and real > above:
+        return real
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     raise ModelError(f"{word} is {value!r}, expected a finite number{wanted} in {unit}")
 
@@ -104,5 +104,5 @@ def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[
         array = np.full(0, np.nan)
     if array.shape != (count,) or not np.isfinite(array).all():
         raise ModelError(f"{word} is {values!r}, expected {said} finite numbers")
-    found: list[float] = array.tolist()
-    return found
+    numbers: list[float] = array.tolist()
+    return numbers

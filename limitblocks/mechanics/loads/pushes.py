@@ -26,9 +26,9 @@ def compass(count: int, *, vertical: bool = False) -> Array:
     if count < 1:
         raise ModelError(f"count of directions is {count}, expected at least 1")
     angles = 2 * np.pi * np.arange(count) / count
-    found = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
-    found[np.abs(found) < 1e-15] = 0.0  # cos(90 deg) in floating point
-    return read_only(np.concatenate([found, [(0, 0, 1), (0, 0, -1)]]) if vertical else found)
+    along = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
+    along[np.abs(along) < 1e-15] = 0.0  # cos(90 deg) in floating point
+    return read_only(np.concatenate([along, [(0, 0, 1), (0, 0, -1)]]) if vertical else along)
 
 
 def turned(load: Load, direction: Sequence[float]) -> Load:
@@ -40,15 +40,15 @@ def turned(load: Load, direction: Sequence[float]) -> Load:
         If a term is not mass-proportional, or the direction is zero.
     """
     along = unit_vector(direction, "direction")
-    found = []
+    terms = []
     for factor, term in load.terms:
         if not isinstance(term, MassProportional | AddedMass):
             raise ModelError(
                 f"the live load has a {type(term).__name__}, which no direction turns; "
                 "expected mass_proportional(...), or give the loads as a function of the direction"
             )
-        found.append((factor, replace(term, direction=along)))
-    return Load(tuple(found))
+        terms.append((factor, replace(term, direction=along)))
+    return Load(tuple(terms))
 
 
 @dataclass(frozen=True)

@@ -106,8 +106,8 @@ def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
     touch = _TOUCH * np.array([block.size for block in blocks])[:, None]
     height = np.where((inside >= -touch) & (bottom <= top + touch), top, -np.inf)
     best = (height >= height.max(axis=0) - touch).argmax(axis=0)
-    found = height[best, np.arange(len(places))]
-    return np.where(np.isfinite(found), best, -1), found
+    highest = height[best, np.arange(len(places))]
+    return np.where(np.isfinite(highest), best, -1), highest
 
 
 def _on_tops(forces: Array, places: Array, blocks: Sequence[Block]) -> Array:

@@ -1,0 +1,167 @@
+"""Certified states on the way, and the answers they become."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.load_factor_range.faces import extremes, ray
+from limitblocks.analysis.nonassociated.loop import finished
+from limitblocks.analysis.nonassociated.start import Bracket
+from limitblocks.analysis.polish import defect
+from limitblocks.arrays import Array
+from limitblocks.evidence.check import check_mcp
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.model import Model
+from limitblocks.problem import Flow, LimitProblem, State
+
+DISTINCT = 1e-4  # of the scale of load factors: nearer ones are one answer
+NOISE = 1e-9  # of the multipliers: mechanisms that hardly slip have no thrust to compare
+MOVING = 1e-3  # of the largest rate: a slower block stands still
+
+
+class Certified(NamedTuple):
+    """A state within the tolerance, how it was found, and whether a load path reached it."""
+
+    state: State
+    how: str
+    origin: Origin
+
+
+@dataclass(eq=False)
+class Collected:
+    """Certified states of one flow rule, the intervals that they prove, and the ray without limit.
+
+    `limits` enclose the dimensionless load factors looked at, measured by `scale`; `endless` tells
+    whether the associated load is unlimited.
+    """
+
+    flow: Flow
+    limits: tuple[float, float]
+    scale: float
+    endless: bool
+    found: list[Certified] = field(default_factory=list)
+    least: Certified | None = None
+    greatest: Certified | None = None
+    intervals: list[tuple[float, float]] = field(default_factory=list)
+    beyond: Certified | None = None
+
+    def add(self, state: State | None, how: str, origin: Origin, keep: bool) -> bool:
+        """Take a state in if it is a solution; return whether it is. `keep` it if it is distinct."""
+        if state is None or not defect(self.flow, state) <= TOLERANCE:
+            return False
+        new = Certified(state, how, origin)
+        near = DISTINCT * self.scale
+        same = [
+            one
+            for one in self.found
+            if one.origin is origin and abs(one.state.load_factor - state.load_factor) <= near
+        ]
+        if keep and not same:
+            self.found.append(new)
+        self._stretch(new)
+        if self.flow.constant:
+            self._along_its_face(new)
+        return True
+
+    def _along_its_face(self, new: Certified) -> None:
+        """The solutions of the same mechanism: their ends, all between them, and a ray."""
+        ends = extremes(self.flow, new.state, self.limits)
+        kept = [end for end in ends if end is not None]
+        for end in kept:
+            self._stretch(
+                Certified(end, f"end of the solutions of one mechanism; {new.how}", Origin.SEARCHED)
+            )
+        shared = [z for z in (*kept, new.state) if np.array_equal(z.y, new.state.y)]
+        factors = [z.load_factor for z in shared]
+        self.intervals = merged([*self.intervals, (min(factors), max(factors))])
+        if self.endless and self.beyond is None:
+            added = ray(self.flow, new.state)
+            if added is not None:
+                z, t = new.state, self.limits[1]
+                far = State(z.load_factor + t, z.x + t * added, z.u, z.y)
+                if defect(self.flow, far) <= TOLERANCE:
+                    self.beyond = Certified(
+                        far, f"any greater load factor solves too; {new.how}", Origin.SEARCHED
+                    )
+
+    def _stretch(self, new: Certified) -> None:
+        value = new.state.load_factor
+        if self.least is None or value < self.least.state.load_factor:
+            self.least = new
+        if self.greatest is None or value > self.greatest.state.load_factor:
+            self.greatest = new
+
+    def all(self) -> list[Certified]:
+        """Distinct states, the ends among them, by load factor."""
+        ends = [one for one in (self.least, self.beyond or self.greatest) if one and one not in self.found]
+        return sorted([*self.found, *ends], key=lambda one: one.state.load_factor)
+
+
+def merged(intervals: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return the union of intervals as intervals apart from each other, in order."""
+    found: list[tuple[float, float]] = []
+    for low, high in sorted(intervals):
+        if found and low <= found[-1][1]:
+            found[-1] = found[-1][0], max(found[-1][1], high)
+        else:
+            found.append((low, high))
+    return found
+
+
+def answer(model: Model, flow: Flow, enclosing: Bracket, permanent: Array, one: Certified) -> RangeAnswer:
+    """Return a certified state as an answer with its evidence."""
+    result = finished(model, one.state, enclosing, (), flow, one.how, TOLERANCE, False, False)
+    return of_result(model, flow, permanent, result, one.origin)
+
+
+def of_result(
+    model: Model, flow: Flow, permanent: Array, result: Nonassociated, origin: Origin
+) -> RangeAnswer:
+    """Return a solution as an answer; `permanent` are the dimensionless stresses of the permanent loads."""
+    sizes = np.array([block.size for block in model.blocks]) / 2.0
+    rates = np.abs(result.displacement_rates)
+    speed = np.maximum(rates[:, :3].max(axis=1), rates[:, 3:].max(axis=1) * sizes)
+    moves = {b.name for b, fast in zip(model.blocks, speed > MOVING * speed.max(), strict=True) if fast}
+    free = model.free_blocks
+    moving = tuple(block.name for block in free if block.name in moves)
+    p = flow.problem
+    y = result.flow_multipliers / p.multiplier_units
+    slips = p.F - flow.matrix(permanent)  # what slipping takes up per multiplier, (F - G) x
+    before, now = (float(y @ (slips @ x)) for x in (permanent, result.generalised_stresses / p.stress_units))
+    return RangeAnswer(
+        solution=result,
+        check=check_mcp(model, result),
+        origin=origin,
+        moving=moving,
+        share=float(sum(b.weight for b in free if b.name in moves) / sum(b.weight for b in free)),
+        thrust=max(0.0, now) / before if before > NOISE * abs(y).sum() else 1.0,
+    )
+
+
+def state_of(model: Model, problem: LimitProblem, found: Nonassociated) -> State:
+    """Return a result as a dimensionless state."""
+    supports = set(model.supports)
+    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
+    rates = found.displacement_rates[places].ravel()
+    return problem.dimensionless(
+        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
+    )
+
+
+def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:
+    """Return what a reader of the range should know."""
+    said = []
+    if first is None:
+        said.append("nonassociated found no answer")
+    elif first.origin is not Origin.LOAD_PATH:
+        said.append(f"the load-path answer is one of a larger barrier ({first.solution.how})")
+    if not flow.constant:
+        said.append("with turning about the centre of pressure the set has no convex pieces: paths alone")
+    ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []
+    said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends]
+    return tuple(said)

@@ -1,0 +1,53 @@
+"""Slips in magnitude: what a colleague would ask on seeing a number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from limitblocks.model import Model
+
+#: Friction coefficient from which on it may be an angle in degrees: 71.6 degrees.
+_STEEP = 3.0
+#: Strengths and cohesions, Pa, below which they may be in MPa: mud mortar has 1e4 and 1e3.
+_WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
+#: Unit weights, N/m3, below which they may be in kN/m3, or densities in kg/m3: cork has 1200, pumice 5000.
+_KILO, _DENSITY = 5e2, 5e3
+#: Sizes of a structure, m, beyond which the unit of length may be another one.
+_LARGE, _SMALL = 1e3, 5e-2
+
+
+def questions(model: Model) -> list[str]:
+    """Return a question, with what was probably meant, for each number of a model that is hardly meant."""
+    joints = dict.fromkeys(interface.joint for interface in model.interfaces)
+    asked = [question for joint in joints for question in _of_joint(joint)]
+    for weight in sorted({block.unit_weight for block in model.free_blocks if block.unit_weight}):
+        asked += _of_weight(weight)
+    corners = np.concatenate([block.vertices for block in model.blocks])
+    size = float(np.ptp(corners, axis=0).max())
+    if size > _LARGE:
+        asked.append(f"the structure is {size:.4g} m large: millimetres? then {size / 1e3:.4g} m; see units")
+    if size < _SMALL:
+        asked.append(f"the structure is {size:.4g} m large: is it in metres? see units")
+    return asked
+
+
+def _of_joint(joint: Any) -> Iterator[str]:
+    friction = joint.friction
+    if friction >= _STEEP:
+        angle = f"degrees? tan {friction:g} deg = {np.tan(np.radians(friction)):.3g}"
+        yield f"friction is {friction:g}: {angle if friction < 90.0 else 'a coefficient is below 2'}"
+    for name, least in _WEAK.items():
+        value = getattr(joint, name, None)
+        if value and value < least:
+            yield f"{name.replace('_', ' ')} is {value:g} Pa: MPa? {value:g} MPa = {1e6 * value:g} Pa"
+
+
+def _of_weight(weight: float) -> list[str]:
+    if weight < _KILO:
+        return [f"unit weight is {weight:g} N/m3: kN/m3? {weight:g} kN/m3 = {1e3 * weight:g} N/m3"]
+    if weight < _DENSITY:
+        return [f"unit weight is {weight:g} N/m3: kg/m3? {weight:g} kg/m3 weigh {9.81 * weight:.4g} N/m3"]
+    return []

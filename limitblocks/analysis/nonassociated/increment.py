@@ -1,0 +1,159 @@
+"""One increment of the load path, followed by arclength in the displacement on which the live load works.
+
+From the stresses x_k the increments du, dy of displacements and multipliers satisfy
+
+    W (x - x_k) = C du + G(x)^T dy,   dead + a live = C^T x,   live . du = tau,
+    F x + g = s,   s o dy = nu,   s, dy in int K
+
+With u = du / tau and y = dy / tau these are the equations of a path with rho = 1 / tau and mu = nu / tau. So
+theta is the first tau over tau, and where theta turns the structure snaps back: tau has to fall before it can
+go on growing. At the last tau the barrier fades at a fixed rho; the increment ends on the yield surface.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner, moved
+from limitblocks.analysis.nonassociated.path_newton import REFINED
+from limitblocks.analysis.nonassociated.path_start import centred
+from limitblocks.arrays import Array
+
+SPAN = 10.0  # last tau over the first one: the elastic part of an increment needs no points
+ARRIVED = 1.01  # times the last theta
+NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
+FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
+BUDGET = 200  # factorisations; increments that succeed take 20 to 80
+
+
+class Visit(NamedTuple):
+    """A point of an increment: 1 / tau, arclength from its first point, and whether tau grows there."""
+
+    point: Point
+    rho: float
+    arclength: float
+    forward: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Increment:
+    """Points from the first tau to the last with the barrier, and the end without it."""
+
+    visits: tuple[Visit, ...]
+    end: Point
+    rho: float
+
+    @property
+    def folds(self) -> tuple[tuple[int, int], ...]:
+        """Places of the visit of largest tau at each fold, and of the first beyond it at that tau or more."""
+        at, found, k = self.visits, [], 1
+        while k < len(at):
+            if not at[k].forward:
+                fold = k - 1
+                while at[fold + 1].rho < at[fold].rho:
+                    fold += 1
+                later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
+                k = next(later, len(at) - 1)
+                found.append((fold, k))
+            k += 1
+        return tuple(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """What came of an increment: itself if it succeeded, else whether a snap goes back beyond its start."""
+
+    increment: Increment | None
+    factorisations: int
+    returned: bool = False
+
+
+class _Stretch(Walk):
+    """A walk from a point to a given theta, which keeps the points."""
+
+    def __init__(self, path: Path, start: Point, until: float) -> None:
+        super().__init__(path, BUDGET, None)
+        self.z, self.until = start, until
+        self.kept: list[Point] = []
+
+    @property
+    def arrived(self) -> bool:
+        """Whether the last point kept is at the end."""
+        return bool(self.kept) and self.kept[-1].theta <= ARRIVED * self.until and self._forward(-1)
+
+    @property
+    def returned(self) -> bool:
+        """Whether the path went back to where tau is zero."""
+        return bool(self.kept) and self.kept[-1].theta > RETURNED
+
+    def _forward(self, k: int) -> bool:
+        return self.points[k].sign == self.points[0].sign
+
+    def go(self) -> str:
+        """Follow the path as far as it is asked for."""
+        try:
+            while not self.arrived and self.factorisations < self.budget:
+                self._advance()
+        except (Lost, RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+            pass
+        return "arrived" if self.arrived else "lost"
+
+    def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+        self.kept.append(self.z)
+        super()._accept(sign, correction, tangent)
+
+    def _predict(self) -> None:
+        super()._predict()
+        if self.base is not None and self.z.theta < self.until:
+            start, tangent = moved(self.path, self.base.point, 1.0, self.base.correction), self.base.tangent
+            self.z = moved(self.path, start, (self.until - start.theta) / tangent.theta, tangent)
+
+    def visits(self, rho: float) -> tuple[Visit, ...]:
+        """The points kept; rho is that at theta = 1."""
+        lengths = [0.0]
+        for a, b in zip(self.kept, self.kept[1:], strict=False):
+            d = b.moved(-1.0, a)
+            lengths.append(lengths[-1] + float(np.sqrt(inner(self.path.cones, a, d, d))))
+        return tuple(
+            Visit(z, rho * z.theta, length, self._forward(k))
+            for k, (z, length) in enumerate(zip(self.kept, lengths, strict=True))
+        )
+
+
+@np.errstate(all="ignore")  # a point that ran away is not accepted
+def increment(path: Path, weights: Array, rho: float) -> Tried:
+    """Push by 1 / rho from the stresses path.x0.
+
+    Parameters
+    ----------
+    path : Path
+        Flow, barrier of power 1 and x0.
+    weights : Array, shape (s,)
+        Compliance W of the joints.
+    rho : float
+        One over the displacement on which the live load works, dimensionless.
+    """
+    first = SPAN * rho
+    curve = replace(path, elastic=first * weights)
+    try:
+        start, used = centred(curve)
+    except (RuntimeError, ValueError, np.linalg.LinAlgError):
+        return Tried(None, 1)
+    if start is None:
+        return Tried(None, used)
+    walk = _Stretch(curve, start, 1.0 / SPAN)
+    walk.go()
+    used += walk.factorisations
+    if not walk.arrived:
+        return Tried(None, used, walk.returned)
+    last = walk.kept[-1]
+    size, rho = path.barrier.size * last.theta / FADING, first * last.theta
+    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=rho * weights)
+    fade = _Stretch(fading, replace(last, theta=FADING), NO_BARRIER / size)
+    fade.go()
+    used += fade.factorisations
+    return Tried(Increment(walk.visits(first), fade.kept[-1], rho) if fade.arrived else None, used)

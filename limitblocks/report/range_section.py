@@ -1,0 +1,61 @@
+"""What a report says of a range of load factors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.residuals import Residuals
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.report.section import Check, Section, Table
+
+MEANING = (
+    "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
+    "Those reached start from admissible states of the permanent loads, which construction, settlement and "
+    "creep may have left: the uncertainty to design for. The certified ones solve too, but nothing says "
+    "that loading leads there; the least is often a block that slips out because hardly anything presses "
+    "on it. What was not found may exist."
+)
+
+
+def range_section(
+    found: LoadFactorRange,
+    limits: Callable[[Nonassociated], tuple[tuple[str, str, str], ...]],
+    checks: Callable[[Residuals, float], tuple[Check, ...]],
+) -> Section:
+    """Return the section; `limits` and `checks` say what they say of other results."""
+    shown = found.load_path or (found.answers[0] if found.answers else None)
+    (reached, below), (lowest, highest) = found.reached, found.certified
+    rows = tuple(
+        (f"{one.load_factor:#.6g}", one.origin.value, one.solution.how, one.mechanism)
+        for one in found.answers
+    )
+    ends = [(word, end) for word, end in (("Least", found.least), ("Greatest", found.greatest)) if end]
+    return Section(
+        title="Range of load factors",
+        meaning=MEANING,
+        headline=f"{found.load_path.load_factor:#.4g}" if found.load_path else "none",
+        quantity="load factor α of the load path",
+        values=(
+            ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),
+            ("Certified", f"{lowest:#.6g} to {highest:#.6g}", "reachable or not"),
+            *(
+                (f"{word} of all", str(end), f"mixed-integer program, gap {end.gap:.1e}")
+                for word, end in ends
+            ),
+            ("Solutions without gap", _spans(found.intervals), "every value solves, by convexity"),
+            *(limits(shown.solution) if shown else ()),
+            ("Wedging", str(found.wedging), ""),
+            ("Paths", f"{found.paths[1]} of {found.paths[0]}", "ended at a solution"),
+            ("Mechanisms", f"{found.mechanisms[1]} of {found.mechanisms[0]}", "drawn at random, led to one"),
+        ),
+        checks=checks(shown.check.residuals, found.tolerance) if shown else (),
+        tolerance=found.tolerance,
+        rates=shown.solution.displacement_rates if shown else None,
+        warnings=found.remarks + (() if found.complete else ("the time limit ended the search",)),
+        steps=Table("Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows),
+    )
+
+
+def _spans(intervals: tuple[tuple[float, float], ...]) -> str:
+    return ", ".join(f"{low:#.6g} to {high:#.6g}" for low, high in intervals) or "none"

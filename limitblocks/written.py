@@ -1,0 +1,85 @@
+"""Files out: a file is the old one or the new one at any moment, and every failure is one line."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterable
+from contextlib import suppress
+from pathlib import Path
+from uuid import uuid4
+
+from limitblocks.errors import LimitBlocksError
+
+
+def refuse_existing(files: Iterable[Path], overwrite: bool) -> None:
+    """Raise LimitBlocksError where one of `files` exists and `overwrite` is false."""
+    for path in files:
+        if not overwrite and path.exists():
+            raise _exists(path)
+
+
+def write(path: Path, data: bytes | str, overwrite: bool) -> Path:
+    """Write `data`, text as UTF-8, to the file at `path` and return the path.
+
+    All goes to a new file in the same folder, which then takes the name: who reads meanwhile, and whatever
+    stops the writer, finds the old file or the new one. Devices and pipes are written to directly.
+
+    Raises
+    ------
+    LimitBlocksError
+        The file exists and `overwrite` is false, or it cannot be written.
+    """
+    try:
+        if isinstance(data, str):
+            data = data.encode("utf-8")
+        if path.exists() and not path.is_file():
+            path.write_bytes(data)
+        else:
+            _put(path, data, overwrite)
+    except FileExistsError:
+        raise _exists(path) from None
+    except UnicodeEncodeError as error:
+        place = ascii(error.object[error.start : error.start + 1])
+        raise LimitBlocksError(f"cannot write {path}: {place} in a name is half a character") from None
+    except (OSError, ValueError) as error:
+        raise LimitBlocksError(f"cannot write {path}: {getattr(error, 'strerror', None) or error}") from None
+    return path
+
+
+def _exists(path: Path) -> LimitBlocksError:
+    return LimitBlocksError(f"{path} exists; give another name or overwrite=True")
+
+
+def _put(path: Path, data: bytes, overwrite: bool) -> None:
+    """Write a new file beside `path` and give it its name."""
+    if not overwrite and os.path.lexists(path):
+        raise FileExistsError
+    target = Path(os.path.realpath(path)) if overwrite else path  # a link stays a link
+    fresh = target.with_name(f".{uuid4().hex}.tmp")
+    try:
+        with fresh.open("xb") as stream:
+            stream.write(data)
+            stream.flush()
+            os.fsync(stream.fileno())  # the name must not reach the disk before the content
+        if overwrite:
+            if target.exists():
+                shutil.copymode(target, fresh)
+            os.replace(fresh, target)
+        else:
+            _named(fresh, target)
+    finally:
+        with suppress(OSError):
+            fresh.unlink(missing_ok=True)
+
+
+def _named(fresh: Path, target: Path) -> None:
+    """Give a new file its name unless that is taken."""
+    try:
+        os.link(fresh, target)
+    except FileExistsError:
+        raise
+    except OSError:  # a file system without links: another writer may come between
+        if os.path.lexists(target):
+            raise FileExistsError from None
+        os.replace(fresh, target)

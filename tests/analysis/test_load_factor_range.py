@@ -1,0 +1,210 @@
+"""The set of certified load factors of block models whose set is known in closed form."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.load_factor_range.answers import merged
+from limitblocks.cli import app
+from limitblocks.problem import Turning
+
+FEW = {"paths": 3, "mechanisms": 3}
+ALONG = lb.mass_proportional((1, 0, 0))
+
+
+def square(friction):
+    return lb.PointContact(friction, cone="outer", sides=4)
+
+
+def pair(behind, front, between):
+    """Two equal low blocks one behind the other, with three joints."""
+    stones = [
+        lb.Block.box("floor", (6.0, 2.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("behind", (1.0, 1.0, 0.4), (-0.5, 0, 0.2), 20e3),
+        lb.Block.box("front", (1.0, 1.0, 0.4), (0.5, 0, 0.2), 20e3),
+    ]
+    joints = {frozenset(("floor", "behind")): behind, frozenset(("floor", "front")): front}
+    interfaces = [
+        replace(one, joint=joints.get(frozenset((one.block_i, one.block_j)), between))
+        for one in lb.find_interfaces(stones, between)
+    ]
+    return lb.Model(stones, ["floor"], interfaces, lb.self_weight(), ALONG)
+
+
+def pair_range(behind, front, between):
+    """Both slide; the joint between them, which does not, carries P and any V up to its friction.
+
+    a = (m1 (1 + V) + m2 (1 - V)) / 2 and P = m2 (1 - V) - a, over the weight of a block, |V| <= m3 P.
+    """
+    total, less = behind + front, front - behind
+    V = np.array([between * less / (2 + between * total), -between * less / (2 - between * total)])
+    return (total - less * V) / 2
+
+
+def jammed(more=(), live=ALONG):
+    """A cube between floor and ceiling."""
+    stones = [
+        lb.Block.box("floor", (9.0, 1.0, 0.2), (3, 0, -0.1)),
+        lb.Block.box("ceiling", (1.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+        *more,
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.3))
+    return lb.Model(stones, ["floor", "ceiling"], interfaces, lb.self_weight(), live)
+
+
+@pytest.fixture(scope="module")
+def pushed():
+    return pair(*map(lb.PointContact, (0.2, 0.5, 0.6)))
+
+
+@pytest.fixture(scope="module")
+def of_pushed(pushed):
+    return lb.load_factor_range(pushed, **FEW)
+
+
+def test_pushed_pair_has_an_interval(of_pushed):
+    found = of_pushed
+    low, high = pair_range(0.2, 0.5, 0.6)
+    assert found.certified == pytest.approx((low, high), rel=1e-6)
+    assert found.intervals == (pytest.approx((low, high), rel=1e-6),)
+    assert (low + high) / 2 in found
+    assert high + 0.01 not in found
+    assert low < found.reached[0] < found.reached[1] < high
+    assert found.load_path.load_factor in found
+    assert not found.wedging.wedged  # and still the load factor is not unique
+    assert all(answer.check.passed for answer in found.answers)
+
+
+@pytest.mark.parametrize("answer", [0, -1])
+def test_an_answer_is_saved_and_checked_again(answer, pushed, of_pushed, tmp_path):
+    model, one = pushed, of_pushed.answers[answer]
+    file = lb.write_result(one.solution, tmp_path / "answer.json")
+    assert lb.check_mcp(model, lb.read_result(file, model)).passed
+    claim = replace(lb.read_result(file, model), load_factor=1.01 * one.load_factor)
+    assert not lb.check_mcp(model, claim).passed
+
+
+def test_values_between_two_answers_of_a_mechanism_are_answers(pushed):
+    """Convexity: the mean of the stresses of both ends, with the mechanism of the one path."""
+    found = lb.load_factor_range(pushed, paths=1, mechanisms=0)
+    low, high = (answer.solution for answer in (found.answers[0], found.answers[-1]))
+    mean = [
+        (getattr(low, name) + getattr(high, name)) / 2
+        for name in ("load_factor", "stress_resultants", "generalised_stresses")
+    ]
+    claim = lb.Claim(
+        mean[0], mean[1], high.displacement_rates, high.flow_multipliers, generalised_stresses=mean[2]
+    )
+    assert lb.check_mcp(pushed, claim).passed
+
+
+def test_a_jammed_block_has_no_greatest_load_factor():
+    """mu (1 + 2 P/W) for every force P of the ceiling, as long as it does not turn about a corner."""
+    found = lb.load_factor_range(jammed(), paths=2, mechanisms=0)
+    assert found.unlimited
+    assert found.wedging.wedged
+    assert set(found.wedging.interfaces) == {i.name for i in jammed().interfaces}
+    assert found.certified[1] == np.inf
+    assert 0.3 * (1 - 1e-6) <= found.certified[0] < 0.5
+    assert found.answers[-1].load_factor > 1.0
+    assert found.answers[-1].check.passed
+
+
+def test_drawn_mechanisms_find_what_no_path_leads_to():
+    """Wedged at a corner of floor and ceiling, the cube turns about it at no load: nothing slips there.
+
+    W b/2 about both axes is balanced by the friction of the wedging force P, up to mu P h.
+    """
+    found = lb.load_factor_range(jammed(), paths=1, mechanisms=4)
+    assert found.certified[0] == pytest.approx(0.0, abs=1e-6)
+    assert found.answers[0].check.passed
+    assert found.answers[0].thrust == pytest.approx(0.0, abs=1e-6)
+    assert found.reached[0] >= 0.3 * (1 - 1e-6)
+
+
+def test_a_structure_that_can_be_wedged_may_have_one_load_factor():
+    """The cube jams, and the block beside it, alone pushed, slides at mu."""
+    beside = lb.Block.box("beside", (1.0, 1.0, 0.5), (4, 0, 0.25), 20e3)
+    push = lb.force("beside", (10e3, 0, 0), at=(4, 0, 0.25))
+    found = lb.load_factor_range(jammed([beside], push), paths=1, mechanisms=3)
+    assert found.wedging.wedged
+    assert found.certified == pytest.approx((0.3, 0.3), rel=1e-6)
+    assert not found.unlimited
+
+
+def test_exact_programs_agree_with_closed_forms_and_search():
+    """A groove of 60 degrees on each side, friction in squares: mu / (sin w +- mu cos w)."""
+    mu, w = 0.5, np.pi / 3
+    model = structures.wedge(square(mu), half_angle=w)
+    found = lb.load_factor_range(model, exact=True, paths=1, mechanisms=0)
+    for extreme, sign, value in zip((found.least, found.greatest), (1, -1), found.certified, strict=True):
+        expected = mu / (np.sin(w) + sign * mu * np.cos(w))
+        assert extreme.proven
+        assert extreme.load_factor == pytest.approx(expected, rel=1e-6)
+        assert value == pytest.approx(expected, rel=1e-6)
+    assert "(proven)" in str(found)
+
+
+def test_exact_programs_are_refused_for_round_friction():
+    with pytest.raises(lb.ModelError, match="exact=True needs joints of planes"):
+        lb.load_factor_range(structures.block(lb.PointContact(0.3), width=1.0, height=0.5), exact=True)
+
+
+def test_numbers_out_of_range_are_refused():
+    with pytest.raises(lb.ModelError, match="paths is 0"):
+        lb.load_factor_range(jammed(), paths=0)
+
+
+def test_the_time_limit_leaves_what_there_is():
+    found = lb.load_factor_range(structures.ferris_tin_loi_wall(1, lb.PointContact(0.65)), time_limit=1e-3)
+    assert not found.complete
+    assert found.load_path is None
+    assert np.isnan(found.reached).all()
+    assert "stopped by the time limit" in str(found)
+
+
+def test_with_table_5_there_are_paths_alone():
+    model = structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=0.5)
+    found = lb.load_factor_range(model, turning="centre of pressure", paths=2)
+    assert found.turning is Turning.PRESSURE
+    assert found.mechanisms == (0, 0)
+    assert "paths alone" in str(found)
+    assert found.certified == pytest.approx((0.3, 0.3), rel=1e-6)
+
+
+def test_few_blocks_at_low_thrust_are_named(of_pushed):
+    assert not any(answer.local for answer in of_pushed.answers)
+    local = replace(of_pushed.answers[0], share=0.02, thrust=0.1)
+    assert local.mechanism.startswith("few blocks at low thrust, behind, front")
+
+
+def test_a_report_tells_the_three_ranges_apart(pushed, of_pushed):
+    text = lb.report(pushed, of_pushed).markdown
+    for part in ("load factor α of the load path", "Reached", "Certified", "every value solves"):
+        assert part in text
+    jsonschema = pytest.importorskip("jsonschema")
+    document = json.loads(lb.report(pushed, of_pushed).json)
+    jsonschema.validate(document, lb.report_schema())
+
+
+def test_intervals_that_touch_are_one():
+    assert merged([(3, 4), (0, 1), (1, 2), (0, 0.5)]) == [(0, 2), (3, 4)]
+
+
+def test_the_command_prints_the_three_ranges(pushed, tmp_path):
+    file, output = pushed.save(tmp_path / "pair.json"), tmp_path / "range.json"
+    options = ["--paths", "1", "--mechanisms", "0", "--output", str(output)]
+    done = CliRunner().invoke(app, ["range", str(file), *options])
+    assert done.exit_code == 0, done.output
+    for part in ("Reached", "Certified", "Certified load factors"):
+        assert part in done.stdout
+    assert json.loads(output.read_text())["analysis"] == "range"
+    done = CliRunner().invoke(app, ["check", str(file), str(output)])
+    assert done.exit_code == 2
+    assert "holds a range of load factors" in done.stderr

@@ -1,0 +1,133 @@
+"""Load paths against closed forms: exact ends, a snap with both its ends, and the two ways over it."""
+
+import runpy
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.nonassociated import loading
+from limitblocks.analysis.nonassociated.increment import Increment, Visit
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PLUG = runpy.run_path(str(EXAMPLES / "20_a_load_path_that_snaps.py"))
+JAMMED = runpy.run_path(str(EXAMPLES / "15_two_right_answers.py"))
+
+
+def of_plug(**options):
+    model = PLUG["plug_in_its_seat"]()
+    stiffness = {PLUG["SEAT"]: (PLUG["STIFF"],) * 2, PLUG["JACK"]: (PLUG["SOFT"],) * 2}
+    options = {"settings": lb.Settings(growth=2.0)} | options
+    return model, lb.load_path(model, start=PLUG["driven_in"](model).ravel(), stiffness=stiffness, **options)
+
+
+@pytest.fixture(scope="module", params=["across", "along"])
+def snapped(request):
+    return request.param, *of_plug(snaps=request.param)
+
+
+def test_a_block_between_floor_and_ceiling_keeps_the_press_it_starts_with():
+    """mu (1 + 2 P/W) with P = W, and it slides without tipping: no barrier adds to P."""
+    model = JAMMED["jammed_block"]()
+    path = lb.load_path(model, start=JAMMED["at_rest"](model, 1.0))
+    assert path.load_factor == pytest.approx(0.3 * 3, rel=1e-9)
+    assert 0.905 < path.tracked < 0.95  # the barrier of the tracked path does
+    (remark,) = path.remarks
+    assert remark.startswith(f"the tracked path of nonassociated ends at {path.tracked:.6g}, 2.")
+    assert remark in str(path)
+
+
+def test_a_wall_leaves_its_loose_buttress_at_b_over_h():
+    change = {"length": 2.0, "courses": 6, "buttress_length": 0.8, "bonded": False, "direction": (0, -1, 0)}
+    path = lb.load_path(structures.buttressed_wall(lb.PointContact(0.7), **change))
+    assert path.load_factor == pytest.approx(0.4 / 2.4, rel=1e-6)
+    assert not path.snaps
+
+
+def test_the_load_of_a_sliding_block_rises_to_friction_in_step_with_its_displacement():
+    """Pushed through its contact: a = K d / W up to mu, and mu from there, K the shear stiffness."""
+    model = replace(
+        structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=0.5),
+        live=lb.force("block 1", (1, 0, 0), at=(0, 0, 0)),
+    )
+    path = lb.load_path(model, stiffness=(1e9, 1e9))
+    weight = model.free_blocks[0].weight
+    moved, forces = path.curve([block.name for block in model.blocks].index("block 1"), 0)
+    np.testing.assert_allclose(forces, np.minimum(1e9 * moved, 0.3 * weight), rtol=1e-5)
+    assert path.load_factor == pytest.approx(0.3 * weight, rel=1e-9)
+    assert "the same load factor" in path.remarks[0]
+    length, work, traced = path.trace.T
+    assert (np.diff(length) >= 0.0).all()
+    assert np.abs(traced[work < 0.1 * work.max()]).max() <= 0.31 * weight
+
+
+def test_a_plug_snaps_out_of_its_seat(snapped):
+    """By hand, in the example: the greatest force, the weight after the snap, at one place of the jack."""
+    _, model, path = snapped
+    weight, jack = (block.weight for block in model.free_blocks)
+    (snap,) = path.snaps
+    greatest = PLUG["greatest"](weight) + jack
+    assert 0.9 * greatest <= snap.before.load_factor <= greatest  # the barrier rounds the corner
+    assert snap.after.load_factor == pytest.approx(weight + jack, rel=5e-3)
+    lifted = [PLUG["lift"](model, step) for step in (snap.before, snap.after)]
+    assert lifted[0] == pytest.approx(lifted[1], rel=1e-9)
+    assert path.load_factor == pytest.approx(weight + jack, rel=1e-9)
+    assert snap.drop == pytest.approx(snap.before.load_factor - snap.after.load_factor)
+    assert path.peak == max(step.load_factor for step in path.steps) >= snap.before.load_factor
+    assert all(max(step.residuals.values()) <= 1e-8 for step in path.steps)
+    assert lb.check_mcp(model, path.collapse).passed
+
+
+def test_along_a_snap_the_jack_goes_back(snapped):
+    how, model, path = snapped
+    places = [k for k, step in enumerate(path.steps) if step.kind.endswith("snap")]
+    assert [path.steps[k].kind for k in places] == ["before snap", "after snap"]
+    assert path.steps[places[0]] is path.snaps[0].before
+    assert path.steps[places[1]] is path.snaps[0].after
+    between = path.steps[places[0] + 1 : places[1]]
+    assert {step.kind for step in between} == ({"unstable"} if how == "along" else set())
+    if how == "along":
+        lifts = [PLUG["lift"](model, step) for step in between]
+        assert min(lifts) < 0.6 * PLUG["lift"](model, path.snaps[0].before)
+    document = path.to_dict()
+    assert document["snaps"] == [places]
+    assert len(document["trace"]) == len(path.trace)
+
+
+def test_its_curve_and_its_report_show_the_snap(snapped):
+    pytest.importorskip("matplotlib")
+    how, model, path = snapped
+    ax = lb.plots.load_path(path, model, block="jack", component="Z")
+    labels = {text.get_text() for text in ax.get_legend().get_texts()}
+    assert {"before snap", "after snap"} <= labels
+    assert ("unstable" in labels) == (how == "along")
+    assert [line.get_linestyle() for line in ax.lines].count("--") == (how == "across")
+    (row,) = (row for row in lb.report(model, path).sections[0].values if row[0] == "Snap")
+    assert [float(number) for number in row[1].split(" to ")] == pytest.approx(
+        [path.snaps[0].before.load_factor, path.snaps[0].after.load_factor], rel=1e-6
+    )
+
+
+def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
+    """Else the path is lost where it goes back beyond the start of the increment."""
+    whole = loading.increment
+    monkeypatch.setattr(loading, "increment", lambda *args: replace(whole(*args), returned=False))
+    _, path = of_plug(throw=False, settings=lb.Settings(growth=2.0, budget=500))
+    assert not path.collapse.converged
+
+
+def test_folds_are_where_the_displacement_turns():
+    def visit(tau, forward=True):
+        return Visit(None, 1.0 / tau, 0.0, forward)
+
+    there_and_back = [visit(1), visit(2), visit(2.1, False), visit(1.5, False), visit(1.6), visit(3)]
+    assert Increment(tuple(there_and_back), None, 1.0).folds == ((2, 5),)
+    assert Increment((visit(1), visit(2)), None, 1.0).folds == ()
+
+
+def test_an_unknown_way_over_snaps_is_refused():
+    with pytest.raises(lb.ModelError, match="snaps is 'over', expected 'across' or 'along'"):
+        lb.load_path(structures.column(lb.PointContact(0.3), count=1, width=0.6, height=0.25), snaps="over")

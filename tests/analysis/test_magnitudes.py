@@ -1,0 +1,55 @@
+"""Numbers of the wrong magnitude are asked about, and plausible ones are not."""
+
+import logging
+
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.magnitudes import questions
+from limitblocks.cli import app
+
+
+def block(joint=None, **change):
+    settings = {"width": 0.5, "height": 1.0, "unit_weight": 20e3} | change
+    return structures.block(joint or lb.OrdunaLourenco(0.6), **settings)
+
+
+@pytest.mark.parametrize(
+    ("model", "question"),
+    [
+        (block(lb.PointContact(30.0)), "friction is 30: degrees? tan 30 deg = 0.577"),
+        (block(lb.PointContact(300.0)), "friction is 300: a coefficient is below 2"),
+        (
+            block(lb.OrdunaLourenco(0.6, compressive_strength=2.0)),
+            "compressive strength is 2 Pa: MPa? 2 MPa = 2e+06 Pa",
+        ),
+        (block(lb.OrdunaLourenco(0.6, cohesion=0.1)), "cohesion is 0.1 Pa: MPa? 0.1 MPa = 100000 Pa"),
+        (block(unit_weight=20.0), "unit weight is 20 N/m3: kN/m3? 20 kN/m3 = 20000 N/m3"),
+        (block(unit_weight=2000.0), "unit weight is 2000 N/m3: kg/m3? 2000 kg/m3 weigh 1.962e+04 N/m3"),
+        (block(width=8000.0), "the structure is "),
+        (block(width=0.01, height=0.01, depth=0.01), "the structure is "),
+    ],
+)
+def test_what_a_colleague_would_ask(model, question):
+    (asked,) = questions(model)
+    assert asked.startswith(question)
+
+
+@pytest.mark.parametrize("name", structures.EXAMPLES)
+def test_plausible_models_raise_no_question(name):
+    assert questions(structures.EXAMPLES[name](lb.OrdunaLourenco(0.8, compressive_strength=3e5))) == []
+
+
+def test_questions_reach_whoever_imports_and_reports(tmp_path, caplog):
+    file = lb.write_blocks(block().blocks, tmp_path / "house.obj")
+    said = "friction is 30: degrees? tan 30 deg = 0.577"
+    options = ["--friction", "30", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
+    result = CliRunner().invoke(app, ["import", str(file), *options])
+    assert f"warning: {said}" in result.stderr
+    assert said in CliRunner().invoke(app, ["info", str(tmp_path / "house.json")]).output.replace("\n", " ")
+    with caplog.at_level(logging.WARNING, logger="limitblocks"):
+        lb.read(file, joint=lb.PointContact(30.0), supports="base", live=lb.mass_proportional((1, 0, 0)),
+                unit_weight=20e3)  # fmt: skip
+    assert any(said in line for line in caplog.messages)

@@ -1,0 +1,103 @@
+"""Table 5: where it has no solution, and what leads to one."""
+
+from dataclasses import replace
+
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.nonassociated.determinate import state_without_solution
+from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING, follow
+from limitblocks.analysis.nonassociated.start import (
+    bracket,
+    load_scale,
+    own_units,
+    start_stresses,
+)
+from limitblocks.analysis.polish import polish
+from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
+from limitblocks.problem import Flow, Turning
+
+MU, HEIGHT, ARM = 0.5, 0.2, 0.45
+TABLE_5 = "centre of pressure"
+
+
+def bracketed(at=None, joint=None):
+    """A stone 1.9 long on a square of 1, its centroid ARM off the middle, pushed across there or `at`."""
+    base = lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1))
+    stone = lb.Block.box("stone", (1.9, 1, HEIGHT), (ARM, 0, HEIGHT / 2), 20e3)
+    interfaces = lb.find_interfaces([base, stone], joint or lb.OrdunaLourenco(MU))
+    push = lb.mass_proportional((0, 1, 0))
+    if at is not None:
+        push = lb.force("stone", (0, stone.weight, 0), at=(at, 0, HEIGHT / 2))
+    return lb.Model([base, stone], ["base"], interfaces, lb.self_weight(), push)
+
+
+def twists_at(arm):
+    """Eq. (30), l1 = l2 = 1/2, e = (ARM, a h/2): T = a W arm = mu/2 (1 - |e1| - |e2|) W."""
+    return MU / 2 * (1 - ARM) / (arm + MU / 2 * HEIGHT / 2)
+
+
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+def test_a_push_through_the_point_where_n_acts_turns_nothing_about_it(analysis):
+    """Weight and push act at the centroid: the push passes over the centre of pressure, and does no work."""
+    model = bracketed()
+    with pytest.raises(lb.NoSolution, match=r"no solution exists: .* base\|stone yields first") as caught:
+        analysis(model, turning=TABLE_5)
+    result = caught.value.result
+    assert result.status is lb.Status.NO_SOLUTION
+    if analysis is lb.nonassociated:
+        assert result.load_factor == pytest.approx(twists_at(ARM))
+        assert result.how == "statics alone"
+        kept = analysis(model, turning=TABLE_5, throw=False)
+        assert kept.status is lb.Status.NO_SOLUTION
+        assert not lb.check_mcp(model, kept).passed
+
+
+def test_about_the_centroid_the_same_push_does_work():
+    found = lb.nonassociated(bracketed())
+    assert found.load_factor == pytest.approx(twists_at(ARM))
+    assert state_without_solution(Flow(bracketed().problem)) is None
+
+
+def test_a_push_beside_the_point_where_n_acts_turns_the_stone():
+    model = bracketed(at=0.75)
+    found = lb.nonassociated(model, turning=TABLE_5)
+    assert found.load_factor == pytest.approx(twists_at(0.75))
+    assert state_without_solution(Flow(model.problem, 0.0, Turning.PRESSURE)) is None
+
+
+def test_no_proof_where_statics_alone_does_not_give_the_stresses_or_nothing_holds():
+    points = bracketed(joint=lb.PointContact(MU))
+    assert state_without_solution(Flow(points.problem)) is None
+    wall = structures.wall(lb.OrdunaLourenco(MU), length=1.2, courses=2)
+    assert state_without_solution(Flow(wall.problem)) is None
+    edge = structures.block(lb.OrdunaLourenco(MU), width=1.0, height=1.0)
+    stands_on_edge = replace(edge, dead=lb.self_weight() + lb.mass_proportional((MU, 0, 0)))
+    assert state_without_solution(Flow(stands_on_edge.problem)) is None  # slides under its dead loads
+
+
+@pytest.fixture(scope="module")
+def corner():
+    """Two walls that meet, pushed along one: paths from the permanent loads wind."""
+    joint = lb.OrdunaLourenco(0.6)
+    model = structures.corner(joint, length=2.4, return_length=2.4, courses=4)
+    return model, lb.nonassociated(model)
+
+
+@pytest.mark.parametrize(("softening", "solved"), [(TURNED_SOFTENING, True), (SOFTENING, False)])
+def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner, softening, solved):
+    model, about_centroid = corner
+    enclosing = bracket(model)
+    problem = own_units(model, enclosing)
+    flow = Flow(problem, 0.0, Turning.PRESSURE)
+    x0 = start_stresses(model, problem, problem.compliance, about_centroid)
+    state, _ = follow(
+        replace(flow, softening=softening),
+        x0,
+        problem.compliance,
+        means=[TURNED_MEANS[6]],
+        power=load_scale(problem, enclosing.associated) / len(problem.blocks),
+    )
+    worst = mcp_residuals(flow, polish(flow, state)).worst.value
+    assert (worst <= TOLERANCE) == solved

@@ -1,0 +1,269 @@
+"""Contacts at the accuracy of the data: noise, strips, sheets thinner than the gap, rough faces, healing."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from bodies import triangulated
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.geometry import polygon
+
+JOINT = lb.OrdunaLourenco(0.6)
+UNIT = (1.0, 1.0, 1.0)
+box = lb.Block.box
+CORNER = structures.corner(JOINT, length=2.4, return_length=2.4, courses=5)
+VAULT = structures.barrel_vault(JOINT, radius=1.5, thickness=0.4, length=1.8, courses=9, stones=3)
+WALL = structures.wall(JOINT, length=2.0, courses=5)  # stones of 0.4 m x 0.2 m x 0.2 m
+CLEAN = {"corner": CORNER, "vault": VAULT, "wall": WALL}
+
+
+def noisy(blocks, noise, seed):
+    rng = np.random.default_rng(seed)
+    return [
+        lb.Block(b.name, b.vertices + noise * rng.uniform(-1, 1, b.vertices.shape), b.faces, b.unit_weight)
+        for b in map(triangulated, blocks)
+    ]
+
+
+def divided(block):
+    """The triangles of a block, each in four."""
+    corners = block.vertices[block.triangles]
+    middles = (corners + np.roll(corners, -1, axis=1)) / 2
+    (a, b, c), (d, e, f) = corners.swapaxes(0, 1), middles.swapaxes(0, 1)
+    soup = np.concatenate([np.stack(one, axis=1) for one in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))])
+    points, number = np.unique(soup.reshape(-1, 3).round(9), axis=0, return_inverse=True)
+    return lb.Block(block.name, points, number.reshape(-1, 3).tolist(), block.unit_weight)
+
+
+def model_of(clean, blocks, contacts):
+    return lb.Model(blocks, clean.supports, contacts.interfaces, clean.dead, clean.live)
+
+
+def ends(items):
+    return {(one.block_i, one.block_j) for one in items}
+
+
+@pytest.mark.parametrize("name", structures.EXAMPLES)
+def test_what_is_drawn_exactly_gets_the_tolerances_of_a_drawing(name):
+    blocks = structures.EXAMPLES[name](lb.PointContact(0.7)).blocks
+    used = lb.find_contacts(blocks, None).tolerances
+    assert (used.gap, used.angle, used.width) == (1e-3, 1e-2, 1e-3)
+    assert used.accuracy is None or used.accuracy < 1e-12
+
+
+@pytest.mark.parametrize("name", CLEAN)
+@pytest.mark.parametrize("noise", [1.5e-4, 1e-3])
+def test_accuracy_is_the_standard_deviation_of_a_coordinate(name, noise):
+    """n / sqrt(3) of uniform noise up to n, within a fifth."""
+    found = lb.find_contacts(noisy(CLEAN[name].blocks, noise, 1), None)
+    assert found.tolerances.accuracy * found.length == pytest.approx(noise / np.sqrt(3), rel=0.2)
+    assert found.accuracy.startswith(
+        f"the faces that touch are good to about {1e3 * found.tolerances.accuracy * found.length:.2g} mm; gap"
+    )
+
+
+@pytest.mark.parametrize("name", CLEAN)
+@pytest.mark.parametrize(("noise", "seed"), [(1.5e-4, 0), (3e-4, 1), (1e-3, 2), (2e-3, 3)])
+def test_noise_is_right_or_refused(name, noise, seed):
+    """Within 1 % of the clean load factor, or a sentence with cause and remedy; never silent."""
+    clean = CLEAN[name]
+    contacts = lb.find_contacts(noisy(clean.blocks, noise, seed), JOINT)
+    if contacts.faults:
+        with pytest.raises(lb.GeometryError, match=r"good to about .* mm only; beyond .*limitblocks\.heal"):
+            contacts.require()
+        assert noise > 1e-3 or name == "wall"
+        assert contacts.warnings[0] == contacts.faults[0]
+        return
+    assert ends(contacts.interfaces) == ends(clean.interfaces)
+    found = lb.bounds(model_of(clean, noisy(clean.blocks, noise, seed), contacts)).lower
+    assert found == pytest.approx(lb.bounds(clean).lower, rel=1e-2)
+
+
+def test_given_tolerances_take_blocks_as_they_are_with_a_warning():
+    blocks = noisy(CORNER.blocks, 3e-3, 0)
+    taken = lb.find_contacts(blocks, JOINT, gap=2e-2, angle=0.1)
+    taken.require()
+    assert "good to about 1." in taken.warnings[0]
+
+
+@pytest.mark.parametrize("width", [0.5e-3, 2e-3])
+def test_strips_are_findings(width):
+    """Stones that meet at an edge but for `width`: an interface would be a shear key."""
+    blocks = [box("low", UNIT, (0, 0, 0)), box("high", (4.0, 4.0, 1.0), (2.5 - width, 0, 1))]
+    found = lb.find_contacts(blocks, None, width=1e-3 / 1.6)
+    assert len(found.interfaces) == (width > 1e-3)
+    wide = lb.find_contacts(blocks, None, width=5e-3)
+    (strip,) = wide.strips or wide.slivers
+    assert strip.width == pytest.approx(width, rel=5e-3)
+    assert wide.isolated == ("low", "high")
+
+
+def test_narrow_faces_that_are_covered_are_no_strips():
+    tile = box("tile", (2e-3, 1.0, 1.0), (0, 0, 0.5))
+    (one,) = lb.find_interfaces([box("ground", UNIT, (0, 0, -0.5)), tile], None, width=0.1)
+    assert polygon.areas(one.polygon) == pytest.approx(2e-3)
+
+
+# -------------------------------------------------------------------------------------------- thin sheets
+
+
+def sheet(thickness, size=1.0):
+    """A cube on a sheet on a cube: three blocks."""
+    return [
+        box("low", UNIT, (0, 0, -0.5)),
+        box("sheet", (size, 1.0, thickness), (0, 0, thickness / 2), 0.0),
+        box("high", UNIT, (0, 0, 0.5 + thickness), 20e3),
+    ]
+
+
+def load_factor(blocks, joints, **tolerances):
+    """Least friction counts: each interface with the sheet has its own joint."""
+    contacts = lb.find_contacts(blocks, None, **tolerances)
+    contacts.require()
+    interfaces = [replace(i, joint=joints["sheet" in i.name]) for i in contacts.interfaces]
+    live = lb.mass_proportional((1, 0, 0))
+    return lb.bounds(lb.Model(blocks, ["low"], interfaces, lb.self_weight(), live)).lower
+
+
+@pytest.mark.parametrize("thickness", [2e-4, 9e-4, 1.1e-3, 5e-3])
+@pytest.mark.parametrize("gap", [None, 1e-2])
+def test_no_contact_through_a_sheet_thinner_than_the_gap(thickness, gap):
+    joints = {True: lb.PointContact(0.1), False: lb.PointContact(0.6)}
+    blocks = sheet(thickness)
+    assert load_factor(blocks, joints, gap=gap) == pytest.approx(0.1, abs=1e-6)
+    found = lb.find_contacts(blocks, None, gap=gap)
+    assert ends(found.interfaces) == {("low", "sheet"), ("sheet", "high")}
+    assert found.near_misses == ()
+    within = thickness < 1e-3 * (1.0 if gap is None else 10.0)
+    assert [(one.between, one.gap) for one in found.through] == [("sheet", pytest.approx(thickness))] * within
+    lines = [f"no contact where a third block lies between: {one}" for one in found.through]
+    assert found.warnings == lines
+
+
+def test_a_sheet_under_a_part_holds_all_apart():
+    found = lb.find_contacts(sheet(9e-4, size=0.5), None)
+    assert ends(found.interfaces) == {("low", "sheet"), ("sheet", "high")}
+
+
+def test_sheets_on_one_another_hold_apart():
+    blocks = [
+        box("low", UNIT, (0, 0, -0.5)),
+        *(box(f"sheet {k}", (1.0, 1.0, 2e-4), (0, 0, (k + 0.5) * 2e-4)) for k in range(3)),
+        box("high", UNIT, (0, 0, 0.5 + 6e-4)),
+    ]
+    found = lb.find_contacts(blocks, None, gap=2e-3)
+    assert ends(found.interfaces) == {
+        ("low", "sheet 0"), ("sheet 0", "sheet 1"), ("sheet 1", "sheet 2"), ("sheet 2", "high")
+    }  # fmt: skip
+
+
+@settings(max_examples=10, deadline=None)
+@given(seed=st.integers(0, 2**31))
+def test_stones_side_by_side_are_not_between(seed):
+    """A third stone that touches both, beside the joint, holds nothing apart."""
+    rng = np.random.default_rng(seed)
+    a, b = rng.uniform(0.2, 0.8, 2)
+    blocks = [
+        box("ground", (2.0, 1.0, 1.0), (0, 0, -0.5)),
+        box("left", (1.0 + a - b, 1.0, 1.0), ((-1.0 + a - b) / 2, 0, 0.5)),
+        box("right", (1.0 - a + b, 1.0, 1.0), ((1.0 + a - b) / 2, 0, 0.5)),
+        box("top", (2.0, 1.0, 0.3), (0, 0, 1.15)),
+    ]
+    found = lb.find_contacts(blocks, None, gap=2e-2)
+    assert (len(found.interfaces), found.through) == (5, ())
+
+
+# ------------------------------------------------------------------------------------------------- facets
+
+
+@pytest.mark.parametrize("name", ["corner", "vault"])
+def test_rough_facets_are_refused_and_healed(name):
+    clean = CLEAN[name]
+    blocks = [divided(block) for block in clean.blocks]
+    exact = lb.find_contacts(blocks, JOINT)
+    assert exact.faults == ()
+    assert ends(exact.interfaces) == ends(clean.interfaces)
+    rough = noisy(blocks, 1e-3, 0)
+    with pytest.raises(lb.GeometryError, match=r"two blocks touch through \d+ facets, .*limitblocks\.heal"):
+        lb.find_interfaces(rough, JOINT)
+    healed = lb.heal(rough)
+    contacts = healed.contacts(JOINT)
+    contacts.require()
+    found = lb.bounds(model_of(clean, healed.blocks, contacts)).lower
+    assert found == pytest.approx(lb.bounds(clean).lower, rel=1e-2)
+
+
+# ------------------------------------------------------------------------------------------------ healing
+
+
+@pytest.mark.parametrize("name", CLEAN)
+@pytest.mark.parametrize("noise", [3e-4, 2e-3])
+def test_healed_blocks_have_the_contacts_and_load_factor_of_the_clean_ones(name, noise):
+    clean, rough = CLEAN[name], noisy(CLEAN[name].blocks, noise, 5)
+    healed = lb.heal(rough)
+    assert healed.notes == ()
+    contacts = healed.contacts(JOINT)
+    assert contacts.faults == ()
+    assert ends(contacts.interfaces) == ends(clean.interfaces)
+    found = lb.bounds(model_of(clean, healed.blocks, contacts)).lower
+    assert found == pytest.approx(lb.bounds(clean).lower, rel=1e-2)
+    for old, new in zip(rough, healed.blocks, strict=True):
+        moved = np.linalg.norm(new.vertices[:, None] - old.vertices, axis=2).min(axis=1).max()
+        assert moved <= healed.displacements[old.name] * (1 + 1e-9) <= healed.bound
+        assert new.unit_weight == old.unit_weight
+
+
+def test_what_is_drawn_exactly_is_healed_to_itself():
+    healed = lb.heal(CORNER.blocks)
+    assert healed.blocks == tuple(CORNER.blocks)
+    assert set(healed.displacements.values()) == {0.0}
+
+
+def test_small_gaps_are_closed_within_the_accuracy_given():
+    blocks = [box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0.25, 0, 0.5 + 4e-3))]
+    healed = lb.heal(blocks, accuracy=1e-3)
+    assert all(2e-3 <= moved < 2.5e-3 for moved in healed.displacements.values())
+    (one,) = lb.find_interfaces(healed.blocks, None)
+    assert (one.centroid[2], float(polygon.areas(one.polygon))) == pytest.approx((2e-3, 0.75), abs=2e-3 / 4)
+    far = lb.heal([blocks[0], box("high", UNIT, (0.25, 0, 0.5 + 7e-3))], accuracy=1e-3)
+    assert set(far.displacements.values()) == {0.0}
+
+
+def test_heal_without_an_accuracy_needs_joints_to_tell_it():
+    blocks = [box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0.25, 0, 0.5))]
+    with pytest.raises(lb.ModelError, match="accuracy is None; a length in m is needed"):
+        lb.heal(blocks)
+    with pytest.raises(lb.ModelError, match=r"accuracy is -1\.0; a length"):
+        lb.heal(blocks, accuracy=-1.0)
+
+
+# --------------------------------------------------------------------------------------- models and files
+
+
+def test_later_commands_judge_with_the_tolerances_of_the_model(tmp_path):
+    """At the defaults `diagnose` missed 10 mm joints that the model was made of."""
+    blocks = [box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0, 0, 0.5 + 8e-3), 20e3)]
+    contacts = lb.find_contacts(blocks, JOINT, gap=1e-2)
+    given = {"dead": lb.self_weight(), "live": lb.mass_proportional((1, 0, 0))}
+    model = lb.Model(blocks, ["low"], contacts.interfaces, **given, tolerances=contacts.tolerances)
+    again = lb.read(model.save(tmp_path / "model.json"))
+    assert again.tolerances == contacts.tolerances
+    assert again.digest == model.digest == replace(model, tolerances=None).digest
+    found = lb.diagnose(again)
+    assert found.tolerances.gap == 1e-2
+    assert found.warnings == []
+    assert found.nothing == ["nothing found beside the interfaces with these tolerances"]
+    assert lb.diagnose(again, gap=1e-3).tolerances.gap == 1e-3
+
+
+def test_findings_are_plain_data():
+    found = lb.find_contacts(sheet(9e-4), None)
+    again = json.loads(json.dumps(found.to_dict()))
+    (one,) = again["through"]
+    assert one == {"block_i": "low", "block_j": "high", "between": "sheet", "gap": pytest.approx(9e-4)}
+    assert again["tolerances"] == {"gap": 1e-3, "angle": 1e-2, "width": 1e-3, "accuracy": None}

@@ -1,0 +1,33 @@
+import pytest
+from plotted import corner, inked
+
+import limitblocks as lb
+
+UNIT = (1.0, 1.0, 1.0)
+
+
+def with_findings():
+    blocks = [
+        lb.Block.box("ground", (6.0, 1.0, 1.0), (0, 0, -0.5)),
+        lb.Block.box("sheet", (1.0, 1.0, 9e-4), (0, 0, 4.5e-4), 20e3),
+        lb.Block.box("stone", UNIT, (0, 0, 0.5 + 9e-4), 20e3),
+        lb.Block.box("beside", UNIT, (1.004, 0, 0.5), 20e3),
+        lb.Block.box("far", UNIT, (2.7, 0, 5.0)),
+    ]
+    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.6))
+    live = lb.mass_proportional((1, 0, 0))
+    return lb.Model(blocks, ["ground", "far"], interfaces, lb.self_weight(), live)
+
+
+@pytest.mark.parametrize("plane", ["xz", "3d"])
+def test_each_kind_has_its_line_and_its_number(plane):
+    ax = lb.plots.findings(with_findings(), plane=plane)
+    _, labels = ax.get_legend_handles_labels()
+    assert labels == ["near miss (2)", "block between (1)", "isolated (1)"]  # of stone and sheet
+    assert inked(ax) > 0.05
+
+
+def test_nothing_found_is_said():
+    ax = lb.plots.findings(corner())
+    assert ax.get_title().endswith("nothing found beside the interfaces with these tolerances")
+    assert ax.get_legend() is None

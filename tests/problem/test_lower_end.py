@@ -1,0 +1,152 @@
+"""The lower end of the bracket: the inequality that its proof rests on, and where Table 5 breaks it.
+
+With Q0 a state without shear within yield, and dq the flow at a state Q at yield, Q0.dq <= Q.dq: then no
+solution lies below the load factor of Q0; docs/nonassociated.md, "The bracket".
+"""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.problem import Flow, Turning
+
+MU = 0.5
+JOINTS = [
+    lb.OrdunaLourenco(MU),
+    lb.OrdunaLourenco(MU, slip="paper"),
+    lb.OrdunaLourenco(MU, slip="inner", sides=3),
+    lb.OrdunaLourenco(MU, compressive_strength=1e5),
+    lb.OrdunaLourenco(MU, cohesion=5e3, tensile_strength=5e3),
+    lb.ExactTorsion(MU, fineness=2, side="inner"),
+    lb.ExactTorsion(MU, fineness=2, side="outer"),
+    lb.PointContact(MU),
+    lb.PointContact(MU, cone="inner", sides=5),
+]
+STATES = 200
+SQUARE = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
+PENTAGON = [(2.0, 0.0), (1.0, 1.2), (-0.8, 1.0), (-1.0, -0.7), (0.6, -1.4)]
+
+
+def prism(name, polygon, low, high, unit_weight=None):
+    n = len(polygon)
+    corners = [(x, y, z) for z in (low, high) for x, y in polygon]
+    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
+    return lb.Block(name, corners, [tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides], unit_weight)
+
+
+def problem_of(joint, polygon):
+    blocks = [prism("base", polygon, -0.2, 0.0), prism("stone", polygon, 0.0, 1.0, 20e3)]
+    interfaces = lb.find_interfaces(blocks, joint)
+    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))).problem
+
+
+def pressing(problem):
+    """Which generalised stresses are normal forces."""
+    return problem.resultants.toarray()[2] > 0.0
+
+
+def without_shear(problem, random, count):
+    """States of N, M1, M2 (or normal forces of points) alone within hinging, N <= 0, and one of them in K."""
+    normal = ~problem.resultants.toarray()[[0, 1, 5]].any(axis=0)
+    middle = np.where(pressing(problem), -1.0, 0.0)
+    held = problem.F @ middle + problem.g
+    for drawn in random.normal(size=(count, len(middle))) * normal:
+        d = drawn - middle * (drawn @ middle) / (middle @ middle)  # N stays
+        away = problem.cones.longest(held, problem.F @ d)
+        yield middle + min(away, 1e3) * random.uniform() * d
+
+
+def flowing(problem, random, count):
+    """States at yield, each with multipliers that its yield functions allow to flow."""
+    inside = np.where(pressing(problem), -1.0, 0.0)
+    held = problem.F @ inside + problem.g
+    sizes = [min(1.0, problem.cones.longest(held, problem.F @ e)) for e in np.eye(len(inside))]
+    for d in random.uniform(-1, 1, (count, len(inside))) * sizes:
+        away = problem.cones.longest(held, problem.F @ d)
+        if np.isinf(away):  # more compression, mostly
+            continue
+        x = inside + away * d
+        s = problem.F @ x + problem.g
+        y = np.zeros_like(s)
+        for k in np.flatnonzero(problem.cones.margin(s) < 1e-9):
+            rows = problem.cones.member == k
+            y[rows] = np.where(np.arange(rows.sum()) == 0, s[rows], -s[rows]) if rows.sum() > 1 else 1.0
+        yield x, y / np.abs(y).max()
+
+
+def powers(joint, polygon, share=0.0, turning=Turning.CENTROID):
+    """Q.dq - Q0.dq of many pairs of states, over what the sizes of Q and dq would make of it."""
+    random = np.random.default_rng(0)
+    problem = problem_of(joint, polygon)
+    flow = Flow(problem, share * MU, turning)
+    smooth = np.array(list(without_shear(problem, random, STATES)))
+    values = []
+    for x, y in flowing(problem, random, STATES):
+        dq = -flow.matrix(x).T @ y
+        size = np.linalg.norm(x) * np.linalg.norm(dq)
+        values.append((x @ dq - smooth @ dq) / size)
+    return np.concatenate(values)
+
+
+@pytest.mark.parametrize("joint", JOINTS, ids=repr)
+@pytest.mark.parametrize("polygon", [SQUARE, PENTAGON], ids=["square", "pentagon"])
+@pytest.mark.parametrize("share", [0.0, 0.4, 1.0])
+def test_no_flow_takes_more_power_from_a_state_without_shear(joint, polygon, share):
+    assert powers(joint, polygon, share).min() >= -1e-9
+
+
+def test_table_5_does():
+    """Without it the lower end has no proof; the flow says so."""
+    joint = JOINTS[0]
+    assert powers(joint, SQUARE, turning=Turning.PRESSURE).min() < -1e-3
+    problem = problem_of(joint, SQUARE)
+    assert not Flow(problem, 0.0, Turning.PRESSURE).dissipative
+    assert not Flow(problem, MU / 2, Turning.PRESSURE).dissipative
+    assert Flow(problem, MU, Turning.PRESSURE).dissipative  # associated
+    assert Flow(problem, 0.0).dissipative
+    assert Flow(problem_of(lb.PointContact(MU), SQUARE), 0.0, Turning.PRESSURE).dissipative  # nothing turns
+
+
+def stone(joint):
+    blocks = [
+        lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, joint)
+    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+def test_the_lower_end_is_claimed_where_it_is_one():
+    """A stone slides at its friction; without friction anything moves it."""
+    model = stone(lb.OrdunaLourenco(MU))
+    plain = lb.nonassociated(model)
+    assert (plain.frictionless, plain.unclaimed) == (0.0, "")
+    assert plain.load_factor == pytest.approx(MU)
+    turned = lb.nonassociated(model, turning="centre of pressure")
+    assert np.isnan(turned.frictionless)
+    assert turned.unclaimed.startswith("with this turning a joint can give power")
+    assert "at most 0.5 (associated)" in str(turned)
+    assert "lower end not claimed: with this turning" in str(turned)
+    assert turned.to_dict()["unclaimed"] == turned.unclaimed
+    path = lb.load_path(model, turning="centre of pressure")
+    assert path.collapse.unclaimed == turned.unclaimed
+    points = lb.nonassociated(stone(lb.PointContact(MU)), turning="centre of pressure")
+    assert (points.frictionless, points.unclaimed) == (0.0, "")
+
+
+def test_a_joint_without_friction_has_neither_cohesion_nor_tension():
+    """A stone on glue below a ceiling, c A = 1.5 times its weight W.
+
+    The glue alone, without friction, would carry 1.5 W across: more than with it, c A - mu W = W.
+    """
+    joint = lb.OrdunaLourenco(MU, cohesion=30e3, tensile_strength=60e3)
+    blocks = [
+        lb.Block.box("ceiling", (1, 1, 0.2), (0, 0, 1.1)),
+        lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, joint)
+    model = lb.Model(blocks, ["ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    result = lb.nonassociated(model)
+    assert result.load_factor == pytest.approx(1.5 - MU)
+    assert np.isnan(result.frictionless)
+    assert result.unclaimed.startswith("without friction the dead loads do not stand")
