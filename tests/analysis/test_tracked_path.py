@@ -91,8 +91,8 @@ def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, m
 
 
 def test_proximal_rounds_close_a_path_of_which_only_compliance_is_left(monkeypatch):
-    model = pushed("pavilion_vault", lb.OrdunaLourenco(0.7), (1, 0, 0))
-    settings = {"means": [Means(Barrier(0.02, 2.0), 1, 330)], "throw": False}
+    model = pushed("groin_vault", lb.OrdunaLourenco(0.7), (1, 1, 0))
+    settings = {"means": [Means(Barrier(0.02, 2.0), 1, 420)], "throw": False}
     assert lb.nonassociated(model, **settings).converged
     monkeypatch.setattr(tracking, "settled", lambda _path, _z: ())
     assert not lb.nonassociated(model, **settings).converged
