@@ -30,10 +30,12 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.evidence.load_path_result import LoadPath, PathStep, Snap
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Snap, Status
+from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import (
     Block,

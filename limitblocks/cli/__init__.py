@@ -43,7 +43,7 @@ from limitblocks.cli.options import (
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged
-from limitblocks.evidence.results import Method
+from limitblocks.evidence.ending import Method
 from limitblocks.problem import Turning
 
 if TYPE_CHECKING:

@@ -10,8 +10,9 @@ from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
     from limitblocks.evidence.associated import Bounds
+    from limitblocks.evidence.load_path_result import LoadPath
     from limitblocks.evidence.range_result import LoadFactorRange
-    from limitblocks.evidence.results import LoadPath, Nonassociated
+    from limitblocks.evidence.results import Nonassociated
     from limitblocks.evidence.stability_result import Stability
     from limitblocks.model import Model
 

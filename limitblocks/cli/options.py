@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from limitblocks.evidence.results import Method
+from limitblocks.evidence.ending import Method
 from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError
-from limitblocks.evidence.results import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
 from limitblocks.model import Model

@@ -13,7 +13,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.evidence.results import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.io.motion import displaced, motion
 from limitblocks.io.packages import package
 from limitblocks.model import Model

@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
-from limitblocks.evidence.results import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Interface
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas

@@ -10,7 +10,8 @@ from matplotlib.ticker import MaxNLocator
 
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.results import LoadPath, Nonassociated
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.plots.style import (
     BLACK,

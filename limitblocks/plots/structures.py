@@ -9,7 +9,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.interface_states import Collapse, collapse_of
-from limitblocks.evidence.results import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number

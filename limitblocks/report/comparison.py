@@ -7,7 +7,8 @@ from math import isnan
 from typing import Any
 
 from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.results import LoadPath, Nonassociated
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.report.sections import limits
 
 NOT_UNIQUE = (

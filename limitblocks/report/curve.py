@@ -8,7 +8,8 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.results import Iteration, LoadPath
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
 
 WIDTH, HEIGHT = 1000.0, 360.0  # user units of the SVG

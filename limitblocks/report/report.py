@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.results import LoadPath, Nonassociated
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model

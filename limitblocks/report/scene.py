@@ -12,7 +12,8 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.results import LoadPath, Nonassociated, PathStep
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.report.picture import magnification
 

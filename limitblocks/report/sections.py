@@ -10,10 +10,11 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE, Residuals
-from limitblocks.evidence.results import LoadPath, Nonassociated
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model

@@ -9,7 +9,9 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.evidence.results import Iteration, LoadPath, Method, Nonassociated, PathStep, Status
+from limitblocks.evidence.ending import Method, Status
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}

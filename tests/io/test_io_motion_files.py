@@ -11,7 +11,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
-from limitblocks.evidence.results import LoadPath, PathStep
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
 
 JOINT = lb.OrdunaLourenco(0.6)
 ARCH = lb.structures.arch(JOINT, radius=5.0, thickness=0.8, voussoirs=7, embrace=2.8)

@@ -10,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.io import strict_json
 from limitblocks.problem import Turning
 

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.evidence.results import Iteration, LoadPath, Nonassociated, PathStep, Status
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
 from limitblocks.report import curve
 from limitblocks.report.comparison import comparison

@@ -21,8 +21,9 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration, LoadPath
+from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, Turning, checked_dilatancy, turning_of

@@ -28,10 +28,11 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import checked_limit, settled, within
+from limitblocks.evidence.ending import Method, Status, method_of
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
-from limitblocks.evidence.results import Iteration, Method, Nonassociated, Status, method_of
+from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 

@@ -11,8 +11,8 @@ from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated.increment import Increment, Visit
 from limitblocks.analysis.nonassociated.loading import Pushed
 from limitblocks.arrays import Array, read_only
+from limitblocks.evidence.load_path_result import PathStep, Snap
 from limitblocks.evidence.residuals import mcp_residuals
-from limitblocks.evidence.results import PathStep, Snap
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State
 
