@@ -18,6 +18,7 @@ from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
     jamming_program,
+    kinematic_program,
     solved,
     solvers,
     static_program,
@@ -162,6 +163,12 @@ def _pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]
             polished = polish(flow, state, until=tolerance / 10)
             if polished is not state:
                 yield _Pair(problem, polished, solver.name)
+            u, y = solved(kinematic_program(measured), solver).values  # where duals are too rough
+            if np.isfinite(u).all() and np.isfinite(y).all():
+                state = repaired(measured, State(float(load_factor), x, u, y))
+                yield _Pair(
+                    problem, polish(flow, measured.in_problem(state), until=tolerance / 10), solver.name
+                )
             measured = measured.measured(polished)
 
 

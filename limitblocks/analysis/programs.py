@@ -82,6 +82,15 @@ def static_program(problem: Scaled) -> Program:
     return Program(cp.Problem(cp.Maximize(load_factor), [balance, *inside]), (load_factor, x))
 
 
+def kinematic_program(problem: Scaled) -> Program:
+    """Least load factor g.y - dead.u over all mechanisms of the associated flow. Variables: u, y."""
+    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
+    flow = problem.C @ u + problem.F.T @ y == 0
+    power = problem.g @ y - problem.dead @ u
+    constraints = [flow, problem.live @ u == 1, *in_cone(y, problem.cones)]
+    return Program(cp.Problem(cp.Minimize(power), constraints), (u, y))
+
+
 def falling_program(problem: LimitProblem, loads: Array) -> Program:
     """Mechanism of unit size on which the loads do most work beyond the dissipation. Variables: u, y.
 

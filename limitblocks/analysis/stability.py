@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 
 import cvxpy as cp
 import numpy as np
@@ -177,29 +178,30 @@ def _dead_load_state(problem: LimitProblem) -> Array:
 def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin of one solver after the other, with the worst of their residuals.
 
-    Each is found again in the units of the one before.
+    Each is found again in the units of the one before. Stresses without a bound come first: solvers find
+    them more easily.
     """
-    for solver in solvers(bool(problem.cones.second_order)):
+    for solver, most in product(solvers(bool(problem.cones.second_order)), (np.inf, WEDGED)):
         measured: Scaled | None = scaled(problem)
         for _ in range(ROUNDS):
             if measured is None:
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
-            _, x = solved(_standing_program(measured, loads), solver).values
+            _, x = solved(_standing_program(measured, loads, most), solver).values
             found = np.isfinite(x).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
             yield x, Residuals(static_residuals(problem, load_factor, x)).worst
             measured = measured.measured(unmoved(problem, load_factor, x)) if found else None
 
 
-def _standing_program(problem: Scaled, loads: Array) -> Program:
-    """The largest margin t and its stresses. Variables: t, x."""
+def _standing_program(problem: Scaled, loads: Array, most: float) -> Program:
+    """The largest margin t and its stresses, at most `most` in the mean of the rows. Variables: t, x."""
     t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.C.T @ x == loads
     rows = problem.F @ x + problem.g
     inside = in_cone(rows - t * problem.margin, problem.cones)
-    bounded = problem.cones.identity @ rows <= WEDGED * problem.cones.degree
-    return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, bounded, *inside]), (t, x))
+    bounded = [problem.cones.identity @ rows <= most * problem.cones.degree] if np.isfinite(most) else []
+    return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *bounded, *inside]), (t, x))
 
 
 def _own_loads(problem: LimitProblem) -> Array:

@@ -18,6 +18,7 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem
 
+ROUNDING = 4 * np.finfo(float).eps  # of the terms of a row: no change of strength makes up for it
 Flags = npt.NDArray[np.bool_]
 
 
@@ -93,6 +94,8 @@ class Limits:
             at = slice(first, first + len(v))
             lacking[at] = np.where(parabola, bent, lacking[at])
             first += len(v)
+        terms = (abs(p.F) @ np.abs(x) + np.abs(p.g))[heads]
+        lacking = np.where(np.abs(lacking) <= ROUNDING * terms, 0.0, lacking)
         found = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
         np.divide(lacking, strength, out=found, where=(strength > 0.0) & (lacking != 0.0))
         return found

@@ -107,8 +107,10 @@ class LoadFactorRange:
         The bracket, as in :class:`limitblocks.Nonassociated`.
     wedging : Wedging
         Whether it can be wedged.
-    least, greatest : Extreme, optional
-        By mixed-integer programs, where they were asked for.
+    least : Extreme, optional
+        By a mixed-integer program, where it was asked for.
+    greatest : Extreme, optional
+        Likewise.
     paths, mechanisms : (int, int)
         How many were tried, and how many ended at a certified answer.
     complete : bool

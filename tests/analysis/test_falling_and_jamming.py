@@ -46,7 +46,7 @@ def test_more_weight_does_not_end_what_stands():
 
 def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monkeypatch):
     """Normal forces alone carry it, so that no mechanism of any flow rule does positive work."""
-    monkeypatch.setattr(loop, "follow", None)
+    monkeypatch.setattr(loop, "first_to_solve", None)
     model = replace(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), live=lb.mass_proportional(DOWN))
     with pytest.raises(lb.UnlimitedLoad, match="normal forces alone balance it"):
         lb.nonassociated(model)

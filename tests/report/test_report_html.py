@@ -254,8 +254,8 @@ def test_unknown_results_and_results_of_other_models_are_refused(model, bounds):
 def test_blocks_that_nearly_touch_are_warned_of():
     blocks = [
         lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)),
-        lb.Block.box("left", (1, 1, 1), (-0.502, 0, 0.5), 1e3),
-        lb.Block.box("right", (1, 1, 1), (0.502, 0, 0.5), 1e3),
+        lb.Block.box("left", (1, 1, 1), (-0.502, 0, 0.5), 2e4),
+        lb.Block.box("right", (1, 1, 1), (0.502, 0, 0.5), 2e4),
     ]
     interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
     model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
