@@ -145,48 +145,48 @@ def least(given: Given, held: bool = False) -> Nearby | None:
     for level in LEVELS:
         if best is not None and best.change <= level:
             break
-        found = nearby(given, level)
-        if found is None or (held and moved_by(given, found).value > level) or not is_exact(found):
+        near = nearby(given, level)
+        if near is None or (held and moved_by(given, near).value > level) or not is_exact(near):
             continue
-        best = found if best is None or found.change < best.change else best
+        best = near if best is None or near.change < best.change else best
     return best
 
 
-def is_exact(found: Nearby) -> bool:
+def is_exact(near: Nearby) -> bool:
     """Whether the state solves Eqs (54)-(59) of the changed problem; they do not ask for dissipation."""
-    entries = mcp_residuals(found.flow, found.state).entries
+    entries = mcp_residuals(near.flow, near.state).entries
     return all(entry.value <= TOLERANCE for entry in entries if entry.name != "dissipation")
 
 
-def _error(given: Given, found: Nearby, free: Nearby) -> BackwardError:
+def _error(given: Given, near: Nearby, free: Nearby) -> BackwardError:
     p = given.flow.problem
     names, members = np.array(p.interfaces), p.member_interface
     turned = np.zeros(len(names))
-    np.maximum.at(turned, p.stress_interface, found.turned[given.places[1]])
+    np.maximum.at(turned, p.stress_interface, near.turned[given.places[1]])
     limits = np.zeros(len(names))
-    np.maximum.at(limits, members, np.abs(found.limits))
-    changes = np.concatenate([np.maximum(limits, turned), found.loads])
+    np.maximum.at(limits, members, np.abs(near.limits))
+    changes = np.concatenate([np.maximum(limits, turned), near.loads])
     where = (*p.interfaces, *p.blocks)
     worst = [k for k in np.argsort(-changes, kind="stable")[:SHOWN].tolist() if changes[k] > ROUNDING]
     return BackwardError(
         residual("limits", limits, MEANINGS["limits"], where=p.interfaces),
         residual("flow", np.arctan(turned), MEANINGS["flow"], where=p.interfaces),
-        residual("loads", found.loads, MEANINGS["loads"], where=p.blocks),
-        moved_by(given, found),
+        residual("loads", near.loads, MEANINGS["loads"], where=p.blocks),
+        moved_by(given, near),
         tuple((where[k], float(changes[k])) for k in worst),
         free.change,
         free.mechanism,
     )
 
 
-def _total(given: Given, found: Nearby) -> float:
+def _total(given: Given, near: Nearby) -> float:
     """The largest change, of the mechanism too."""
-    return max(found.change, moved_by(given, found).value)
+    return max(near.change, moved_by(given, near).value)
 
 
-def moved_by(given: Given, found: Nearby) -> Residual:
+def moved_by(given: Given, near: Nearby) -> Residual:
     """Largest change of the rates of a block and of the flow of an interface, over the largest rate."""
-    p, state, exact = given.flow.problem, given.state, found.mechanism
+    p, state, exact = given.flow.problem, given.state, near.mechanism
     block, interface = np.repeat(p.units.block_force, 6), p.units.interface_force[p.stress_interface]
     largest = np.abs(exact.u / block).max()
     blocks = np.abs((exact.u - state.u) / block).reshape(-1, 6).max(axis=1)

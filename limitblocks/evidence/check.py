@@ -148,13 +148,13 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward
 def _checked(model: Model, claim: Claim, tolerance: float, limit: float | None) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
-    state, found = _state(model, flow, claim)
+    state, mechanism_found = _state(model, flow, claim)
     bounds = claim.upper is not None and flow.associated
     judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
     entries = (*judged.entries, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
-    return Check(Residuals(entries), tolerance, error, limit, found, remarks, model.digest)
+    return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 
 def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:

@@ -105,18 +105,18 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     LimitBlocksError
         If the result has no stress state and mechanism, or belongs to another model.
     """
-    found = collapse_of(model, result)
+    collapse = collapse_of(model, result)
     problem = model.problem
     axes = np.stack([interface.axes for interface in model.interfaces])
     centroid = np.stack([interface.centroid for interface in model.interfaces])
-    Q = found.stress_resultants
+    Q = collapse.stress_resultants
     least_force = LOADED * problem.units.interface_force
     loaded = np.linalg.norm(Q[:, :3], axis=1) > least_force
     N = np.where(-Q[:, 2] > least_force, Q[:, 2], np.nan)
     e = np.stack([-Q[:, 4], Q[:, 3]], axis=1) / N[:, None]
-    dq = _strain_rates(model, found.displacement_rates, axes, centroid)
-    least = MOVING * _largest(model, found.displacement_rates)
-    modes = _active_modes(problem, found.flow_multipliers, least)
+    dq = _strain_rates(model, collapse.displacement_rates, axes, centroid)
+    least = MOVING * _largest(model, collapse.displacement_rates)
+    modes = _active_modes(problem, collapse.flow_multipliers, least)
     return InterfaceStates(
         names=problem.interfaces,
         state=_states(model.interfaces, dq, e, modes, loaded, least),
@@ -126,21 +126,21 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
         stress_resultants=read_only(Q),
         centre_of_pressure=read_only(centroid + np.einsum("ma,mab->mb", e, axes[:, :2])),
         force=read_only(-np.einsum("ma,mab->mb", Q[:, :3], axes)),
-        utilisation=read_only(np.where(loaded, utilisation(model, found.generalised_stresses), 0.0)),
+        utilisation=read_only(np.where(loaded, utilisation(model, collapse.generalised_stresses), 0.0)),
     )
 
 
 def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     """Return the stress state and mechanism of `result`; LimitBlocksError unless it is one of `model`."""
-    found = result.collapse if isinstance(result, LoadPath) else result
+    collapse = result.collapse if isinstance(result, LoadPath) else result
     kind = type(result).__name__
-    if any(getattr(found, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
+    if any(getattr(collapse, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
         raise LimitBlocksError(
             f"{kind} has no mechanism; expected the result of bounds, nonassociated or load_path"
         )
-    if found.digest != model.digest:
+    if collapse.digest != model.digest:
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
-    return found
+    return collapse
 
 
 def _strain_rates(model: Model, rates: Array, axes: Array, centroid: Array) -> Array:
@@ -164,10 +164,10 @@ def _largest(model: Model, rates: Array) -> float:
 
 
 def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[Mode, ...], ...]:
-    found: list[dict[Mode, None]] = [{} for _ in problem.interfaces]
+    active: list[dict[Mode, None]] = [{} for _ in problem.interfaces]
     for row in np.flatnonzero(np.abs(multipliers) > least).tolist():
-        found[problem.row_interface[row]][problem.row_mode[row]] = None
-    return tuple(tuple(modes) for modes in found)
+        active[problem.row_interface[row]][problem.row_mode[row]] = None
+    return tuple(tuple(modes) for modes in active)
 
 
 def _states(

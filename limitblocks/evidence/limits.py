@@ -38,12 +38,12 @@ class Limits:
     def parabolic(self) -> tuple[Flags, ...]:
         """Of each group of cones: second row minus the first, as in Eq. (39), N^2 <= a s."""
         p = self.problem
-        found = []
+        flags = []
         for places in p.cones.groups:
             head = p.F[places[:, 0]]
             against = p.F[places[:, min(1, places.shape[1] - 1)]]
-            found.append(np.asarray(abs(head + against).sum(axis=1)).ravel() == 0.0)
-        return tuple(found)
+            flags.append(np.asarray(abs(head + against).sum(axis=1)).ravel() == 0.0)
+        return tuple(flags)
 
     @cached_property
     def sign(self) -> Array:
@@ -96,9 +96,9 @@ class Limits:
             first += len(v)
         terms = (abs(p.F) @ np.abs(x) + np.abs(p.g))[heads]
         lacking = np.where(np.abs(lacking) <= ROUNDING * terms, 0.0, lacking)
-        found = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
-        np.divide(lacking, strength, out=found, where=(strength > 0.0) & (lacking != 0.0))
-        return found
+        change = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
+        np.divide(lacking, strength, out=change, where=(strength > 0.0) & (lacking != 0.0))
+        return change
 
     def scaled(self, change: Array) -> LimitProblem:
         """Return the problem with the strength of each linear row and cone scaled by 1 + change (degree,)."""

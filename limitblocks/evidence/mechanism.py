@@ -38,7 +38,7 @@ def find_mechanism(flow: Flow, stresses: Array, rates: Array | None = None) -> t
     below = sparse.hstack([-free, -strains, -worst])
     k = free.shape[1]
     work = [sparse.csr_array(problem.live[None, :k]), sparse.csr_array((1, columns.shape[1] + 1))]
-    found = linear_program(
+    solution = linear_program(
         np.concatenate([np.zeros(k), np.maximum(columns.T @ rows, 0.0), [1.0]]),
         A_ub=sparse.vstack([above, below]).tocsr(),
         b_ub=np.concatenate([-known, known]),
@@ -48,10 +48,10 @@ def find_mechanism(flow: Flow, stresses: Array, rates: Array | None = None) -> t
         method="highs-ipm",
         options=PRECISE,
     )
-    if found.x is None:
+    if solution.x is None:
         return np.full(n, np.nan), np.full(R, np.nan)
-    u = found.x[:k] if rates is None else rates
-    return u, columns @ found.x[k:-1]
+    u = solution.x[:k] if rates is None else rates
+    return u, columns @ solution.x[k:-1]
 
 
 def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:

@@ -113,10 +113,10 @@ def nearby(given: Given, level: float) -> Nearby | None:
     held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
     u, y = given.state.u, _aligned(p, given.G, held, given.state.y)
     for _ in range(ROUNDS):
-        found = nearest_mechanism(p, given.G, u, y, near, ways)
-        if found is None:
+        mechanism = nearest_mechanism(p, given.G, u, y, near, ways)
+        if mechanism is None:
             break
-        u, y = found
+        u, y = mechanism
         solved = _changed(given, u, y)
         if best is None or solved.change < best.change:
             best = solved

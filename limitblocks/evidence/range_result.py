@@ -142,8 +142,8 @@ class LoadFactorRange:
     @property
     def reached(self) -> tuple[float, float]:
         """Least and greatest load factor that paths from permanent-load states reached, or NaN."""
-        found = [a.load_factor for a in self.answers if a.origin is not Origin.SEARCHED]
-        return (min(found), max(found)) if found else (float("nan"), float("nan"))
+        factors = [a.load_factor for a in self.answers if a.origin is not Origin.SEARCHED]
+        return (min(factors), max(factors)) if factors else (float("nan"), float("nan"))
 
     @property
     def certified(self) -> tuple[float, float]:

@@ -75,9 +75,9 @@ def residual(
 
 def largest_of(problem: LimitProblem, values: Array) -> Array:
     """Largest size of values of generalised stresses (s,) at each interface, shape (m,)."""
-    found = np.zeros(len(problem.interfaces))
-    np.maximum.at(found, problem.stress_interface, np.abs(values))
-    return found
+    largest = np.zeros(len(problem.interfaces))
+    np.maximum.at(largest, problem.stress_interface, np.abs(values))
+    return largest
 
 
 def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tuple[Residual, ...]:

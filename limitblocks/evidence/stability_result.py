@@ -117,13 +117,13 @@ def arising_residuals(flow: Flow, weights: Array, state: State) -> tuple[Residua
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads] * measure.interface[k]
     product = p.cones.norm(p.cones.product(p.F @ state.x + p.g, state.y))
     slip, over = largest_of(p, strains) * measure.interface, "over the work of the dead loads"
-    found = (
+    residuals = (
         *static_residuals(p, 0.0, state.x),
         residual("flow", slip, f"strains of the joints, {over}", power, p.interfaces),
         residual("multipliers", negative, f"negative flow multiplier, {over}", power, at),
         residual("complementarity", product, f"yield function times multiplier, {over}", power, at),
     )
-    return tuple(Residual(f"arising {r.name}", r.value, r.meaning, r.where) for r in found)
+    return tuple(Residual(f"arising {r.name}", r.value, r.meaning, r.where) for r in residuals)
 
 
 def mechanism_residuals(flow: Flow, loads: Array, state: State) -> tuple[Residual, ...]:

@@ -24,7 +24,7 @@ def standing_state(problem: LimitProblem) -> Array | None:
     p, planes = problem, _planes(problem.cones)
     margin = sparse.csr_array((planes @ p.cones.identity)[:, None])
     A = sparse.csr_array(sparse.hstack([-sparse.csr_array(planes @ p.F), margin]))
-    found = linear_program(
+    solution = linear_program(
         np.append(np.zeros(p.C.shape[0]), -1.0),
         A_ub=A,
         b_ub=planes @ p.g,
@@ -34,7 +34,7 @@ def standing_state(problem: LimitProblem) -> Array | None:
         method="highs",
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
-    return None if found.x is None else np.asarray(found.x[:-1])
+    return None if solution.x is None else np.asarray(solution.x[:-1])
 
 
 def _planes(cones: Cones) -> sparse.csr_array:
