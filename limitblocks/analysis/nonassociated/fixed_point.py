@@ -38,8 +38,8 @@ def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
     x = cp.Variable(problem.C.shape[0])
     norm = cp.sum_squares(cp.multiply(np.sqrt(weights), x))
     constraints = [problem.C.T @ x == problem.dead, *in_cone(problem.F @ x + problem.g, problem.cones)]
-    found = _minimised(norm, constraints, x)
-    return None if found is None else found[0]
+    values = _minimised(norm, constraints, x)
+    return None if values is None else values[0]
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
@@ -48,8 +48,8 @@ def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(len(problem.g))
     compatible = problem.C @ u + flow.matrix(x).T @ y == 0
     constraints = [compatible, problem.live @ u == 1, *in_cone(y, problem.cones)]
-    found = _minimised((problem.F @ x + problem.g) @ y, constraints, u, y)
-    return None if found is None else (found[0], found[1])
+    values = _minimised((problem.F @ x + problem.g) @ y, constraints, u, y)
+    return None if values is None else (values[0], values[1])
 
 
 def nearest_program(
@@ -92,8 +92,8 @@ class NearestStresses:
             )
             program.unpack_results(solved, chain, inverse)
 
-        found = _values(solve, nearest, load_factor)
-        return None if found is None else (float(found[1]), found[0])
+        values = _values(solve, nearest, load_factor)
+        return None if values is None else (float(values[1]), values[0])
 
 
 def fixed_point(

@@ -172,7 +172,7 @@ def implicit_step(loading: Loading, iterations: int) -> StepResult:
     rows = p.F @ loading.x0 + p.g
     inside = rows + p.cones.identity * max(1.0, 1.0 - float(p.cones.margin(rows).min()))
     z = Point(loading.x0, np.zeros(p.C.shape[1]), 0.0, inside, p.cones.identity)
-    best, found = (np.inf, np.inf), z
+    best, point = (np.inf, np.inf), z
     lengths: list[float] = []
     count = 0
     for count in range(iterations + 1):
@@ -181,7 +181,7 @@ def implicit_step(loading: Loading, iterations: int) -> StepResult:
         if not np.isfinite(merit):
             break
         if merit < best_merit:
-            best, found = (newton.size, newton.mu), z
+            best, point = (newton.size, newton.mu), z
         done = newton.size < ACCURACY and newton.mu < CENTRED
         worse = best_merit < ACCEPTED and merit > 100 * best_merit
         jammed = len(lengths) >= 8 and np.mean(lengths[-6:]) < JAMMED
@@ -195,4 +195,4 @@ def implicit_step(loading: Loading, iterations: int) -> StepResult:
         lengths.append(t)
         z = z.moved(t, d)
     accepted = best[0] < ACCEPTED and best[1] * p.cones.degree < 100 * ACCEPTED
-    return StepResult(found, accepted, count)
+    return StepResult(point, accepted, count)

@@ -50,7 +50,7 @@ class Increment:
     @property
     def folds(self) -> tuple[tuple[int, int], ...]:
         """Places of the visit of largest tau at each fold, and of the first beyond it at that tau or more."""
-        at, found, k = self.visits, [], 1
+        at, folds, k = self.visits, [], 1
         while k < len(at):
             if not at[k].forward:
                 fold = k - 1
@@ -58,9 +58,9 @@ class Increment:
                     fold += 1
                 later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
                 k = next(later, len(at) - 1)
-                found.append((fold, k))
+                folds.append((fold, k))
             k += 1
-        return tuple(found)
+        return tuple(folds)
 
 
 @dataclass(frozen=True, eq=False)

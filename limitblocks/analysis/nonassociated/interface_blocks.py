@@ -33,8 +33,8 @@ class InterfaceBlocks:
 
     def inverse(self, matrix: Any) -> sparse.csr_array:
         """Return the inverse of a sparse matrix of this pattern; LinAlgError if a block is singular."""
-        found, blocks = sparse.coo_array(matrix), self.padding.copy()
-        rows, columns = found.coords
-        np.add.at(blocks, (self.interface[rows], self.place[rows], self.place[columns]), found.data)
+        entries, blocks = sparse.coo_array(matrix), self.padding.copy()
+        rows, columns = entries.coords
+        np.add.at(blocks, (self.interface[rows], self.place[rows], self.place[columns]), entries.data)
         inverse = np.linalg.inv(blocks)[self.inside]
         return sparse.coo_array((inverse, self.entries), shape=matrix.shape).tocsr()

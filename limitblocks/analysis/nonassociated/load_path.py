@@ -103,7 +103,7 @@ def load_path(
         if progress is not None:
             progress(iteration)
 
-    found, last = pushed(
+    pushes, last = pushed(
         flow,
         x0,
         weights,
@@ -115,7 +115,7 @@ def load_path(
     record(end(flow, last))
     how = "increments of the load path"
     collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
-    steps, folds, trace = told(model, flow, x0, found, last, Told(softness * _unit(model, problem), snaps))
+    steps, folds, trace = told(model, flow, x0, pushes, last, Told(softness * _unit(model, problem), snaps))
     tracked = small_barrier(flow, x0, scale, tolerance)
     return LoadPath(steps, collapse, folds, trace, tracked, _remarks(collapse.load_factor, tracked))
 

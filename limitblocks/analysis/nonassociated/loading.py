@@ -90,7 +90,7 @@ def pushed(
         scale / len(flow.problem.blocks),
     )
     first = rho = float(path.elastic[0] / weights[0]) / len(flow.problem.blocks) / settings.first
-    found: list[Pushed] = []
+    pushes: list[Pushed] = []
     state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
@@ -100,30 +100,30 @@ def pushed(
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
-            if met.returned and found:  # a snap longer than the increment: once more, from farther back
-                last = found.pop()
+            if met.returned and pushes:  # a snap longer than the increment: once more, from farther back
+                last = pushes.pop()
                 path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
             else:
                 rho *= settings.growth**2
             continue
         z = met.increment.end
         state = State(z.load_factor, z.x, z.u, z.y)
-        found.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
+        pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
-            progress(found[-1])
-        closed = _closed(flow, found[-1], tolerance)
+            progress(pushes[-1])
+        closed = _closed(flow, pushes[-1], tolerance)
         if closed is not None:
-            return tuple(found), closed
+            return tuple(pushes), closed
         path, failures = replace(path, x0=z.x), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
-    return tuple(found), polish(flow, state)
+    return tuple(pushes), polish(flow, state)
 
 
 def _proof(flow: Flow, met: Increment) -> Residuals | None:
     """Residuals of the end of an increment, None where it is not in equilibrium within yield."""
     z = met.end
-    found = mcp_residuals(flow, State(z.load_factor, z.x, z.u, z.y))
-    return found if max(found["equilibrium"], found["yield"]) <= ADMISSIBLE else None
+    residuals = mcp_residuals(flow, State(z.load_factor, z.x, z.u, z.y))
+    return residuals if max(residuals["equilibrium"], residuals["yield"]) <= ADMISSIBLE else None
 
 
 def _closed(flow: Flow, last: Pushed, tolerance: float) -> State | None:

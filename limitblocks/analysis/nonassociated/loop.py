@@ -183,8 +183,10 @@ def finished(
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     status = _status(flow, state, how, tolerance)
     change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
-    found, claimed = enclosing.bounds, enclosing.of(flow)
-    dead = found.dead_load_stresses if found else dead_load_state(model.problem) * model.problem.stress_units
+    bounds, claimed = enclosing.bounds, enclosing.of(flow)
+    dead = (
+        bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
+    )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
     result = Nonassociated(

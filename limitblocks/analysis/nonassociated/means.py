@@ -74,11 +74,11 @@ def follow(
     """
     tried = []
     for barrier, seed, budget in means:
-        found = track(
+        outcome = track(
             flow, x0, weights, barrier=barrier, seed=seed, budget=budget, power=power, progress=progress
         )
-        tried.append(found)
-        if found[1].closed or found[1].interrupted:
-            return found[0], tuple(info for _, info in tried)
-    state, _ = min(tried, key=lambda found: found[1].residual)
+        tried.append(outcome)
+        if outcome[1].closed or outcome[1].interrupted:
+            return outcome[0], tuple(info for _, info in tried)
+    state, _ = min(tried, key=lambda outcome: outcome[1].residual)
     return state, tuple(info for _, info in tried)

@@ -102,8 +102,8 @@ class FrozenAnalysis:
         for solver in solvers(conic):
             for variable in program.variables:
                 variable.value = None  # of the round before, where the solver fails
-            found = solved(program, solver)
-            (u, y), stresses = found.values, found.duals[0]
+            solution = solved(program, solver)
+            (u, y), stresses = solution.values, solution.duals[0]
             if all(np.isfinite(part).all() for part in (u, y, stresses)):
                 return State(float(h.value @ y - p.dead @ u), stresses, u, y)
         return None
@@ -145,21 +145,21 @@ def outer_loop(
     met = [State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
     closed: list[tuple[float, State, int]] = []  # drift of the load factor, solution, round
     for k in range(1, rounds.most + 1):
-        found = analysis.find(x, rotation, rounds.cohesion)
-        if found is None:
+        frozen = analysis.find(x, rotation, rounds.cohesion)
+        if frozen is None:
             break
-        met.append(found)
-        record(found, rotation, k)
-        size = abs(found.load_factor)
-        if abs(found.load_factor - last) <= rounds.still * size:
-            state = _closed(nearest, found, flow, tolerance, rounds)
+        met.append(frozen)
+        record(frozen, rotation, k)
+        size = abs(frozen.load_factor)
+        if abs(frozen.load_factor - last) <= rounds.still * size:
+            state = _closed(nearest, frozen, flow, tolerance, rounds)
             if state is not None:
-                drift = abs(state.load_factor - found.load_factor)
+                drift = abs(state.load_factor - frozen.load_factor)
                 closed.append((drift, state, k))
                 if drift <= rounds.drift * size:
                     break
-        last, rotation = found.load_factor, rotation * rounds.fading
-        x = rounds.relaxation * found.x + (1.0 - rounds.relaxation) * x
+        last, rotation = frozen.load_factor, rotation * rounds.fading
+        x = rounds.relaxation * frozen.x + (1.0 - rounds.relaxation) * x
     if closed:
         _, state, k = min(closed, key=lambda one: one[0])
         return state, f"fixed point, {k} rounds"
@@ -168,9 +168,9 @@ def outer_loop(
 
 
 def _closed(
-    nearest: NearestStresses, found: State, flow: Flow, tolerance: float, rounds: Rounds
+    nearest: NearestStresses, frozen: State, flow: Flow, tolerance: float, rounds: Rounds
 ) -> State | None:
     """The solution that the two programs and Newton's method make of a round, None if it is none."""
-    near, _ = fixed_point(nearest, found, flow, max(tolerance, rounds.near), rounds.closing)
-    state = polish(flow, found if near is None else near)
+    near, _ = fixed_point(nearest, frozen, flow, max(tolerance, rounds.near), rounds.closing)
+    state = polish(flow, frozen if near is None else near)
     return state if mcp_residuals(flow, state).worst.value <= tolerance else None

@@ -97,7 +97,7 @@ def track(
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         end = walk.go()
         best = walk.best or walk.state
-    found = Tracked(
+    tracked = Tracked(
         walk.path.barrier,
         seed,
         end,
@@ -106,7 +106,7 @@ def track(
         walk.failures,
         tuple(walk.points),
     )
-    return best, found
+    return best, tracked
 
 
 def state_of(z: Point) -> State:

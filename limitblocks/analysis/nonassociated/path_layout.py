@@ -90,16 +90,16 @@ class Layout:
 
     def rows(self, matrix: sparse.csr_array) -> Array:
         """Return the rows of a (R, s) matrix in the places of their own interface, shape (R, k)."""
-        found, entries = np.zeros((matrix.shape[0], self.stresses.shape[1])), matrix.tocoo()
-        found[entries.row, self.stress_place[entries.col]] = entries.data
-        return found
+        local, entries = np.zeros((matrix.shape[0], self.stresses.shape[1])), matrix.tocoo()
+        local[entries.row, self.stress_place[entries.col]] = entries.data
+        return local
 
     def by_interface(self, rows: Array) -> Array:
         """Return rows (R, k) gathered by interface, shape (m, r, k)."""
         shape = (self.interfaces, int(self.row_place.max()) + 1, rows.shape[1])
-        found = np.zeros(shape)
-        found[self.problem.row_interface, self.row_place] = rows
-        return found
+        gathered = np.zeros(shape)
+        gathered[self.problem.row_interface, self.row_place] = rows
+        return gathered
 
     @cached_property
     def yield_rows(self) -> Array:
@@ -124,11 +124,11 @@ class Layout:
         m, n = self.interfaces, self.problem.C.shape[1]
         lookup = np.full((m, n + 1), -1)
         lookup[np.arange(m)[:, None], self.rates] = np.arange(self.rates.shape[1])
-        found = np.zeros((m, self.stresses.shape[1], self.rates.shape[1]))
+        parts = np.zeros((m, self.stresses.shape[1], self.rates.shape[1]))
         entries = self.problem.C.tocoo()
         k = self.problem.stress_interface[entries.row]
-        found[k, self.stress_place[entries.row], lookup[k, entries.col]] = entries.data
-        return found
+        parts[k, self.stress_place[entries.row], lookup[k, entries.col]] = entries.data
+        return parts
 
     @cached_property
     def _pattern(self) -> tuple[Any, Indices, Indices, Indices, Indices]:

@@ -29,13 +29,13 @@ class Told(NamedTuple):
 
 
 def told(
-    model: Model, flow: Flow, x0: Array, found: tuple[Pushed, ...], last: State, how: Told
+    model: Model, flow: Flow, x0: Array, pushes: tuple[Pushed, ...], last: State, how: Told
 ) -> tuple[tuple[PathStep, ...], tuple[Snap, ...], Array]:
     """Return the steps from the permanent loads to `last`, the snaps and the trace (k, 3)."""
     teller = _Teller(model, flow, how.unit)
     teller.add(State(0.0, x0, 0.0 * how.unit, np.zeros(len(flow.problem.g))), "permanent loads")
     snaps, trace = [], [np.zeros((1, 3))]
-    for one in found:
+    for one in pushes:
         trace.append(teller.trace(one.increment, trace[-1][-1, 0]))
         for before, after in one.increment.folds:
             ends = _ends(one.increment, before, after)

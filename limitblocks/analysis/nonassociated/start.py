@@ -58,11 +58,11 @@ def bracket(model: Model) -> Bracket:
 
 
 def _bracket(model: Model) -> Bracket:
-    found = _limited(model)
-    upper = found.upper if found else np.inf
+    limit_load = _limited(model)
+    upper = limit_load.upper if limit_load else np.inf
     lower, unclaimed = _frictionless(model)
     noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
-    return Bracket(0.0 if noise else lower, upper, found, unclaimed)
+    return Bracket(0.0 if noise else lower, upper, limit_load, unclaimed)
 
 
 def _frictionless(model: Model) -> tuple[float, str]:
@@ -97,10 +97,10 @@ def _limited(model: Model) -> Bounds | None:
 
 def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     """The limit problem in units of what acts on its blocks at the associated load, where that is known."""
-    found = enclosing.bounds
-    if found is None:
+    limit_load = enclosing.bounds
+    if limit_load is None:
         return model.problem
-    state = _state_of(model, model.problem, found)
+    state = _state_of(model, model.problem, limit_load)
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
 
 
@@ -111,12 +111,12 @@ def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None
     return polish(flow, _state_of(model, flow.problem, given))
 
 
-def _state_of(model: Model, problem: LimitProblem, found: Bounds | Nonassociated) -> State:
+def _state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
     supports = set(model.supports)
     places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
-    rates = found.displacement_rates[places].ravel()
+    rates = result.displacement_rates[places].ravel()
     return problem.dimensionless(
-        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
+        State(result.load_factor, result.generalised_stresses, rates, result.flow_multipliers)
     )
 
 
