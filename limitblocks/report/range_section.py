@@ -19,22 +19,23 @@ MEANING = (
 
 
 def range_section(
-    found: LoadFactorRange,
+    result: LoadFactorRange,
     limits: Callable[[Nonassociated], tuple[tuple[str, str, str], ...]],
     checks: Callable[[Residuals, float], tuple[Check, ...]],
 ) -> Section:
     """Return the section; `limits` and `checks` say what they say of other results."""
-    shown = found.load_path or (found.answers[0] if found.answers else None)
-    (reached, below), (lowest, highest) = found.reached, found.certified
+    shown = result.load_path or (result.answers[0] if result.answers else None)
+    (reached, below), (lowest, highest) = result.reached, result.certified
+    (tried, ended), (drawn, led) = result.paths, result.mechanisms
     rows = tuple(
         (f"{one.load_factor:#.6g}", one.origin.value, one.solution.how, one.mechanism)
-        for one in found.answers
+        for one in result.answers
     )
-    ends = [(word, end) for word, end in (("Least", found.least), ("Greatest", found.greatest)) if end]
+    ends = [(word, end) for word, end in (("Least", result.least), ("Greatest", result.greatest)) if end]
     return Section(
         title="Range of load factors",
         meaning=MEANING,
-        headline=f"{found.load_path.load_factor:#.4g}" if found.load_path else "none",
+        headline=f"{result.load_path.load_factor:#.4g}" if result.load_path else "none",
         quantity="load factor α of the load path",
         values=(
             ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),
@@ -43,16 +44,16 @@ def range_section(
                 (f"{word} of all", str(end), f"mixed-integer program, gap {end.gap:.1e}")
                 for word, end in ends
             ),
-            ("Solutions without gap", _spans(found.intervals), "every value solves, by convexity"),
+            ("Solutions without gap", _spans(result.intervals), "every value solves, by convexity"),
             *(limits(shown.solution) if shown else ()),
-            ("Wedging", str(found.wedging), ""),
-            ("Paths", f"{found.paths[1]} of {found.paths[0]}", "ended at a solution"),
-            ("Mechanisms", f"{found.mechanisms[1]} of {found.mechanisms[0]}", "drawn at random, led to one"),
+            ("Wedging", str(result.wedging), ""),
+            ("Paths", f"{ended} of {tried}", "ended at a solution"),
+            ("Mechanisms", f"{led} of {drawn}", "drawn at random, led to one"),
         ),
-        checks=checks(shown.check.residuals, found.tolerance) if shown else (),
-        tolerance=found.tolerance,
+        checks=checks(shown.check.residuals, result.tolerance) if shown else (),
+        tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
-        warnings=found.remarks + (() if found.complete else ("the time limit ended the search",)),
+        warnings=result.remarks + (() if result.complete else ("the time limit ended the search",)),
         steps=Table("Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows),
     )
 

@@ -203,8 +203,8 @@ def _stability(_model: Model, answer: Stability) -> Section:
     )
 
 
-def _range(_model: Model, found: LoadFactorRange) -> Section:
-    return range_section(found, limits, _checks)
+def _range(_model: Model, result: LoadFactorRange) -> Section:
+    return range_section(result, limits, _checks)
 
 
 def _backward(error: BackwardError) -> tuple[str, str, str]:

@@ -104,13 +104,13 @@ class Collected:
 
 def merged(intervals: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Return the union of intervals as intervals apart from each other, in order."""
-    found: list[tuple[float, float]] = []
+    union: list[tuple[float, float]] = []
     for low, high in sorted(intervals):
-        if found and low <= found[-1][1]:
-            found[-1] = found[-1][0], max(found[-1][1], high)
+        if union and low <= union[-1][1]:
+            union[-1] = union[-1][0], max(union[-1][1], high)
         else:
-            found.append((low, high))
-    return found
+            union.append((low, high))
+    return union
 
 
 def answer(model: Model, flow: Flow, enclosing: Bracket, permanent: Array, one: Certified) -> RangeAnswer:
@@ -143,13 +143,13 @@ def of_result(
     )
 
 
-def state_of(model: Model, problem: LimitProblem, found: Nonassociated) -> State:
+def state_of(model: Model, problem: LimitProblem, result: Nonassociated) -> State:
     """Return a result as a dimensionless state."""
     supports = set(model.supports)
     places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
-    rates = found.displacement_rates[places].ravel()
+    rates = result.displacement_rates[places].ravel()
     return problem.dimensionless(
-        State(found.load_factor, found.generalised_stresses, rates, found.flow_multipliers)
+        State(result.load_factor, result.generalised_stresses, rates, result.flow_multipliers)
     )
 
 

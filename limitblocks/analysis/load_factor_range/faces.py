@@ -90,13 +90,13 @@ def extremes(flow: Flow, state: State, limits: tuple[float, float]) -> tuple[Sta
 
     None where no solver's word passes the residuals.
     """
-    found = statics(flow.problem, limits)
-    face = [*found.constraints, *in_face(found.rows, state.y, flow.problem.cones)]
+    static = statics(flow.problem, limits)
+    face = [*static.constraints, *in_face(static.rows, state.y, flow.problem.cones)]
 
     def end(sense: float) -> State | None:
-        program = cp.Problem(cp.Minimize(sense * found.load_factor), face)
+        program = cp.Problem(cp.Minimize(sense * static.load_factor), face)
         return proven(
-            flow, Program(program, (found.load_factor, found.x)), lambda a, x: (a, x, state.u, state.y)
+            flow, Program(program, (static.load_factor, static.x)), lambda a, x: (a, x, state.u, state.y)
         )
 
     return end(1.0), end(-1.0)
@@ -116,17 +116,17 @@ def ray(flow: Flow, state: State) -> Array | None:
     face = [p.C.T @ x == p.live, *in_face(p.F @ x, state.y, p.cones)]
     program = Program(cp.Problem(cp.Minimize(cp.sum_squares(x)), face), (x,))
     for solver in solvers(conic=True):
-        (found,) = solved(program, solver).values
-        if not np.isfinite(found).all():
+        (stresses,) = solved(program, solver).values
+        if not np.isfinite(stresses).all():
             continue
-        rows = p.F @ found
+        rows = p.F @ stresses
         worst = max(
-            np.abs(p.C.T @ found - p.live).max(),
+            np.abs(p.C.T @ stresses - p.live).max(),
             -p.cones.margin(rows).min(),
             np.abs(p.cones.product(rows, state.y)).max() / max(1.0, np.abs(state.y).max()),
         )
         if worst <= RAY:
-            return np.asarray(found)
+            return np.asarray(stresses)
     return None
 
 

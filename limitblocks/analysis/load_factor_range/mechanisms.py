@@ -61,8 +61,8 @@ class Mechanisms:
         if static is None:
             return None
         p = self.flow.problem
-        found = self._mechanism(p.F @ static[1] + p.g, np.zeros(0, dtype=int))
-        return State(*static, *found) if found else None
+        kinematic = self._mechanism(p.F @ static[1] + p.g, np.zeros(0, dtype=int))
+        return State(*static, *kinematic) if kinematic else None
 
     def _gap(self, state: State) -> float:
         p = self.flow.problem
@@ -93,15 +93,15 @@ class Mechanisms:
         u, y = cp.Variable(p.C.shape[1]), cp.Variable(len(p.g))
         constraints = [*kinematics(self.flow, u, y), *in_cone(y, p.cones)]
         constraints += [u[(6 * still[:, None] + np.arange(6)).ravel()] == 0] if len(still) else []
-        found = _minimised(cost @ y, constraints, u, y)
-        return None if found is None else (found[0], found[1])
+        values = _minimised(cost @ y, constraints, u, y)
+        return None if values is None else (values[0], values[1])
 
     def _stresses(self, y: Array, sense: float, worth: float) -> tuple[float, Array] | None:
         """The admissible state of least sense * load factor + worth * gap."""
-        found = statics(self.flow.problem, self.limits)
-        inside = in_cone(found.rows, self.flow.problem.cones)
-        aim = sense * found.load_factor + worth * (y @ found.rows)
-        values = _minimised(aim, [*found.constraints, *inside], found.load_factor, found.x)
+        static = statics(self.flow.problem, self.limits)
+        inside = in_cone(static.rows, self.flow.problem.cones)
+        aim = sense * static.load_factor + worth * (y @ static.rows)
+        values = _minimised(aim, [*static.constraints, *inside], static.load_factor, static.x)
         return None if values is None else (float(values[0]), values[1])
 
 

@@ -174,17 +174,17 @@ def _walked(
 def _first(task: _Task, watch: Callable[[object], None]) -> RangeAnswer | None:
     """The answer of `nonassociated`, collected."""
     flow = task.flow
-    found = nonassociated(
+    result = nonassociated(
         task.model, dilatancy=flow.dilatancy, turning=flow.turning, progress=watch, throw=False
     )
-    if not found.converged:
+    if not result.converged:
         return None
-    loaded = any(word in found.how for word in LOADING)
+    loaded = any(word in result.how for word in LOADING)
     origin = Origin.LOAD_PATH if loaded else Origin.SEARCHED
-    state = state_of(task.model, flow.problem, found)
-    task.collected.add(state, found.how, origin, keep=False)
-    task.tell(state, found.how)
-    return of_result(task.model, flow, task.permanent, found, origin)
+    state = state_of(task.model, flow.problem, result)
+    task.collected.add(state, result.how, origin, keep=False)
+    task.tell(state, result.how)
+    return of_result(task.model, flow, task.permanent, result, origin)
 
 
 def _drawn(task: _Task, count: int, seed: int, deadline: float) -> tuple[int, int]:
@@ -214,9 +214,9 @@ def _extreme(task: _Task, sense: float, time_limit: float) -> Extreme:
     high = high + room if np.isfinite(high) else task.collected.limits[1]
     state, bound, stresses, multipliers, seconds = exact_extreme(task.flow, (low, high), sense, time_limit)
     one = state and Certified(state, "mixed-integer program", Origin.SEARCHED)
-    found = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
+    best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
     near = state is not None and abs(state.load_factor - bound) <= AGREES * task.scale
-    return Extreme(found, bound / live, near, stresses, multipliers, seconds)
+    return Extreme(best, bound / live, near, stresses, multipliers, seconds)
 
 
 def _result(

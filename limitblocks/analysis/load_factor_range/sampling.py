@@ -131,7 +131,7 @@ class Sampler:
         x = cp.Variable(len(self.x0))
         distance = cp.sum_squares(cp.multiply(root, x) - (root * self.x0 + size * random))
         constraints = [p.C.T @ x == p.dead, *in_cone(p.F @ x + p.g, p.cones)]
-        (found,) = solved(
+        (stresses,) = solved(
             Program(cp.Problem(cp.Minimize(distance), constraints), (x,)), solvers(conic=True)[1]
         ).values
-        return found if np.isfinite(found).all() else None
+        return stresses if np.isfinite(stresses).all() else None

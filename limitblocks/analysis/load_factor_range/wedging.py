@@ -31,15 +31,15 @@ def wedging(problem: LimitProblem) -> Wedging:
     constraints = [problem.C.T @ x == 0, *in_cone(problem.F @ x, problem.cones), size <= 1]
     program = Program(cp.Problem(cp.Maximize(size), constraints), (x,))
     for solver in solvers(bool(problem.cones.second_order)):
-        (found,) = solved(program, solver).values
-        if not np.isfinite(found).all():
+        (self_stress,) = solved(program, solver).values
+        if not np.isfinite(self_stress).all():
             continue
-        rows, largest = problem.F @ found, float(np.abs(found).max(initial=0.0))
+        rows, largest = problem.F @ self_stress, float(np.abs(self_stress).max(initial=0.0))
         if problem.cones.identity @ rows < 0.5:  # neither nearly one nor nearly zero never came up
             return Wedging(False, (), float(problem.cones.identity @ rows))
-        residual = max(np.abs(problem.C.T @ found).max(), -problem.cones.margin(rows).min()) / largest
+        residual = max(np.abs(problem.C.T @ self_stress).max(), -problem.cones.margin(rows).min()) / largest
         if residual <= CERTIFIED:
-            stress = largest_of(problem, found)
+            stress = largest_of(problem, self_stress)
             named = np.array(problem.interfaces)[stress > STRESSED * stress.max()]
             return Wedging(True, tuple(named.tolist()), float(residual))
     raise SolverFailure("whether the structure can be wedged is undecided: no solver gave a certified answer")
