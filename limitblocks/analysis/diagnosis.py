@@ -60,7 +60,7 @@ def diagnose(
             mine if asked is None else asked
             for mine, asked in ((own.gap, gap), (own.angle, angle), (own.width, width))
         )
-    found = find_contacts(model.blocks, None, gap=gap, angle=angle, width=width)
+    contacts = find_contacts(model.blocks, None, gap=gap, angle=angle, width=width)
     supports = set(model.supports)
     tied = {frozenset((one.block_i, one.block_j)) for one in model.interfaces}
     ends = {name for pair in tied for name in pair}
@@ -72,14 +72,14 @@ def diagnose(
         return tuple(one for one in items if not {one.block_i, one.block_j} <= supports)
 
     return Diagnosis(
-        interfaces=free(loose(found.interfaces)),
-        near_misses=free(loose(found.near_misses)),
-        overlaps=free(found.overlaps),
-        isolated=tuple(name for name in found.isolated if name not in ends),
-        slivers=free(loose(found.slivers)),
-        strips=free(loose(found.strips)),
-        through=free(found.through),
-        tolerances=found.tolerances,
-        length=found.length,
-        chosen=found.chosen,
+        interfaces=free(loose(contacts.interfaces)),
+        near_misses=free(loose(contacts.near_misses)),
+        overlaps=free(contacts.overlaps),
+        isolated=tuple(name for name in contacts.isolated if name not in ends),
+        slivers=free(loose(contacts.slivers)),
+        strips=free(loose(contacts.strips)),
+        through=free(contacts.through),
+        tolerances=contacts.tolerances,
+        length=contacts.length,
+        chosen=contacts.chosen,
     )

@@ -26,5 +26,5 @@ def known(of: Model | LimitProblem, name: Hashable, solve: Callable[[], Answer])
     answers = _KNOWN.setdefault(of, {})
     if name not in answers:
         answers.setdefault(name, solve())  # two threads may solve, and get one answer
-    found: Answer = answers[name]
-    return found
+    answer: Answer = answers[name]
+    return answer

@@ -96,10 +96,10 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     if least <= until:
         return best
     for solution in (_proximal_solution, _least_solution):
-        for found in _steps(flow, state, solution):
-            worst = defect(flow, found)
+        for iterate in _steps(flow, state, solution):
+            worst = defect(flow, iterate)
             if worst < least:
-                best, least = found, worst
+                best, least = iterate, worst
             if least <= until:
                 return best
     return best
@@ -117,11 +117,11 @@ def _steps(flow: Flow, state: State, solution: Solution) -> Iterator[State]:
             return
         if not all(np.isfinite(part).all() for part in (now.load_factor, now.x, now.u, now.y)):
             return
-        found = _admissible(p.cones, now)
-        worst = defect(flow, found)
+        iterate = _admissible(p.cones, now)
+        worst = defect(flow, iterate)
         failed = failed + 1 if worst >= least else 0
         least = min(least, worst)
-        yield found
+        yield iterate
         if failed == PATIENCE:
             return
 

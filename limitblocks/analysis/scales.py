@@ -115,16 +115,16 @@ class Scaled:
         least = IDLE * np.repeat(measure.block, 6)
         carried = np.zeros(len(p.interfaces))
         np.maximum.at(carried, p.stress_interface, np.abs(state.x) / frictional(p))
-        found = Scaled(
+        scaled = Scaled(
             p,
             unit(np.maximum(carried, UNLOADED * measure.interface)),
             unit(np.maximum(acting, least)),
             float(unit(np.array([measure.load_factor]))[0]),
         )
-        pairs = ((found.force, self.force), (found.equation, self.equation))
+        pairs = ((scaled.force, self.force), (scaled.equation, self.equation))
         off = [np.abs(np.log2(a / b)).max() for a, b in pairs]
-        off.append(abs(np.log2(found.load_factor / self.load_factor)))
-        return found if max(off) > np.log2(COARSER) else None
+        off.append(abs(np.log2(scaled.load_factor / self.load_factor)))
+        return scaled if max(off) > np.log2(COARSER) else None
 
 
 def unmoved(problem: LimitProblem, load_factor: float, x: Array) -> State:

@@ -61,9 +61,9 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
         interfaces=problem.interfaces + problem.blocks,
     )
     for stiffness in SPRINGS:
-        found = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
-        if found.accepted:
-            x, springs = np.split(found.point.x, [-n])
+        step = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
+        if step.accepted:
+            x, springs = np.split(step.point.x, [-n])
             acting = np.abs(problem.dead) + abs(problem.C).T @ np.abs(x)
             share = min(max(0.01, CARRIED * stiffness), 0.9)
             return np.asarray(_largest(np.abs(springs)) > share * _largest(acting))
@@ -83,9 +83,9 @@ def _under_load(problem: LimitProblem, weights: Array) -> StepResult:
         live=np.append(np.zeros(n), 1.0),
     )
     loading = Loading(Flow(controlled), InterfaceBlocks(controlled), weights, np.zeros(s), rho=1.0)
-    found = implicit_step(loading, ITERATIONS)
-    z = found.point
-    return replace(found, point=Point(z.x, z.u[:-1], 0.0, z.s, z.y))
+    step = implicit_step(loading, ITERATIONS)
+    z = step.point
+    return replace(step, point=Point(z.x, z.u[:-1], 0.0, z.s, z.y))
 
 
 def _largest(values: Array) -> Array:

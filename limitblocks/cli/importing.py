@@ -123,13 +123,13 @@ def import_blocks(
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 
 
-def _healed(found: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
+def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
     """Return the blocks mended within their accuracy, and the tolerances of the blocks as they were."""
     from limitblocks.geometry import heal
 
-    mended = heal(found.blocks)
-    notes = (*found.notes, str(mended), *mended.notes)
-    return replace(found, blocks=mended.blocks, notes=notes), mended.tolerances
+    mended = heal(imported.blocks)
+    notes = (*imported.notes, str(mended), *mended.notes)
+    return replace(imported, blocks=mended.blocks, notes=notes), mended.tolerances
 
 
 def _joint(name: str, friction: float, slip: str | None) -> Joint:

@@ -173,13 +173,13 @@ def _near_misses(
     return tuple(NearMiss(*ends, *values) for ends, values in rows if ends not in within)
 
 
-def _slivers(names: Sequence[str], faces: FaceTable, found: Patches) -> tuple[Sliver, ...]:
-    numbers = np.column_stack([shapely.area(found.shape), mean_width(found.shape)]).tolist()
-    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, found), numbers, strict=True))
+def _slivers(names: Sequence[str], faces: FaceTable, patches: Patches) -> tuple[Sliver, ...]:
+    numbers = np.column_stack([shapely.area(patches.shape), mean_width(patches.shape)]).tolist()
+    return tuple(Sliver(*ends, *row) for ends, row in zip(_ends(names, faces, patches), numbers, strict=True))
 
 
-def _through(names: Sequence[str], faces: FaceTable, found: Patches, third: Indices) -> tuple[Through, ...]:
-    gaps, rows = found.gap.tolist(), zip(_ends(names, faces, found), third.tolist(), strict=True)
+def _through(names: Sequence[str], faces: FaceTable, patches: Patches, third: Indices) -> tuple[Through, ...]:
+    gaps, rows = patches.gap.tolist(), zip(_ends(names, faces, patches), third.tolist(), strict=True)
     return tuple(Through(*ends, names[k], gap) for (ends, k), gap in zip(rows, gaps, strict=True))
 
 

@@ -83,10 +83,10 @@ def mean_width(shapes: Any) -> Array:
     return np.asarray(2.0 * shapely.area(shapes) / shapely.length(shapes))
 
 
-def covering(faces: FaceTable, found: Patches) -> Any:
+def covering(faces: FaceTable, patches: Patches) -> Any:
     """Tell which patches cover more than half of the smaller of their faces, (m,): no strips at an edge."""
-    smaller = np.minimum(faces.area[found.a], faces.area[found.b])
-    return shapely.area(found.shape) > 0.5 * smaller
+    smaller = np.minimum(faces.area[patches.a], faces.area[patches.b])
+    return shapely.area(patches.shape) > 0.5 * smaller
 
 
 def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:

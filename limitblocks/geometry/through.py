@@ -23,16 +23,16 @@ def between(faces: FaceTable, tried: Patches, touching: Patches) -> Indices:
     touching : Patches
         Those within the tolerances.
     """
-    found = np.full(len(tried.a), -1)
+    third = np.full(len(tried.a), -1)
     for k, first, second in zip(*_sandwiches(faces, tried, touching), strict=True):
-        if found[k] < 0:
+        if third[k] < 0:
             common = shapely.intersection_all([
                 tried.shape[k], *(_in_plane_of(tried, k, touching, other) for other in (first, second))
             ])  # fmt: skip
             if common.area > tried.least[k]:
                 ends = faces.block[[touching.a[first], touching.b[first]]]
-                found[k] = ends[1] if ends[0] in faces.block[[tried.a[k], tried.b[k]]] else ends[0]
-    return found
+                third[k] = ends[1] if ends[0] in faces.block[[tried.a[k], tried.b[k]]] else ends[0]
+    return third
 
 
 def _sandwiches(faces: FaceTable, tried: Patches, touching: Patches) -> tuple[list[int], ...]:

@@ -37,18 +37,18 @@ def findings(model: Model, ax: Any = None, *, plane: str | None = None) -> Any:
     Axes
         The title says how accurate the faces are, and that nothing was found where nothing was.
     """
-    found = diagnose(model)
+    diagnosis = diagnose(model)
     drawn = canvas(model, ax, plane)
     draw_structure(drawn, model, alpha=0.5)
     middle = {block.name: block.centroid for block in model.blocks}
     for kind, (word, colour) in _KINDS.items():
-        pairs = [np.array([middle[one.block_i], middle[one.block_j]]) for one in getattr(found, kind)]
+        pairs = [np.array([middle[one.block_i], middle[one.block_j]]) for one in getattr(diagnosis, kind)]
         if pairs:
             drawn.lines(pairs, colors=colour, linewidths=2.0, label=f"{word} ({len(pairs)})")
-    if found.isolated:
-        points = np.array([middle[name] for name in found.isolated])
+    if diagnosis.isolated:
+        points = np.array([middle[name] for name in diagnosis.isolated])
         drawn.plot(points, "x", color=BLACK, label=f"isolated ({len(points)})")
-    drawn.title("\n".join([found.accuracy, *found.nothing]))
-    if not found.nothing:
+    drawn.title("\n".join([diagnosis.accuracy, *diagnosis.nothing]))
+    if not diagnosis.nothing:
         drawn.legend()
     return drawn.ax

@@ -54,8 +54,8 @@ def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
         size = np.linalg.norm(w[:, 1:], axis=1)
         axis = w[:, 1:] / np.where(size > 0.0, size, 1.0)[:, None]
         large, small = _halves(w[:, 0] + size, product), _halves(w[:, 0] - size, product)
-        for found, a, b in zip((s, y), large, small, strict=True):
-            found[index] = np.column_stack([(a + b) / 2.0, ((a - b) / 2.0)[:, None] * axis])
+        for vector, a, b in zip((s, y), large, small, strict=True):
+            vector[index] = np.column_stack([(a + b) / 2.0, ((a - b) / 2.0)[:, None] * axis])
     return s, y
 
 
