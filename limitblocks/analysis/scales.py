@@ -178,4 +178,6 @@ def repaired(p: Scaled, state: State) -> State:
 
 
 def _factors(K: sparse.csr_array) -> linalg.SuperLU:
-    return linalg.splu(sparse.csc_array(K + sparse.eye_array(K.shape[0]) * REGULAR))
+    diagonal = K.diagonal()  # in units of a state its entries are far apart
+    regular = sparse.diags_array(REGULAR * np.where(diagonal > 0.0, diagonal, 1.0))
+    return linalg.splu(sparse.csc_array(K + regular))

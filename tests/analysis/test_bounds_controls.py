@@ -5,11 +5,12 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
+from scipy import sparse
 from scipy.linalg import null_space
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis import programs
+from limitblocks.analysis import programs, scales
 from limitblocks.analysis.bounds import TOLERANCE
 from limitblocks.evidence.residuals import bounds_residuals, worth_of_violations
 from limitblocks.problem import ASSOCIATED, Flow, State
@@ -244,3 +245,12 @@ def test_an_exception_of_the_solvers_does_not_reach_the_user(monkeypatch):
 def test_tolerance_is_obeyed():
     with pytest.raises(lb.SolverFailure):
         lb.bounds(structures.wall(lb.PointContact(0.6), length=0.8, courses=3), tolerance=1e-18)
+
+
+def test_numbers_far_apart_and_singular_are_factorised():
+    """A block that moves freely, in units of a state: neither is regular without a shift of its own size."""
+    free = np.ones((2, 2))
+    matrix = sparse.block_diag([1e20 * free, 1e-20 * free, 0.0 * free], format="csr")
+    right = matrix @ np.arange(6.0)
+    solution = scales._factors(sparse.csr_array(matrix)).solve(right)
+    assert np.abs(matrix @ solution - right) == pytest.approx(0.0, abs=1e-6 * np.abs(right).max())
