@@ -170,7 +170,7 @@ def test_further_means_are_tried_in_turn(reference):
     model, _ = reference
     found = lb.nonassociated(model, means=(Means(Barrier(), 0, 1), Means(Barrier(0.1, 2.0), 1, 300)))
     assert found.converged
-    assert "barrier 0.1, power 2, seed 1" in found.how
+    assert "barrier 0.1 (large barrier), power 2, seed 1" in found.how
 
 
 def test_dead_loads_that_fall_are_refused(kind):

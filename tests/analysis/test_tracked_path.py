@@ -87,7 +87,10 @@ def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, m
     found = lb.nonassociated(pushed(name, lb.OrdunaLourenco(0.7), direction), means=MEANS[means - 2 : means])
     assert found.residuals.worst.value <= 1e-8
     barrier, seed, _ = MEANS[means - 1]
-    assert f"barrier {barrier.size:g}, power {barrier.power:g}, seed {seed}" in found.how
+    large = barrier.size > Barrier().size
+    size = f"barrier {barrier.size:g}" + " (large barrier)" * large
+    assert f"{size}, power {barrier.power:g}, seed {seed}" in found.how
+    assert any("not that of the load path" in remark for remark in found.remarks) == large
 
 
 def test_proximal_rounds_close_a_path_of_which_only_compliance_is_left(monkeypatch):

@@ -11,7 +11,7 @@ from limitblocks.analysis.nonassociated.determinate import state_without_solutio
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
@@ -205,7 +205,12 @@ def finished(
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=given_power(flow, state, tolerance) + locked_shear(flow, state) + unconfirmed(change),
+        remarks=(
+            *off_load_path(how if converged else ""),
+            *given_power(flow, state, tolerance),
+            *locked_shear(flow, state),
+            *unconfirmed(change),
+        ),
         tolerance=tolerance,
         digest=model.digest,
         unclaimed=claimed.unclaimed,

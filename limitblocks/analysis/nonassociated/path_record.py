@@ -9,6 +9,17 @@ from typing import NamedTuple
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
+LARGE = "large barrier"
+
+
+def off_load_path(how: str) -> tuple[str, ...]:
+    """What a reader should know of an answer that a large barrier led to."""
+    if LARGE not in how:
+        return ()
+    return (
+        "a large barrier led to this solution: it is not that of the load path, and most of them are higher; "
+        "load_factor_range shows others",
+    )
 
 
 class Progress(NamedTuple):
@@ -50,7 +61,8 @@ class Tracked:
     def how(self) -> str:
         """What path it was, in words."""
         size = "small barrier" if self.barrier == Barrier() else f"barrier {self.barrier.size:g}"
-        return f"tracked path, {size}, power {self.barrier.power:g}, seed {self.seed}"
+        large = f" ({LARGE})" if self.barrier.size > Barrier().size else ""
+        return f"tracked path, {size}{large}, power {self.barrier.power:g}, seed {self.seed}"
 
     @property
     def folds(self) -> int:
