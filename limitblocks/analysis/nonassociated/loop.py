@@ -206,7 +206,7 @@ def finished(
         dilatancy=flow.dilatancy,
         turning=flow.turning,
         remarks=(
-            *off_load_path(how if converged else ""),
+            *off_load_path(how if status is Status.CONVERGED else ""),
             *given_power(flow, state, tolerance),
             *locked_shear(flow, state),
             *unconfirmed(change),
