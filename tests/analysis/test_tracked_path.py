@@ -79,12 +79,27 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
     assert not path.closed
 
 
+def test_increments_of_the_load_path_close_what_the_small_barrier_leaves_open():
+    door = [(1.2, 0.0, 0.8, 1.2)]
+    joint = lb.OrdunaLourenco(0.8, compressive_strength=0.3e6)
+    model = structures.facade(
+        joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=(0, 1, 0)
+    )
+    assert not lb.nonassociated(model, means=MEANS[:1], throw=False).converged
+    found = lb.nonassociated(model, means=MEANS[:2])
+    assert found.how == "increments of the load path"
+    assert {one.kind for one in found.history} == {"path", "step", "polish"}
+
+
 @pytest.mark.parametrize(
     ("name", "direction", "means"),
     [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3), ("dome", (0, 1, 0), 4)],
 )
 def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, means):
-    found = lb.nonassociated(pushed(name, lb.OrdunaLourenco(0.7), direction), means=MEANS[means - 2 : means])
+    model = pushed(name, lb.OrdunaLourenco(0.7), direction)
+    before, one = MEANS[means - 2 : means - 1], MEANS[means - 1 : means]
+    assert not lb.nonassociated(model, means=before, throw=False).converged
+    found = lb.nonassociated(model, means=one)
     assert found.residuals.worst.value <= 1e-8
     barrier, seed, _ = MEANS[means - 1]
     large = barrier.size > Barrier().size

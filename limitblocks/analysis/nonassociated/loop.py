@@ -83,7 +83,8 @@ def nonassociated(
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
         loop ends at another solution, and it may stall.
     means : sequence of Means
-        Paths to follow in turn, until one ends at a solution.
+        Paths to follow in turn, until one ends at a solution; after the first of several the increments of
+        :func:`limitblocks.load_path` are tried.
     progress : callable, optional
         Called with each Iteration.
     confirm : bool

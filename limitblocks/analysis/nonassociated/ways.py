@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
+import numpy as np
+
+from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     SOFTENING,
     TURNED_MEANS,
@@ -13,11 +16,14 @@ from limitblocks.analysis.nonassociated.means import (
     follow,
 )
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
+from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
+
+STEPS = Settings(growth=2.0)  # the load path in larger increments than those of `load_path`
 
 
 def first_to_solve(
@@ -72,8 +78,30 @@ def _ways(
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"from the solution that twists about the centroid, {how}"
+    yield _increments(flow, x0, scale, tolerance, record)
     for one in means[1:]:
         yield tracked(one, x0)
+
+
+def _increments(
+    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
+) -> tuple[State, str]:
+    """The end of the load path, pushed increment by increment; the last one where the user stops it."""
+    problem, how = flow.problem, "increments of the load path"
+    met = [State(0.0, x0, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
+
+    def tell(one: Pushed) -> None:
+        met.append(one.state)
+        load_factor = float(one.state.load_factor / problem.units.live)
+        left = one.residuals.to_dict()
+        record(
+            Iteration(load_factor, "step", 1.0 / one.increment.rho, left, one.factorisations, one.failures)
+        )
+
+    try:
+        return pushed(flow, x0, problem.compliance, tolerance, STEPS, scale, tell)[1], how
+    except KeyboardInterrupt:
+        return met[-1], f"{how}, {INTERRUPTED}"
 
 
 def left_over(flow: Flow, state: State, tolerance: float) -> tuple[bool, float]:
