@@ -7,8 +7,10 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated import ways
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.scales import unmoved
 
 MU = 0.65
 KINDS = [lb.OrdunaLourenco, lb.PointContact]
@@ -166,9 +168,12 @@ def test_not_converged_carries_the_best_result(reference, analysis):
     assert result.residuals.worst.value > 1e-6
 
 
-def test_further_means_are_tried_in_turn(reference):
+def test_further_means_are_tried_in_turn(reference, monkeypatch):
     model, _ = reference
-    found = lb.nonassociated(model, means=(Means(Barrier(), 0, 1), Means(Barrier(0.1, 2.0), 1, 300)))
+    means = (Means(Barrier(), 0, 1), Means(Barrier(0.1, 2.0), 1, 300))
+    assert lb.nonassociated(model, means=means).how == "increments of the load path"
+    monkeypatch.setattr(ways, "_increments", lambda flow, x0, *_: (unmoved(flow.problem, 0.0, x0), "nothing"))
+    found = lb.nonassociated(model, means=means)
     assert found.converged
     assert "barrier 0.1 (large barrier), power 2, seed 1" in found.how
 
