@@ -1,7 +1,7 @@
 """Static and kinematic bounds for the associated flow, each proven by residuals of its own.
 
 Stresses and mechanism are the primal and the dual solution of one convex program: an interior-point method
-finds both together. By itself the kinematic program is solved less accurately, and costs as much again.
+finds both together. The kinematic program by itself comes where the dual is too rough.
 """
 
 from __future__ import annotations

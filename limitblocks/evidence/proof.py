@@ -88,7 +88,7 @@ def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0
         tree = spanning_tree(p, room_of(p, dead / p.stress_units))
         static = static_reach(p, state.load_factor, state.x, tree).times(reserve)
         kinematic = kinematic_reach(p, state.u, state.y).times(reserve)
-        upper = _upper(p, state, kinematic) / p.units.live if kinematic.proven else np.inf
+        upper = _upper(p, state, kinematic, reserve) / p.units.live if kinematic.proven else np.inf
     return Proof(
         lower=float(si.load_factor) if static.proven else -np.inf,
         upper=float(upper),
@@ -113,16 +113,17 @@ def room_of(problem: LimitProblem, x: Array) -> Array:
     return room
 
 
-def _upper(problem: LimitProblem, state: State, reach: Reach) -> float:
+def _upper(problem: LimitProblem, state: State, reach: Reach, reserve: float) -> float:
     """(g.(y + dy) - dead.u) / (live.u), rounded up; infinite where the live load does no work on u."""
     work, off = scalar_product(problem.live, state.u)
     power, more = scalar_product(
         np.concatenate([problem.g, problem.dead]), np.concatenate([state.y, -state.u])
     )
+    off, more = reserve * off * UP, reserve * more
     power += (more + float(np.abs(problem.g) @ reach.change)) * UP
     power += EPS * abs(power)
-    least = work - off * UP if power > 0.0 else work + off * UP
-    if not work - off * UP > 0.0:
+    least = work - off if power > 0.0 else work + off
+    if not work - off > 0.0:
         return np.inf
     ratio = power / (least - np.copysign(EPS * abs(least), power))
     return float(ratio + EPS * abs(ratio) + TINY)
