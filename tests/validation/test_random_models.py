@@ -79,3 +79,8 @@ def test_cube_of_extreme_friction(friction):
     model = structures.block(lb.PointContact(friction), width=0.5, height=1.0)
     verdict = judge.judged(model, Truth("number", min(friction, 0.5)))
     assert verdict.outcome == "right", verdict.said
+
+
+@pytest.mark.parametrize("seed", [1, 6, 42])
+def test_polished_states_prove_what_a_solver_leaves_too_wide(seed):
+    assert lb.bounds(random_models.case(seed).model).proven
