@@ -84,7 +84,7 @@ from limitblocks.mechanics import (
     top_force,
 )
 from limitblocks.model import Model
-from limitblocks.report import Report, report, report_schema
+from limitblocks.reports import Report, report, report_schema
 
 __version__ = "0.1.0"
 

@@ -188,8 +188,8 @@ def info(model: ModelFile, as_json: AsJson = False) -> None:
     """Print what a model file contains."""
     with clean_errors():
         from limitblocks.io import read
-        from limitblocks.report.facts import fact_rows, facts
-        from limitblocks.report.terminal import print_table, print_warnings
+        from limitblocks.reports.facts import fact_rows, facts
+        from limitblocks.reports.terminal import print_table, print_warnings
 
         known = facts(read(model))
         if as_json:
@@ -214,7 +214,7 @@ def report(
     """Analyse a model and write a report: HTML, JSON, Markdown or PDF, as the suffix of the file says."""
     with clean_errors():
         from limitblocks.io import read
-        from limitblocks.report import files, report
+        from limitblocks.reports import files, report
 
         file = output or model.with_suffix(_SUFFIX)
         refuse_existing(file, force, model)
@@ -267,7 +267,7 @@ def _answer(
 
 def _print(model: Model, result: Any, as_json: bool) -> None:
     from limitblocks.io.result_file import result_text
-    from limitblocks.report.terminal import print_result
+    from limitblocks.reports.terminal import print_result
 
     if as_json:
         typer.echo(result_text(result))

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def stability(model: Model) -> Stability:
     """Does it stand under its dead loads."""
     from limitblocks.analysis.stability import stability as solve
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     with shown_progress():
         return solve(model)
@@ -29,7 +29,7 @@ def stability(model: Model) -> Stability:
 def bounds(model: Model, **settings: float) -> Bounds:
     """Associated bounds."""
     from limitblocks.analysis.bounds import bounds as solve
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     with shown_progress():
         return solve(model, **settings)
@@ -49,7 +49,7 @@ def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[A
 def nonassociated(model: Model, **settings: Any) -> Nonassociated:
     """Solution without dilatancy, or with little."""
     from limitblocks.analysis.nonassociated.loop import nonassociated as solve
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     with shown_progress() as show:
         return solve(model, **settings, progress=show)
@@ -58,7 +58,7 @@ def nonassociated(model: Model, **settings: Any) -> Nonassociated:
 def load_factor_range(model: Model, **settings: Any) -> LoadFactorRange:
     """Certified load factors and how far they reach."""
     from limitblocks.analysis.load_factor_range.run import load_factor_range as solve
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     with shown_progress() as show:
         return solve(model, **settings, progress=show)
@@ -67,7 +67,7 @@ def load_factor_range(model: Model, **settings: Any) -> LoadFactorRange:
 def path(model: Model, **settings: Any) -> LoadPath:
     """States from the permanent loads to collapse."""
     from limitblocks.analysis.nonassociated.load_path import load_path as solve
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     with shown_progress() as show:
         return solve(model, **settings, progress=show)

@@ -112,7 +112,7 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
     """Write and print the rows; no row with an answer is an error."""
     from limitblocks.io import write_result
     from limitblocks.io.result_file import result_text
-    from limitblocks.report.terminal import print_table, print_warnings
+    from limitblocks.reports.terminal import print_table, print_warnings
 
     if csv:
         study.write_csv(csv, overwrite=force)

@@ -343,7 +343,7 @@ def test_report_does_without_bounds_where_dilating_joints_jam(solver, file):
 
 @pytest.mark.usefixtures("solver")
 def test_progress_is_silent_without_a_terminal_and_shown_on_one(file, monkeypatch, capsys):
-    from limitblocks.report.terminal import shown_progress
+    from limitblocks.reports.terminal import shown_progress
 
     assert run("nonassociated", file, "--json").stderr == ""
     with shown_progress() as show:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from limitblocks.arrays import Array
-from limitblocks.report.curve import Curve
+from limitblocks.reports.curve import Curve
 
 
 class Check(NamedTuple):

@@ -16,7 +16,7 @@ from rich.text import Text
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
-from limitblocks.report.sections import section
+from limitblocks.reports.sections import section
 
 _TO_THE_RIGHT = ("Value", "Step", "Load factor")
 

@@ -15,7 +15,7 @@ from limitblocks.evidence.interface_states import InterfaceStates, interface_sta
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.report.picture import magnification
+from limitblocks.reports.picture import magnification
 
 SCENE_VERSION = 1
 DIGITS = 6  # of coordinates and stress resultants

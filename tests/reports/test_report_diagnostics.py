@@ -5,7 +5,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.report.facts import facts
+from limitblocks.reports.facts import facts
 
 UNIT = (1, 1, 1)
 NO_INTERFACE = "no interface between blocks that"

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from functools import singledispatch
 from itertools import chain
 
-from limitblocks.report.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.report.section import Table
+from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
+from limitblocks.reports.section import Table
 
 MARK = "<!-- limitblocks report -->"
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$&])")

@@ -6,13 +6,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from limitblocks.errors import LimitBlocksError
-from limitblocks.report.content import content
-from limitblocks.report.markdown import MARK
-from limitblocks.report.pdf import CREATOR, pdf
+from limitblocks.reports.content import content
+from limitblocks.reports.markdown import MARK
+from limitblocks.reports.pdf import CREATOR, pdf
 from limitblocks.written import write
 
 if TYPE_CHECKING:
-    from limitblocks.report.report import Report
+    from limitblocks.reports.report import Report
 
 FORMAT = "limitblocks report"
 #: Suffixes of the formats, and what is in files of ours and in no others.

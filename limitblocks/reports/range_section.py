@@ -7,7 +7,7 @@ from collections.abc import Callable
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.report.section import Check, Section, Table
+from limitblocks.reports.section import Check, Section, Table
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "

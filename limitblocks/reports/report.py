@@ -15,16 +15,16 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.io import strict_json
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
-from limitblocks.report import files
-from limitblocks.report.comparison import comparison
-from limitblocks.report.content import content
-from limitblocks.report.facts import assumptions, facts
-from limitblocks.report.interfaces import interface_rows
-from limitblocks.report.markdown import markdown
-from limitblocks.report.page import page
-from limitblocks.report.picture import Picture, mechanism_picture
-from limitblocks.report.section import Section
-from limitblocks.report.sections import section
+from limitblocks.reports import files
+from limitblocks.reports.comparison import comparison
+from limitblocks.reports.content import content
+from limitblocks.reports.facts import assumptions, facts
+from limitblocks.reports.interfaces import interface_rows
+from limitblocks.reports.markdown import markdown
+from limitblocks.reports.page import page
+from limitblocks.reports.picture import Picture, mechanism_picture
+from limitblocks.reports.section import Section
+from limitblocks.reports.sections import section
 
 REPORT_SCHEMA_VERSION = 1
 _DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough

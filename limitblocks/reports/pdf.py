@@ -10,9 +10,9 @@ from typing import Any
 from xml.sax.saxutils import escape
 
 from limitblocks.errors import MissingDependency
-from limitblocks.report.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.report.picture import WIDTH, Drawn, Picture
-from limitblocks.report.section import Table
+from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
+from limitblocks.reports.picture import WIDTH, Drawn, Picture
+from limitblocks.reports.section import Table
 
 CREATOR = "limitblocks report"
 _MARGIN = 51.0  # points

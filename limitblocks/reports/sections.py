@@ -18,9 +18,9 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
-from limitblocks.report.curve import convergence_curve, path_curve
-from limitblocks.report.range_section import range_section
-from limitblocks.report.section import Check, Section, Table
+from limitblocks.reports.curve import convergence_curve, path_curve
+from limitblocks.reports.range_section import range_section
+from limitblocks.reports.section import Check, Section, Table
 
 _ACTIVE_SHOWN = 4
 USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from limitblocks.io.result_file import versions
-from limitblocks.report.comparison import NOT_UNIQUE, comparison
-from limitblocks.report.facts import assumptions, fact_rows, facts
-from limitblocks.report.interfaces import active_interfaces
-from limitblocks.report.picture import Picture
-from limitblocks.report.section import Section, Table
+from limitblocks.reports.comparison import NOT_UNIQUE, comparison
+from limitblocks.reports.facts import assumptions, fact_rows, facts
+from limitblocks.reports.interfaces import active_interfaces
+from limitblocks.reports.picture import Picture
+from limitblocks.reports.section import Section, Table
 
 if TYPE_CHECKING:
-    from limitblocks.report.report import Report
+    from limitblocks.reports.report import Report
 
 RIGID = (
     "Blocks are rigid and do not break; displacements are small; joints carry no tension unless stated. "

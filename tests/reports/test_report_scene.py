@@ -9,9 +9,9 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.evidence.interface_states import interface_states
-from limitblocks.report import assets, files
-from limitblocks.report.interfaces import MOST, active_interfaces, interface_rows
-from limitblocks.report.scene import chains, scene, short, without_noise
+from limitblocks.reports import assets, files
+from limitblocks.reports.interfaces import MOST, active_interfaces, interface_rows
+from limitblocks.reports.scene import chains, scene, short, without_noise
 
 JOINT = lb.OrdunaLourenco(0.6)
 FOLDER = Path(lb.__file__).parent / "report" / "viewer"

@@ -12,7 +12,7 @@ from limitblocks.evidence.interface_states import InterfaceStates, interface_sta
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.report.scene import short, without_noise
+from limitblocks.reports.scene import short, without_noise
 
 #: Interfaces listed, those first that use most of their strength and are compressed most.
 MOST = 200

@@ -10,9 +10,9 @@ from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
-from limitblocks.report import curve
-from limitblocks.report.comparison import comparison
-from limitblocks.report.terminal import print_result
+from limitblocks.reports import curve
+from limitblocks.reports.comparison import comparison
+from limitblocks.reports.terminal import print_result
 
 
 def portal(name="lintel"):

@@ -5,15 +5,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from limitblocks.io.result_file import versions
-from limitblocks.report import assets
-from limitblocks.report.comparison import NOT_UNIQUE, comparison
-from limitblocks.report.facts import assumptions, fact_rows, facts
-from limitblocks.report.interfaces import active_interfaces
-from limitblocks.report.picture import Picture
-from limitblocks.report.scene import scene
+from limitblocks.reports import assets
+from limitblocks.reports.comparison import NOT_UNIQUE, comparison
+from limitblocks.reports.facts import assumptions, fact_rows, facts
+from limitblocks.reports.interfaces import active_interfaces
+from limitblocks.reports.picture import Picture
+from limitblocks.reports.scene import scene
 
 if TYPE_CHECKING:
-    from limitblocks.report.report import Report
+    from limitblocks.reports.report import Report
 
 LAYERS = (
     ("blocks", "Blocks"),

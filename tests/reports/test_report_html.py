@@ -13,8 +13,8 @@ from limitblocks.evidence.backward_error import MEANINGS, BackwardError
 from limitblocks.evidence.residuals import Residual
 from limitblocks.geometry import painter
 from limitblocks.problem import Turning
-from limitblocks.report import picture
-from limitblocks.report.facts import facts
+from limitblocks.reports import picture
+from limitblocks.reports.facts import facts
 
 
 def portal(name="lintel", joint=None):

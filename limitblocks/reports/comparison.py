@@ -9,7 +9,7 @@ from typing import Any
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.report.sections import limits
+from limitblocks.reports.sections import limits
 
 NOT_UNIQUE = (
     "The load factor without dilatancy is not unique: the equations may have other solutions, at other load "

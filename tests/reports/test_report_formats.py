@@ -7,10 +7,10 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.report import pdf
-from limitblocks.report.content import Bullets, Heading, Headline
-from limitblocks.report.markdown import escaped, markdown
-from limitblocks.report.section import Table
+from limitblocks.reports import pdf
+from limitblocks.reports.content import Bullets, Heading, Headline
+from limitblocks.reports.markdown import escaped, markdown
+from limitblocks.reports.section import Table
 
 JOINT = lb.OrdunaLourenco(0.6)
 
