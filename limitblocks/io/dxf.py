@@ -11,8 +11,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.packages import missing
 
 #: Application under whose name the name of a block is kept beside an entity.
 APPLICATION = "LIMITBLOCKS"
@@ -65,7 +66,7 @@ def ezdxf() -> ModuleType:
     try:
         import ezdxf as package
     except ImportError:
-        raise MissingDependency("DXF files need ezdxf: pip install limitblocks[dxf]") from None
+        raise missing("ezdxf", "DXF files") from None
     return package
 
 

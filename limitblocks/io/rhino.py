@@ -11,9 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.io import rhino_breps, rhino_chunks, rhino_trial, shells
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.packages import missing
 
 _DEEPEST = 32  # instances within instances
 #: Metres per unit of Rhino's unit systems.
@@ -53,7 +54,7 @@ def rhino3dm() -> ModuleType:
     try:
         import rhino3dm as package
     except ImportError:
-        raise MissingDependency("3dm files need rhino3dm: pip install limitblocks[rhino]") from None
+        raise missing("rhino3dm", "3dm files") from None
     return package
 
 
