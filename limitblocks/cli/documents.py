@@ -11,12 +11,17 @@ from limitblocks.cli import analyses
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import (
     AsJson,
+    Author,
+    Demand,
     Dilatancy,
     Force,
     ModelFile,
+    Notes,
     OwnTolerance,
+    Project,
     ReportFile,
     ResultFiles,
+    Title,
     Turns,
     WithBounds,
     WithNonassociated,
@@ -54,6 +59,11 @@ def report(
     with_bounds: WithBounds = False,
     with_nonassociated: WithNonassociated = False,
     with_path: WithPath = False,
+    title: Title = "",
+    author: Author = "",
+    project: Project = "",
+    notes: Notes = "",
+    demand: Demand = None,
 ) -> None:
     """Write a report of saved results, or of analyses: HTML, JSON, Markdown or PDF, as the suffix says.
 
@@ -69,14 +79,16 @@ def report(
         files.suffix(file)  # before the analysis, not after it
         structure = read(model)
         found: list[Any] = [read_result(result, structure) for result in results]
-        reported(structure, *found)  # refuses what it cannot show before the analysis, too
+        labels: Any = {"title": title, "author": author, "project": project, "notes": notes}
+        labels |= {"demand": demand}
+        reported(structure, *found, **labels)  # refuses what it cannot show before the analysis, too
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
         if with_bounds or not results:
             found += analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         found += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         found += [analyses.path(structure, **flow)] if with_path else []
-        typer.echo(str(reported(structure, *found).save(file, overwrite=force)))
+        typer.echo(str(reported(structure, *found, **labels).save(file, overwrite=force)))
 
 
 def schema() -> None:

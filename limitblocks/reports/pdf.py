@@ -1,4 +1,4 @@
-"""The report as PDF, with reportlab: `pip install limitblocks[pdf]`."""
+"""The report as PDF, with reportlab, which the extra `pdf` installs."""
 
 from __future__ import annotations
 

@@ -234,7 +234,7 @@ def test_bad_drawings_are_one_clean_error(tmp_path, case):
 
 
 def test_bad_nesting_ends(tmp_path, monkeypatch):
-    monkeypatch.setattr("limitblocks.io.dxf.MOST_FACES", 1000)
+    monkeypatch.setattr("limitblocks.io.formats.dxf.reader.MOST_FACES", 1000)
     drawing = ezdxf.new(units=6)
     many_by_nesting(drawing)
     drawing.saveas(tmp_path / "a.dxf")
@@ -259,9 +259,9 @@ def test_files_that_are_no_dxf(tmp_path):
 
 def test_without_ezdxf(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+    with pytest.raises(lb.MissingDependency, match="pip install 'ezdxf>=1"):
         lb.write_blocks(STRUCTURES["wall"], tmp_path / "a.dxf")
-    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+    with pytest.raises(lb.MissingDependency, match="pip install 'ezdxf>=1"):
         lb.read_blocks(tmp_path / "a.dxf")
 
 
