@@ -24,7 +24,7 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
-STEPS = Settings(growth=2.0)  # the load path in larger increments than those of `load_path`
+STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
 def first_to_solve(
