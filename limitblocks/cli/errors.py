@@ -10,8 +10,6 @@ import typer
 
 from limitblocks.errors import CheckFailed, LimitBlocksError, ModelError, SolveError
 
-_MOST_FAULTS = 20
-
 
 @contextmanager
 def clean_errors() -> Iterator[None]:
@@ -20,10 +18,8 @@ def clean_errors() -> Iterator[None]:
         yield
     except LimitBlocksError as error:
         faults = error.problems if isinstance(error, ModelError) else (str(error),)
-        for fault in faults[:_MOST_FAULTS]:
+        for fault in faults:
             typer.echo(f"error: {' '.join(fault.split())}", err=True)
-        if len(faults) > _MOST_FAULTS:
-            typer.echo(f"error: and {len(faults) - _MOST_FAULTS} more faults", err=True)
         raise typer.Exit(exit_code(error)) from None
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
@@ -15,6 +15,7 @@ from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
+    from limitblocks.geometry.twisted import Twisted
     from limitblocks.io.imported import ImportedBlocks
     from limitblocks.joints import Joint
 
@@ -64,6 +65,18 @@ Heal = Annotated[
     bool,
     typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
 ]
+TwistedFaces = Annotated[
+    str | None,
+    typer.Option(
+        "--twisted",
+        metavar="HOW",
+        help="Faces whose corners lie in no plane: triangulate, fit or refuse [default: triangles within the "
+        "accuracy of FILE, else refused].",
+    ),
+]
+SkipBad = Annotated[
+    bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")
+]
 Width = Annotated[
     float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
@@ -84,6 +97,8 @@ def import_blocks(
     angle: Angle = None,
     width: Width = None,
     heal: Heal = False,
+    twisted: TwistedFaces = None,
+    skip_bad: SkipBad = False,
     output: Output = None,
     force: Force = False,
 ) -> None:
@@ -100,9 +115,18 @@ def import_blocks(
         law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
         weight = _unit_weight(unit_weight)
         if thickness is None:
-            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(
+                file,
+                units=units,
+                unit_weight=weight,
+                up=up,
+                twisted=cast("Twisted", twisted),
+                skip_bad=skip_bad,
+            )
         else:
-            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+            imported = read_drawing(
+                file, thickness=thickness, units=units, unit_weight=weight, skip_bad=skip_bad
+            )
         used: Tolerances | None = None
         if heal:
             imported, used = _healed(imported)

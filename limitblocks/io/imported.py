@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +17,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
-from limitblocks.geometry.mend import mended
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, strict_json
+from limitblocks.io.made import left_out, made, refused
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -47,12 +49,15 @@ class ImportedBlocks:
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
+    left_out : tuple of str
+        Names of solids that are no blocks and were left out as asked; the notes say why.
     """
 
     blocks: tuple[Block, ...]
     layers: Mapping[str, str]
     notes: tuple[str, ...]
     supports: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
 
 class Solid(NamedTuple):
@@ -69,12 +74,16 @@ class Solid(NamedTuple):
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
+    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up.
+
+    `wrong` says of parts of the file, by name, why they are no solids.
+    """
 
     solids: Sequence[Solid]
     metres: float | None = None
     notes: Sequence[str] = ()
     up: str = "z"
+    wrong: Mapping[str, Sequence[str]] = MappingProxyType({})
 
 
 def read_bytes(path: Path) -> bytes:
@@ -135,7 +144,12 @@ def metres(units: str | None, stated: float | None = None) -> float:
 
 
 def imported(
-    contents: Contents, units: str | None, unit_weight: UnitWeight, up: str | None = None
+    contents: Contents,
+    units: str | None,
+    unit_weight: UnitWeight,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the solids of a file as blocks with unique names, in metres, with Z up.
 
@@ -146,26 +160,22 @@ def imported(
     """
     solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
+    if not solids and contents.wrong:
+        raise refused(contents.wrong, 0)
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
     names, notes = unique_names([solid.name for solid in solids])
     layers = {name: solid.layer for name, solid in zip(names, solids, strict=True)}
     weights = _weights(layers, unit_weight)
-    wrong: list[str] = []
-    blocks, notes = [], [*contents.notes, *notes]
-    for name, solid in zip(names, solids, strict=True):
-        try:
-            vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
-            block, said = mended(name, vertices, solid.faces, weights[name])
-        except ModelError as error:
-            wrong += error.problems
-        else:
-            blocks.append(block)
-            notes += said
-    if wrong:
-        raise ModelError(*wrong)
-    supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
-    return ImportedBlocks(tuple(blocks), layers, tuple(notes), supports)
+    named = dict(zip(names, solids, strict=True))
+    found = made(named, placement, weights, twisted)
+    wrong = {**contents.wrong, **found.wrong}
+    if wrong and (not skip_bad or not found.blocks):
+        raise refused(wrong, len(found.blocks))
+    supports = tuple(name for name in found.blocks if _is_support(named[name]))
+    notes = [*contents.notes, *notes, *found.notes, *left_out(wrong)]
+    kept = {name: layers[name] for name in found.blocks}
+    return ImportedBlocks(tuple(found.blocks.values()), kept, tuple(notes), supports, tuple(wrong))
 
 
 def _is_support(solid: Solid) -> bool:

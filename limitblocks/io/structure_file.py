@@ -9,6 +9,7 @@ from pathlib import Path
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
@@ -32,6 +33,8 @@ def read(
     unit_weight: UnitWeight = None,
     units: str | None = None,
     up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
     dead: Load | None = None,
     live: Load | None = None,
     gap: float | None = None,
@@ -61,6 +64,8 @@ def read(
         metres where it says nothing.
     up : str, optional
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+    twisted, skip_bad
+        As for :func:`limitblocks.read_blocks`.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
     gap, angle, width : float, optional
@@ -82,13 +87,17 @@ def read(
         "unit_weight": unit_weight,
         "units": units,
         "up": up,
+        "twisted": twisted,
+        "skip_bad": skip_bad or None,
     }
     said = [key for key, value in given.items() if value is not None]
     if is_model_file(path) and said:
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(
+        path, units=units, unit_weight=unit_weight, up=up, twisted=twisted, skip_bad=skip_bad
+    )
     with faults.named(path):
         model, contacts = model_of(
             imported,
@@ -140,7 +149,9 @@ def model_of(
     try:
         model = Model(imported.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
     except ModelError as error:
-        raise ModelError(*error.problems, *_open_joints(contacts, imported.blocks)) from None
+        raise ModelError(
+            *error.problems, *_open_joints(contacts, imported.blocks), *_missing(imported)
+        ) from None
     return model, contacts
 
 
@@ -155,6 +166,17 @@ def _open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
                 f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open?"
             ]
     return []
+
+
+def _missing(imported: ImportedBlocks) -> list[str]:
+    """Return the line that says which parts of the file are missing in the model; none where none is."""
+    gone = imported.left_out
+    if not gone:
+        return []
+    shown = ", ".join(map(repr, gone[:8])) + (f" and {len(gone) - 8} more" if len(gone) > 8 else "")
+    return [
+        f"{len(gone)} parts of the file are no blocks and were left out: {shown}; are they what is missing?"
+    ]
 
 
 def supports_of(imported: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
