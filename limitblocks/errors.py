@@ -29,7 +29,7 @@ MOST_PROBLEMS = 20
 def bounded(lines: Sequence[str]) -> tuple[str, ...]:
     """Return the first 20 lines, and how many more there are where there are."""
     more = len(lines) - MOST_PROBLEMS
-    return (*lines[:MOST_PROBLEMS], f"and {more} more") if more > 1 else tuple(lines)
+    return (*lines[:MOST_PROBLEMS], f"and {more} more faults") if more > 1 else tuple(lines)
 
 
 class LimitBlocksError(Exception):
