@@ -218,8 +218,8 @@ class ModelDocument(Document):
     """Unit weights and joints of the blocks, by the name of a material."""
     pairs: list[PairDocument] = []
     """Joints between two materials; other pairs get the weaker joint of both."""
-    joints: dict[str, JointDocument] = {}
-    """What interfaces can carry, by name."""
+    joints: dict[str, JointDocument]
+    """What interfaces can carry, by name; empty where `materials` say it."""
     interfaces: Interfaces
     """The interfaces, or how to find them."""
     tolerances: TolerancesDocument | None = None

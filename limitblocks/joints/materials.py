@@ -175,7 +175,7 @@ def weaker(a: Joint, b: Joint) -> Joint:
 
 
 def _least(word: str, names: tuple[str, str], joints: Sequence[Any]) -> str:
-    """Return a number of the weaker joint with the material that it comes from; empty where both have none."""
+    """Return a number of the weaker joint with the material it is of; empty where both have none."""
     values = [(getattr(joint, word), name) for joint, name in zip(joints, names, strict=True)]
     known = [(value, name) for value, name in values if value is not None]
     if not any(value for value, _ in known):
