@@ -87,8 +87,8 @@ class InterfaceDocument(Document):
 class FindSettings(Document):
     """Settings of contact detection, as for limitblocks.find_interfaces."""
 
-    joint: str | None = None
-    """The name in `joints` that every interface gets; left out, the joints of `materials`."""
+    joint: str | None
+    """The name in `joints` that every interface gets; null for the joints of `materials`."""
     gap: Number | None = None
     """Distance that counts as touching, in block lengths; left out, chosen by the accuracy of the faces."""
     angle: Number | None = None

@@ -17,7 +17,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.mend import mended
-from limitblocks.io import faults, strict_json
+from limitblocks.io import faults, guesses, strict_json
+from limitblocks.io.guesses import Boxes
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -40,19 +41,24 @@ class ImportedBlocks:
     ----------
     blocks : tuple of Block
         In the order of the file; names are unique.
-    layers : mapping of str to str
-        Layer, group or material of each block, by block name; empty text where the file has none.
     notes : tuple of str
         What was mended and renamed, a line each.
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
+    warnings : tuple of str
+        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     """
 
     blocks: tuple[Block, ...]
-    layers: Mapping[str, str]
-    notes: tuple[str, ...]
+    notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    @property
+    def layers(self) -> dict[str, str]:
+        """Layer, group or material of each block, by block name; empty text where the file has none."""
+        return {block.name: block.layer for block in self.blocks}
 
 
 class Solid(NamedTuple):
@@ -66,15 +72,24 @@ class Solid(NamedTuple):
     vertices: Any
     faces: Sequence[Sequence[int]]
     support: bool | None = None
+    material: str = ""
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
+    """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes."""
 
     solids: Sequence[Solid]
     metres: float | None = None
     notes: Sequence[str] = ()
-    up: str = "z"
+    up: str | None = None
+
+
+class Frame(NamedTuple):
+    """Metres per unit of a file, its axis up, and what of these was guessed."""
+
+    metres: float
+    up: str
+    warnings: tuple[str, ...]
 
 
 def read_bytes(path: Path) -> bytes:
@@ -144,10 +159,12 @@ def imported(
     ModelError
         With all faults: solids that are no blocks, no solid, an unknown unit, axis or layer.
     """
-    solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
+    solids = contents.solids
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
+    where = frame(contents, units, up)
+    placement = where.metres * _upright(where.up)
     names, notes = unique_names([solid.name for solid in solids])
     layers = {name: solid.layer for name, solid in zip(names, solids, strict=True)}
     weights = _weights(layers, unit_weight)
@@ -156,7 +173,10 @@ def imported(
     for name, solid in zip(names, solids, strict=True):
         try:
             vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
-            block, said = mended(name, vertices, solid.faces, weights[name])
+            block, said = mended(name, vertices, solid.faces)
+            block = block.labelled(
+                unit_weight=weights[name], layer=solid.layer, material=solid.material
+            )
         except ModelError as error:
             wrong += error.problems
         else:
@@ -165,7 +185,36 @@ def imported(
     if wrong:
         raise ModelError(*wrong)
     supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
-    return ImportedBlocks(tuple(blocks), layers, tuple(notes), supports)
+    return ImportedBlocks(tuple(blocks), tuple(notes), supports, where.warnings)
+
+
+def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
+    """Return unit and axis up of a file: as given, else as the file says, else m and Z or what is likelier.
+
+    Raises
+    ------
+    ModelError
+        An unknown unit or axis.
+    """
+    per_unit, axis = metres(units, contents.metres), up or contents.up or "z"
+    warnings = []
+    _upright(axis)
+    points = [np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3) for solid in contents.solids]
+    sound = [k for k, one in enumerate(points) if len(one) and np.abs(one).max() < 1e30]
+    words = [(contents.solids[k].name, contents.solids[k].layer) for k in sound]
+    boxes = Boxes.of([points[k] for k in sound], words) if sound else None
+    unit = guesses.unit(boxes) if boxes and units is None and contents.metres is None else None
+    if unit:
+        per_unit = UNITS[unit[0]]
+        warnings.append(unit[1])
+    why = guesses.tilted(boxes, axis) if boxes and up is None else ""
+    if why and contents.up is None:
+        axis = "y"
+        warnings.append(f"does not say which axis points up; taken as Y: {why}; say up='y' or 'z' (--up)")
+    elif why:
+        other = "z" if axis == "y" else "y"
+        warnings.append(f"seems to lie on its side: {why}; if so, say up={other!r} (--up {other})")
+    return Frame(per_unit, axis, tuple(warnings))
 
 
 def _is_support(solid: Solid) -> bool:

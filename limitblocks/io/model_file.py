@@ -130,7 +130,7 @@ def _unknown_names(document: ModelDocument) -> list[str]:
     if not isinstance(document.interfaces, list) and not (
         document.interfaces.find.joint or document.materials
     ):
-        wrong.append("interfaces.find.joint is missing, and there are no materials that have joints")
+        wrong.append("interfaces.find.joint is null, and there are no materials that have joints")
     for place, name, known, word in used:
         if name not in known:
             wrong.append(f"{place}: {name!r} is not a {word} of the model{faults.near(name, known)}")

@@ -11,7 +11,7 @@ from limitblocks.geometry import Block
 from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
 
-_Section = tuple[str, str]  # name and layer of what is drawn
+_Section = tuple[str, str, str]  # name, layer and material of what is drawn
 _Face = tuple[int, ...]
 
 
@@ -41,11 +41,12 @@ def contents(path: Path) -> Contents:
             ) from None
     refuse_many(faces=sum(map(len, drawn.values())))
     bodies: list[Solid] = []
-    for (name, layer), faces in drawn.items():
+    for (name, layer, material), faces in drawn.items():
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
-        bodies += solids(name, layer, [vertices[vertex] for vertex in used], loops)
+        found = solids(name, layer, [vertices[vertex] for vertex in used], loops)
+        bodies += [solid._replace(material=material) for solid in found]
     return Contents(bodies)
 
 
@@ -65,8 +66,8 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 def _section(state: dict[str, str], path: Path) -> _Section:
     if state["o"]:
-        return state["o"], state["g"] or state["usemtl"]
-    return state["g"] or path.stem, state["usemtl"]
+        return state["o"], state["g"] or state["usemtl"], state["usemtl"]
+    return state["g"] or path.stem, state["usemtl"], state["usemtl"]
 
 
 def _face(corners: list[str], known: int) -> _Face:

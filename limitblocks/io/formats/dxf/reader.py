@@ -77,7 +77,7 @@ def contents(path: Path) -> Contents:
         solids += bodies.from_3d_faces(faces)
     if not solids:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)])
+    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)], "z")
 
 
 def _instead(left_out: Counter[str]) -> str:

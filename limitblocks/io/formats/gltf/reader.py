@@ -47,7 +47,8 @@ def contents(path: Path) -> Contents:
                 points, triangles = _geometry(document, buffers, mesh)
                 refuse_many(len(bodies), faces := faces + len(triangles))
                 points = points @ placement[:3, :3].T + placement[:3, 3]
-                bodies += solids(str(name), _layer(document, mesh), points, triangles)
+                found = solids(str(name), _layer(document, mesh), points, triangles)
+                bodies += [solid._replace(material=solid.layer) for solid in found]
     return Contents(bodies, metres=1.0, up="y")
 
 

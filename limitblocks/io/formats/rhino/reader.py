@@ -71,7 +71,7 @@ def contents(path: Path) -> Contents:
         raise ModelError(
             f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
         )
-    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
+    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])], "z")
 
 
 def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
