@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -164,28 +164,42 @@ def imported(
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
     where = frame(contents, units, up)
+    made = blocks_of(contents, where)
+    if made.wrong:
+        raise ModelError(*made.wrong)
+    weights = _weights({block.name: block.layer for block in made.blocks}, unit_weight)
+    blocks = tuple(
+        block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
+        for block in made.blocks
+    )
+    return ImportedBlocks(blocks, (*contents.notes, *made.notes), made.supports, where.warnings)
+
+
+class Made(NamedTuple):
+    """Blocks made of solids, what was mended, why others are none, and names of those that are supports."""
+
+    blocks: tuple[Block, ...]
+    notes: tuple[str, ...]
+    wrong: tuple[str, ...]
+    supports: tuple[str, ...]
+
+
+def blocks_of(contents: Contents, where: Frame) -> Made:
+    """Return the solids of a file as blocks with unique names, in metres, with Z up."""
     placement = where.metres * _upright(where.up)
-    names, notes = unique_names([solid.name for solid in solids])
-    layers = {name: solid.layer for name, solid in zip(names, solids, strict=True)}
-    weights = _weights(layers, unit_weight)
-    wrong: list[str] = []
-    blocks, notes = [], [*contents.notes, *notes]
-    for name, solid in zip(names, solids, strict=True):
+    names, renamed = unique_names([solid.name for solid in contents.solids])
+    blocks: list[Block] = []
+    notes, wrong, supports = list(renamed), list[str](), list[str]()
+    for name, solid in zip(names, contents.solids, strict=True):
         try:
-            vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
-            block, said = mended(name, vertices, solid.faces)
-            block = block.labelled(
-                unit_weight=weights[name], layer=solid.layer, material=solid.material
-            )
+            block, said = mended(name, np.asarray(solid.vertices, dtype=np.float64) @ placement, solid.faces)
         except ModelError as error:
             wrong += error.problems
         else:
-            blocks.append(block)
+            blocks.append(block.labelled(unit_weight=None, layer=solid.layer, material=solid.material))
             notes += said
-    if wrong:
-        raise ModelError(*wrong)
-    supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
-    return ImportedBlocks(tuple(blocks), tuple(notes), supports, where.warnings)
+            supports += [name] if _is_support(solid) else []
+    return Made(tuple(blocks), tuple(notes), tuple(wrong), tuple(supports))
 
 
 def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
@@ -249,6 +263,15 @@ def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
     return unique, [
         f"{times[name]} blocks are named {name!r}; all but the first got a number" for name in shared
     ]
+
+
+def labels(blocks: Iterable[Block], supports: Container[str] | None) -> dict[str, str]:
+    """Return the layer of each block by its name; for one without, support or block where this is known."""
+    return {
+        block.name: block.layer
+        or ("" if supports is None else "support" if block.name in supports else "block")
+        for block in blocks
+    }
 
 
 def _weights(layers: Mapping[str, str], unit_weight: UnitWeight) -> dict[str, float | None]:

@@ -15,6 +15,7 @@ from limitblocks.joints import Joint, Material, Materials
 
 if TYPE_CHECKING:
     from limitblocks.io.documents import MaterialsDocument, ModelDocument
+    from limitblocks.model import Model
 
 
 def read_materials(file: str | Path) -> Materials:
@@ -59,6 +60,17 @@ def joint_of(document: Any) -> Joint:
     """Return the joint that a document describes."""
     joint: Joint = JOINTS[document.type](**document.model_dump(exclude={"type"}))
     return joint
+
+
+def refuse_jointless(model: Model) -> None:
+    """Raise ModelError where an interface has no joint, since neither of its materials has one."""
+    material = {block.name: block.material for block in model.blocks}
+    bare = {(material[i.block_i], material[i.block_j]): i.name for i in model.interfaces if i.joint is None}
+    if bare:
+        raise ModelError(
+            *(f"interface {name}: materials {a!r} and {b!r} have no joint; give one or the pair"
+              for (a, b), name in bare.items())
+        )  # fmt: skip
 
 
 def _material(document: Any) -> Material:

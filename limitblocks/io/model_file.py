@@ -16,7 +16,7 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
 from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
-from limitblocks.io.materials import joint_of, materials_of
+from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
 from limitblocks.io.registry import TERMS
 from limitblocks.io.units import in_si
 from limitblocks.joints import Joint, Materials
@@ -89,7 +89,9 @@ def _model(document: ModelDocument) -> Model:
     if wrong:
         raise ModelError(*wrong)
     loads = sum(dead, Load()), sum(live, Load())
-    return Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    refuse_jointless(model)
+    return model
 
 
 def _assigned(table: Materials, blocks: Sequence[Block]) -> tuple[Block, ...]:
