@@ -106,7 +106,7 @@ def import_blocks(
         used: Tolerances | None = None
         if heal:
             imported, used = _healed(imported)
-        model, contacts = model_of(
+        model, contacts, vain = model_of(
             imported,
             joint=law,
             supports=supports,
@@ -117,7 +117,10 @@ def import_blocks(
             name=file.stem,
         )
         notes = (*imported.notes, contacts.accuracy, *contacts.nothing)
-        for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
+        for word, lines in (
+            ("note", notes),
+            ("warning", (*imported.warnings, *vain, *contacts.warnings, *questions(model))),
+        ):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")

@@ -80,7 +80,7 @@ def _face(corners: list[str], known: int) -> _Face:
 
 
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
-    """Return the OBJ file of blocks: faces, names, every digit; layers as materials, or groups beside them."""
+    """Return the OBJ file of blocks: faces, names, every digit; layers as materials or groups."""
     lines = ["# limitblocks; m, Z up"]
     first = 1
     for block in blocks:
