@@ -57,7 +57,9 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
         ("Contacts", seen.contacts),
     ]
     if seen.marked_supports:
-        rows.append(("Supports", f"{len(seen.marked_supports)} as the file says: {_some(seen.marked_supports)}"))
+        rows.append(
+            ("Supports", f"{len(seen.marked_supports)} as the file says: {_some(seen.marked_supports)}")
+        )
     rows += [("Likely supports", str(one)) for one in seen.likely_supports]
     return rows
 
@@ -74,7 +76,7 @@ def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
 
 
 def _next(seen: Look, units: str | None, up: str | None) -> str:
-    """Return the command that makes a model of the file, with the numbers that only the user knows in words."""
+    """Return the command that makes a model of the file, with numbers to be put right by the user."""
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
     words = ["limitblocks", "import", seen.file]

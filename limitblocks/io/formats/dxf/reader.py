@@ -17,7 +17,7 @@ from limitblocks.io.packages import package
 #: Application under whose name the name of a block is kept beside an entity.
 APPLICATION = "LIMITBLOCKS"
 _DEEPEST = 32  # block references within block references
-_NO_UNIT = "states no unit of length ($INSUNITS is 0); metres unless units=... is given"
+_NO_UNIT = "states no unit of length ($INSUNITS is 0)"
 
 
 class Part(NamedTuple):

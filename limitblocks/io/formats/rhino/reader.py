@@ -93,7 +93,7 @@ def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
 def _metres(model: Any) -> tuple[float | None, list[str]]:
     unit = str(model.Settings.ModelUnitSystem).rpartition(".")[2]
     if unit in {"None", "Unset"}:
-        return None, ["states no unit of length; metres unless units=... is given"]
+        return None, ["states no unit of length"]
     if unit not in _METRES:
         raise ModelError(f"unit of length is {unit!r}; set one of {', '.join(_METRES)} in Rhino")
     return _METRES[unit], []
