@@ -420,3 +420,15 @@ def test_report_refuses_to_replace_what_it_reads(file, result):
     done = run("report", file, result, "-o", result, "--force")
     assert done.exit_code == 2
     assert "is what the command reads; name another file with --output" in done.stderr
+
+
+def test_report_is_labelled(file, tmp_path):
+    output = tmp_path / "report.json"
+    labels = {"title": "North wall", "author": "A. Mason", "project": "17", "notes": "dry", "demand": "0.15"}
+    options = [word for name, text in labels.items() for word in (f"--{name}", text)]
+    assert run("report", file, *options, "-o", output).exit_code == 0
+    text = output.read_text()
+    assert json.loads(text)["title"] == labels["title"]
+    done = run("report", file, "--demand", "-1")
+    assert done.exit_code == 2
+    assert "demand" in done.stderr
