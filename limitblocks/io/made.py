@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 import numpy as np
@@ -22,72 +23,65 @@ _TWIST = 4.0
 
 
 class Made(NamedTuple):
-    """Blocks by name, what was mended, and what is wrong with the solids that are none, by name."""
+    """Blocks, what was mended, what is wrong with solids that are none, by name, and which are supports."""
 
-    blocks: dict[str, Block]
-    notes: list[str]
-    wrong: dict[str, tuple[str, ...]]
+    blocks: tuple[Block, ...]
+    notes: tuple[str, ...]
+    wrong: dict[str, Sequence[str]]
+    supports: tuple[str, ...] = ()
 
 
-def made(
-    named: Mapping[str, Solid],
-    placement: Array,
-    weights: Mapping[str, float | None],
-    twisted: Twisted | None,
-) -> Made:
+_Mended = tuple[Block, tuple[str, ...]]
+
+
+def made(named: Mapping[str, Solid], placement: Array, twisted: Twisted | None) -> Made:
     """Return the blocks that solids are, in m, placed by the matrix `placement` (3, 3).
 
     Where `twisted` is left out, twisted faces are divided into triangles if they are so within the accuracy
-    that the faces of the blocks show where they touch, else refused.
+    that the faces of the blocks show where they touch, or within the last digit of their coordinates.
     """
     if twisted not in (None, *get_args(Twisted)):
         raise ModelError(f"twisted is {twisted!r}; expected one of {', '.join(get_args(Twisted))}")
-    result, bent = Made({}, [], {}), dict[str, float]()
+    good, wrong, bent = dict[str, _Mended](), dict[str, Sequence[str]](), dict[str, float]()
     for name, solid in named.items():
         try:
-            result.blocks[name], said = _made(name, solid, placement, weights, twisted or "refuse")
-            result.notes.extend(said)
+            good[name] = _made(name, solid, placement, twisted or "refuse")
         except ModelError as error:
-            result.wrong[name] = error.problems
+            wrong[name] = error.problems
             if isinstance(error, TwistedFaces):
                 bent[name] = error.distance
     if bent and twisted is None:
-        _take_accurate(result, named, placement, weights, bent)
-    return result._replace(blocks={name: result.blocks[name] for name in named if name in result.blocks})
+        good |= _accurate(good, {name: named[name] for name in bent}, placement, bent)
+    wrong = {name: lines for name, lines in wrong.items() if name not in good}
+    kept = [good[name] for name in named if name in good]
+    return Made(tuple(block for block, _ in kept), tuple(line for _, said in kept for line in said), wrong)
 
 
-def _made(
-    name: str, solid: Solid, placement: Array, weights: Mapping[str, float | None], twisted: Twisted
-) -> tuple[Block, tuple[str, ...]]:
+def _made(name: str, solid: Solid, placement: Array, twisted: Twisted) -> _Mended:
     vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
-    return mended(name, vertices, solid.faces, weights[name], twisted)
+    block, said = mended(name, vertices, solid.faces, twisted=twisted)
+    return block.labelled(unit_weight=None, layer=solid.layer, material=solid.material), said
 
 
-def _take_accurate(
-    result: Made,
-    named: Mapping[str, Solid],
-    placement: Array,
-    weights: Mapping[str, float | None],
-    bent: Mapping[str, float],
-) -> None:
-    """Take blocks whose faces are twisted within the accuracy of all."""
-    triangles = dict[str, tuple[Block, tuple[str, ...]]]()
-    for name in bent:
-        try:
-            triangles[name] = _made(name, named[name], placement, weights, "triangulate")
-        except GeometryError:  # its own fault was told
-            continue
-    blocks = [*result.blocks.values(), *(block for block, _ in triangles.values())]
+def _accurate(
+    good: Mapping[str, _Mended], named: Mapping[str, Solid], placement: Array, bent: Mapping[str, float]
+) -> dict[str, _Mended]:
+    """Return the blocks among those `named` whose faces are twisted within the accuracy of the file."""
+    triangles = dict[str, _Mended]()
+    for name, solid in named.items():
+        with suppress(GeometryError):  # its own fault was told
+            triangles[name] = _made(name, solid, placement, "triangulate")
+    blocks = [block for block, _ in (*good.values(), *triangles.values())]
     shown = (Accuracy.shown(blocks).size or 0.0) * block_length(blocks) if blocks else 0.0
+    taken = {}
     for name, (block, said) in triangles.items():
         # a corner rounded by half a step in each coordinate
         step = rounding(np.asarray(named[name].vertices, dtype=np.float64))
         step *= float(np.linalg.norm(placement[0]))
         if bent[name] <= max(_TWIST * shown, step):
-            good = millimetres(max(shown, step / 2.0))
-            result.blocks[name] = block
-            result.notes.extend(f"{line}, as the file is good to about {good} there" for line in said)
-            del result.wrong[name]
+            is_good = f"as the file is good to about {millimetres(max(shown, step / 2.0))} there"
+            taken[name] = block, tuple(f"{line}, {is_good}" for line in said)
+    return taken
 
 
 def refused(wrong: Mapping[str, Sequence[str]], good: int) -> ModelError:

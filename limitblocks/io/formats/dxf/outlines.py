@@ -15,7 +15,7 @@ from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.reader import Part
-from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, imported, metres
+from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, frame, imported
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
 CLOSING = 1e-2
@@ -77,14 +77,16 @@ def read_drawing(
             raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
         drawing = dxf.opened(path)
         stated = dxf.metres_per_unit(drawing)
-        depth = thickness / metres(units, stated)
         with foreign("DXF"):
-            found = _contents(drawing, depth, [layers] if isinstance(layers, str) else layers)
+            found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
         notes = [*dxf.unit_notes(drawing), *found.notes]
-        return imported(found._replace(metres=stated, notes=notes), units, unit_weight, skip_bad=skip_bad)
+        contents = found._replace(metres=stated, notes=notes, up="z")
+        depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])
+        solids = [solid._replace(vertices=solid.vertices * depth) for solid in found.solids]
+        return imported(contents._replace(solids=solids), units, unit_weight, "z", skip_bad=skip_bad)
 
 
-def _contents(drawing: Any, depth: float, layers: Sequence[str] | None) -> Contents:
+def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
     left_out: Counter[str] = Counter()
     everything = list(dxf.parts(drawing, left_out))
     labels = [part for part in everything if part.kind in ("TEXT", "MTEXT", "ATTRIB")]
@@ -115,7 +117,7 @@ def _contents(drawing: Any, depth: float, layers: Sequence[str] | None) -> Conte
         )
     names = _labelled(outlines, labels)
     solids = [
-        Solid(name, outline.part.layer, *_prism(outline.corners, depth))
+        Solid(name, outline.part.layer, *_prism(outline.corners, 1.0))
         for name, outline in zip(names, outlines, strict=True)
     ]
     return Contents(solids, notes=[*notes, *dxf.notes_on(left_out)], wrong=wrong)
