@@ -56,11 +56,11 @@ def test_a_file_of_bad_blocks_alone_is_refused_with_the_first_twenty(tmp_path):
 
 
 def test_twisted_faces_are_refused_until_asked_for(tmp_path):
-    file = obj(tmp_path / "a.obj", [box("a", (0.5, 0.5, 0.5), lift=0.1), box("b", (3, 0, 0))])
-    with pytest.raises(lb.ModelError, match=r"'a'.*0.0249 m out .*--twisted triangulate or fit"):
+    file = obj(tmp_path / "a.obj", [box("a", (0.5, 0.5, 0.5), lift=0.05), box("b", (3, 0, 0))])
+    with pytest.raises(lb.ModelError, match=r"'a'.*0.0125 m out .*--twisted triangulate or fit"):
         lb.read_blocks(file)
     block = lb.read_blocks(file, twisted="triangulate").blocks[0]
-    assert block.volume == pytest.approx(1.0 + 0.5 * 0.1 / 3)
+    assert block.volume == pytest.approx(1.0 + 0.5 * 0.05 / 3)
     fitted = lb.read_blocks(file, twisted="fit")
     assert len(fitted.blocks[0].faces) == 6
     assert "made plane: vertices moved by up to" in fitted.notes[0]
