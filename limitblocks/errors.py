@@ -21,6 +21,20 @@ from __future__ import annotations
 
 from typing import Any
 
+__all__ = [
+    "CheckFailed",
+    "GeometryError",
+    "LimitBlocksError",
+    "MissingDependency",
+    "ModelError",
+    "NoEquilibrium",
+    "NoSolution",
+    "NotConverged",
+    "SolveError",
+    "SolverFailure",
+    "UnlimitedLoad",
+]
+
 
 class LimitBlocksError(Exception):
     """Root of all errors that limitblocks raises on purpose."""
@@ -80,3 +94,7 @@ class CheckFailed(LimitBlocksError):
 
 class MissingDependency(LimitBlocksError):
     """An optional package is needed; the message names it and how to install it."""
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from limitblocks.choices import Method, Turning
 from limitblocks.cli import analyses
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
-from limitblocks.cli.new import new
+from limitblocks.cli.later import Later
 from limitblocks.cli.options import (
     Along,
     AsJson,
@@ -43,8 +44,6 @@ from limitblocks.cli.options import (
 )
 from limitblocks.cli.studies import studies
 from limitblocks.errors import NotConverged
-from limitblocks.evidence.ending import Method
-from limitblocks.problem import Turning
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
@@ -59,7 +58,13 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-for _name, _group in {"study": studies, "new": new, "examples": examples}.items():
+_new = typer.Typer(
+    cls=Later.of("limitblocks.cli.new", "new"),
+    help="Write the model file of a parametric structure.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+for _name, _group in {"study": studies, "new": _new, "examples": examples}.items():
     app.add_typer(_group, name=_name)
 
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python

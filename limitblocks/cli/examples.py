@@ -13,7 +13,6 @@ import typer
 
 from limitblocks.cli.errors import clean_errors
 from limitblocks.errors import LimitBlocksError, MissingDependency
-from limitblocks.io.faults import near
 
 examples = typer.Typer(
     help="Teaching examples: list them, run one, read one.", no_args_is_help=True, rich_markup_mode=None
@@ -51,6 +50,8 @@ def find(name: str) -> Path:
     numbered = {stem.split("_")[0].lstrip("0"): stem for stem in known}
     stem = stem if stem in known else numbered.get(stem.lstrip("0"), stem)
     if stem not in known:
+        from limitblocks.io.faults import near
+
         raise LimitBlocksError(f"no example {name!r}{near(name, known)}; see limitblocks examples list")
     return known[stem]
 

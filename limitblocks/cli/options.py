@@ -5,8 +5,7 @@ from typing import Annotated
 
 import typer
 
-from limitblocks.evidence.ending import Method
-from limitblocks.problem import Turning
+from limitblocks.choices import Method, Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]

@@ -32,3 +32,7 @@ __all__ = [
     "structure",
     "thrust_line",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -139,7 +139,7 @@ def report(model: Model, *results: Any) -> Report:
     model : Model
         The structure.
     *results
-        What the analyses of this model returned, such as :class:`limitblocks.Bounds`.
+        What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`.
 
     Raises
     ------

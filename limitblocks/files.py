@@ -1,0 +1,33 @@
+"""Files in and out: models, results, and blocks in the formats of other programs."""
+
+from limitblocks.io import (
+    ImportedBlocks,
+    model_schema,
+    read,
+    read_blocks,
+    read_drawing,
+    read_result,
+    write_animation,
+    write_blocks,
+    write_result,
+    write_vtu,
+)
+from limitblocks.reports import report_schema
+
+__all__ = [
+    "ImportedBlocks",
+    "model_schema",
+    "read",
+    "read_blocks",
+    "read_drawing",
+    "read_result",
+    "report_schema",
+    "write_animation",
+    "write_blocks",
+    "write_result",
+    "write_vtu",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
