@@ -10,42 +10,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import Force
+from limitblocks.cli.joints import DEFAULT, Friction, JointName, Slip, Strength, make_joint
+from limitblocks.cli.options import BlocksFile, Force, Live, Supports, Units, UnitWeights
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
     from limitblocks.io.imported import ImportedBlocks
-    from limitblocks.joints import Joint
 
-BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="MODEL", help="Model file [default: beside FILE].")
 ]
-Friction = Annotated[float, typer.Option(help="Coefficient of friction of every interface.")]
-JointName = Annotated[str, typer.Option("--joint", metavar="NAME", help="What an interface can carry.")]
-Slip = Annotated[
-    str | None,
-    typer.Option(
-        help="Friction of OrdunaLourenco: exact (Coulomb's circle), paper (octagon), inner or outer "
-        "[default: exact]."
-    ),
-]
-Supports = Annotated[
-    list[str],
-    typer.Option(
-        "--supports",
-        metavar="NAME",
-        help="A block or layer that does not move; repeat. [default: those that FILE marks]",
-        show_default=False,
-    ),
-]
-Live = Annotated[str, typer.Option(metavar="X,Y,Z", help="Direction of the mass-proportional live load.")]
-UnitWeights = Annotated[
-    list[str],
-    typer.Option("--unit-weight", metavar="[LAYER=]N/M3", help="Of all blocks, or of a layer; repeat."),
-]
-Units = Annotated[str | None, typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft.")]
 Thickness = Annotated[
     float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
 ]
@@ -75,8 +50,9 @@ def import_blocks(
     live: Live,
     unit_weight: UnitWeights,
     supports: Supports = [],  # noqa: B006 # typer wants a list, and nothing changes it
-    joint: JointName = "OrdunaLourenco",
+    joint: JointName = DEFAULT,
     slip: Slip = None,
+    compressive_strength: Strength = None,
     units: Units = None,
     thickness: Thickness = None,
     up: Up = None,
@@ -97,7 +73,8 @@ def import_blocks(
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
-        law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
+        law = make_joint(joint, friction, slip=slip, compressive_strength=compressive_strength)
+        load = mass_proportional(live)
         weight = _unit_weight(unit_weight)
         if thickness is None:
             imported = read_blocks(file, units=units, unit_weight=weight, up=up)
@@ -130,24 +107,6 @@ def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
     mended = heal(imported.blocks)
     notes = (*imported.notes, str(mended), *mended.notes)
     return replace(imported, blocks=mended.blocks, notes=notes), mended.tolerances
-
-
-def _joint(name: str, friction: float, slip: str | None) -> Joint:
-    from limitblocks.io.registry import JOINTS
-
-    if name not in JOINTS:
-        raise ModelError(f"--joint {name!r} is unknown; expected one of {', '.join(JOINTS)}")
-    if slip is not None and name != "OrdunaLourenco":
-        raise ModelError(f"--slip is {slip!r}, but only OrdunaLourenco has a choice; leave it out")
-    joint: Joint = JOINTS[name](friction=friction, **({} if slip is None else {"slip": slip}))
-    return joint
-
-
-def _vector(text: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(part) for part in text.split(","))
-    except ValueError:
-        raise ModelError(f"--live is {text!r}; expected three numbers as in 1,0,0") from None
 
 
 def _unit_weight(texts: list[str]) -> float | Mapping[str, float]:

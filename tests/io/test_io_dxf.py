@@ -259,9 +259,9 @@ def test_files_that_are_no_dxf(tmp_path):
 
 def test_without_ezdxf(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(lb.errors.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+    with pytest.raises(lb.errors.MissingDependency, match="pip install 'ezdxf>=1"):
         lb.files.write_blocks(STRUCTURES["wall"], tmp_path / "a.dxf")
-    with pytest.raises(lb.errors.MissingDependency, match=r"pip install limitblocks\[dxf\]"):
+    with pytest.raises(lb.errors.MissingDependency, match="pip install 'ezdxf>=1"):
         lb.files.read_blocks(tmp_path / "a.dxf")
 
 

@@ -51,7 +51,7 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     MissingDependency
         trimesh is not installed.
     ModelError
-        The suffix is not .glb, or the result is not one of the model.
+        The suffix is not .glb, or the result belongs to another model.
     """
     path = Path(file)
     if path.suffix.lower() != ".glb":
