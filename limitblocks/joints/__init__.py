@@ -8,6 +8,7 @@ from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import Joint, YieldRows
 from limitblocks.joints.exact_torsion import ExactTorsion
 from limitblocks.joints.interaction import effective_strength
+from limitblocks.joints.materials import Material, Materials, weaker
 from limitblocks.joints.orduna_lourenco import OrdunaLourenco
 from limitblocks.joints.point_contact import PointContact
 from limitblocks.joints.queries import Queries, interface
@@ -16,6 +17,8 @@ from limitblocks.joints.torsion import torsion_constants
 __all__ = [
     "ExactTorsion",
     "Joint",
+    "Material",
+    "Materials",
     "OrdunaLourenco",
     "PointContact",
     "Queries",
@@ -24,6 +27,7 @@ __all__ = [
     "effective_strength",
     "interface",
     "torsion_constants",
+    "weaker",
 ]
 
 
