@@ -23,6 +23,20 @@ from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any
 
+__all__ = [
+    "CheckFailed",
+    "GeometryError",
+    "LimitBlocksError",
+    "MissingDependency",
+    "ModelError",
+    "NoEquilibrium",
+    "NoSolution",
+    "NotConverged",
+    "SolveError",
+    "SolverFailure",
+    "UnlimitedLoad",
+]
+
 #: Faults that are listed; who mends these reads the file again.
 MOST_PROBLEMS = 20
 
@@ -98,3 +112,7 @@ def near(name: str, known: Iterable[str]) -> str:
     letters = {one.casefold(): one for one in known}
     names = get_close_matches(name.casefold(), letters, 1)
     return f"; did you mean {letters[names[0]]!r}?" if names else ""
+
+
+def __dir__() -> list[str]:
+    return __all__

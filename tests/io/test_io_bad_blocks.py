@@ -33,11 +33,11 @@ def test_an_open_footing_can_be_left_out_and_is_named_later(tmp_path):
         [box("footing", (0, 0, -0.5), faces=5), box("a", (0, 0, 0.5)), box("b", (9, 0, 0))],
     )
     with pytest.raises(lb.ModelError) as raised:
-        lb.read_blocks(file)
+        lb.files.read_blocks(file)
     first, second = raised.value.problems
     assert "1 of 3 blocks are bad; --skip-bad (skip_bad=True) leaves them out" in first
     assert "'footing': the surface is open" in second
-    found = lb.read_blocks(file, skip_bad=True)
+    found = lb.files.read_blocks(file, skip_bad=True)
     assert [block.name for block in found.blocks] == ["a", "b"]
     assert found.left_out == ("footing",)
     assert any(note.startswith("left out: block 'footing'") for note in found.notes)
@@ -49,7 +49,7 @@ def test_a_file_of_bad_blocks_alone_is_refused_with_the_first_twenty(tmp_path):
     file = obj(tmp_path / "a.obj", [box(f"b{k}", (2 * k, 0, 0), faces=5) for k in range(50)])
     for skip in (False, True):
         with pytest.raises(lb.ModelError) as raised:
-            lb.read_blocks(file, skip_bad=skip)
+            lb.files.read_blocks(file, skip_bad=skip)
         assert len(raised.value.problems) == 21
         assert "and 30 more" in raised.value.problems[-1]
         assert "--skip-bad" not in str(raised.value)
@@ -58,14 +58,14 @@ def test_a_file_of_bad_blocks_alone_is_refused_with_the_first_twenty(tmp_path):
 def test_twisted_faces_are_refused_until_asked_for(tmp_path):
     file = obj(tmp_path / "a.obj", [box("a", (0.5, 0.5, 0.5), lift=0.05), box("b", (3, 0, 0))])
     with pytest.raises(lb.ModelError, match=r"'a'.*0.0125 m out .*--twisted triangulate or fit"):
-        lb.read_blocks(file)
-    block = lb.read_blocks(file, twisted="triangulate").blocks[0]
+        lb.files.read_blocks(file)
+    block = lb.files.read_blocks(file, twisted="triangulate").blocks[0]
     assert block.volume == pytest.approx(1.0 + 0.5 * 0.05 / 3)
-    fitted = lb.read_blocks(file, twisted="fit")
+    fitted = lb.files.read_blocks(file, twisted="fit")
     assert len(fitted.blocks[0].faces) == 6
     assert "made plane: vertices moved by up to" in fitted.notes[0]
     with pytest.raises(lb.ModelError, match=r"twisted is 'bend'; expected one of refuse, triangulate, fit"):
-        lb.read_blocks(file, twisted="bend")
+        lb.files.read_blocks(file, twisted="bend")
 
 
 def test_twist_within_the_digits_of_the_file_is_taken(tmp_path):
@@ -73,11 +73,11 @@ def test_twist_within_the_digits_of_the_file_is_taken(tmp_path):
     base = lb.Block.box("a", (0.05, 0.05, 0.05), (0.025, 0.025, 0.025))
     vertices = np.round(base.vertices + [(0.0, 0.0, 3e-4 * (k == 7)) for k in range(8)] + 1e-4, 4)
     assert 3e-4 / 4 > 1e-3 * 0.05  # twisted by more than a block may be
-    found = lb.read_blocks(obj(tmp_path / "a.obj", [("a", vertices, base.faces)]))
+    found = lb.files.read_blocks(obj(tmp_path / "a.obj", [("a", vertices, base.faces)]))
     assert "divided into triangles, as the file is good to about 0.05 mm there" in found.notes[0]
     vertices[0] += 1.2345678e-9  # the same stone, drawn with more digits
     with pytest.raises(lb.ModelError, match="twisted"):
-        lb.read_blocks(obj(tmp_path / "b.obj", [("a", vertices, base.faces)]))
+        lb.files.read_blocks(obj(tmp_path / "b.obj", [("a", vertices, base.faces)]))
 
 
 def test_twist_within_the_accuracy_of_the_joints_is_taken(tmp_path):
@@ -87,16 +87,16 @@ def test_twist_within_the_accuracy_of_the_joints_is_taken(tmp_path):
         lb.Block.box(f"{i} {j}", (0.4, 0.3, 0.2), (0.4 * i, 0.0, 0.2 * j)) for i in range(4) for j in range(4)
     ]
     noisy = [(s.name, s.vertices + 1e-3 * rng.uniform(-1.0, 1.0, s.vertices.shape), s.faces) for s in stones]
-    found = lb.read_blocks(obj(tmp_path / "a.obj", noisy))
+    found = lb.files.read_blocks(obj(tmp_path / "a.obj", noisy))
     assert len(found.blocks) == 16
     said = [note for note in found.notes if "twisted" in note]
     assert said
     assert all("as the file is good to about" in note for note in said)
     with pytest.raises(lb.ModelError, match="twisted"):
-        lb.read_blocks(tmp_path / "a.obj", twisted="refuse")
+        lb.files.read_blocks(tmp_path / "a.obj", twisted="refuse")
     bad = [("far", *box("far", (9.5, 0.5, 0.5), lift=0.1)[1:])]
     with pytest.raises(lb.ModelError, match="1 of 17 blocks are bad"):  # one that is twisted by far more
-        lb.read_blocks(obj(tmp_path / "b.obj", noisy + bad))
+        lb.files.read_blocks(obj(tmp_path / "b.obj", noisy + bad))
 
 
 def test_from_the_shell(tmp_path):
