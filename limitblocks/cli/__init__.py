@@ -11,6 +11,7 @@ import typer
 from limitblocks.cli import documents, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
+from limitblocks.cli.looking import look
 from limitblocks.cli.new import new
 from limitblocks.cli.options import Version
 from limitblocks.cli.studies import studies
@@ -50,5 +51,6 @@ app.command("range")(verbs.load_factor_range)
 app.command()(verbs.check)
 app.command()(documents.info)
 app.command()(documents.report)
+app.command()(look)
 app.command("import", cls=Command)(import_blocks)
 app.command()(documents.schema)

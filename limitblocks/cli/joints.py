@@ -51,6 +51,9 @@ JointName = Annotated[
 Friction = Annotated[
     float, typer.Option(help="Coefficient of friction of every interface.", show_default=False)
 ]
+MaybeFriction = Annotated[
+    float | None, typer.Option("--friction", help="Coefficient of friction of every interface.")
+]
 Slip = Annotated[
     Literal["exact", "paper", "inner", "outer"] | None,
     typer.Option(
