@@ -2,6 +2,7 @@ import ast
 import re
 import runpy
 import subprocess
+import sys
 import tomllib
 from itertools import chain
 from pathlib import Path
