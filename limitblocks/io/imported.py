@@ -46,14 +46,14 @@ class ImportedBlocks:
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
-    warnings : tuple of str
+    guesses : tuple of str
         What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     """
 
     blocks: tuple[Block, ...]
     notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
 
     @property
     def layers(self) -> dict[str, str]:

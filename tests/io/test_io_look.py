@@ -41,14 +41,14 @@ def test_the_axis_up_is_never_guessed_wrongly(name):
 
 def test_a_file_that_lies_on_its_side_is_turned_with_a_warning(tmp_path):
     blocks = plain(EXAMPLES["wall"](JOINT))
-    assert lb.read_blocks(lb.write_blocks(blocks, tmp_path / "z.obj")).warnings == ()
+    assert lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "z.obj")).guesses == ()
     lying = [block.moved(Y_UP, (0.0, 0.0, 0.0)) for block in blocks]
-    found = lb.read_blocks(lb.write_blocks(lying, tmp_path / "y.obj"))
-    assert found.warnings == (
+    found = lb.files.read_blocks(lb.files.write_blocks(lying, tmp_path / "y.obj"))
+    assert found.guesses == (
         "does not say which axis points up; taken as Y: 58 of 58 blocks would lie on the ground with Z up, "
         "1 with Y up; say up='y' or 'z' (--up)",
     )
-    for made, meant in ((found, blocks), (lb.read_blocks(tmp_path / "y.obj", up="z"), lying)):
+    for made, meant in ((found, blocks), (lb.files.read_blocks(tmp_path / "y.obj", up="z"), lying)):
         assert all(np.allclose(a.centroid, b.centroid) for a, b in zip(made.blocks, meant, strict=True))
 
 
@@ -56,15 +56,15 @@ def test_supports_by_name_tell_the_axis_up_of_a_dome(tmp_path):
     blocks = EXAMPLES["dome"](JOINT).blocks
     named = [replace(b, name=f"base {k}" if b.unit_weight is None else f"b{k}") for k, b in enumerate(blocks)]
     lying = [block.moved(Y_UP, (0.0, 0.0, 0.0)) for block in named]
-    (warning,) = lb.read_blocks(lb.write_blocks(lying, tmp_path / "y.obj")).warnings
+    (warning,) = lb.files.read_blocks(lb.files.write_blocks(lying, tmp_path / "y.obj")).guesses
     assert "the blocks whose names say support are at the bottom along Y, not along Z" in warning
 
 
 def test_a_format_that_says_its_axis_is_believed_with_a_question(tmp_path):
     """A wall written with Z up into glTF, whose standard is Y up, lies on its back."""
     blocks = [block.moved(Y_UP.T, (0.0, 0.0, 0.0)) for block in plain(EXAMPLES["wall"](JOINT))]
-    found = lb.read_blocks(lb.write_blocks(blocks, tmp_path / "wall.glb"))
-    (warning,) = found.warnings
+    found = lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "wall.glb"))
+    (warning,) = found.guesses
     assert warning.startswith("seems to lie on its side: ")
     assert warning.endswith("if so, say up='z' (--up z)")
     assert np.allclose(found.blocks[0].vertices.min(axis=0), blocks[0].vertices.min(axis=0), atol=1e-5)
@@ -74,13 +74,13 @@ def test_a_format_that_says_its_axis_is_believed_with_a_question(tmp_path):
 def test_the_unit_is_guessed_where_metres_are_implausible(tmp_path, scale, unit):
     """A wall 3.2 m long: 3200 and 320 are no metres; 126 (inches) might be, and is not touched."""
     blocks = [replace(b, vertices=scale * b.vertices) for b in plain(EXAMPLES["wall"](JOINT))]
-    found = lb.read_blocks(lb.write_blocks(blocks, tmp_path / "wall.obj"))
-    said = [line for line in found.warnings if "no unit of length" in line]
+    found = lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "wall.obj"))
+    said = [line for line in found.guesses if "no unit of length" in line]
     assert len(said) == (unit != "m")
     assert all(f"taken as {unit}, 3.2 m large" in line for line in said)
     width = 3.2 if unit != "m" else 3.2 * scale
     assert np.ptp(np.concatenate([b.vertices for b in found.blocks]), axis=0)[0] == pytest.approx(width)
-    assert lb.read_blocks(tmp_path / "wall.obj", units="m").warnings == ()
+    assert lb.files.read_blocks(tmp_path / "wall.obj", units="m").guesses == ()
 
 
 LABELLED = [
@@ -95,10 +95,10 @@ MODEL = lb.Model(LABELLED, ["base 1"], lb.find_interfaces(LABELLED, JOINT), lb.s
 
 @pytest.mark.parametrize("suffix", [".obj", ".glb", ".dxf", ".3dm", ".json"])
 def test_layers_and_materials_are_kept_by_every_format_that_has_them(tmp_path, suffix):
-    found = lb.read_blocks(lb.write_blocks(MODEL, tmp_path / f"a{suffix}"))
+    found = lb.files.read_blocks(lb.files.write_blocks(MODEL, tmp_path / f"a{suffix}"))
     assert [block.layer for block in found.blocks] == ["BASE", "WALL", "WALL"]
     assert [block.material for block in found.blocks] == ["rock", "granite", ""]
-    again = lb.read_blocks(lb.write_blocks(found, tmp_path / f"b{suffix}"))
+    again = lb.files.read_blocks(lb.files.write_blocks(found, tmp_path / f"b{suffix}"))
     assert [(b.layer, b.material) for b in again.blocks] == [(b.layer, b.material) for b in found.blocks]
 
 
@@ -140,7 +140,7 @@ def test_likely_supports():
 def test_look_warns_of_debris(tmp_path):
     blocks = [lb.Block.box(f"b{k}", (1, 1, 1), (0, 0, k)) for k in range(4)]
     blocks.append(lb.Block.box("crumb", (0.01, 0.01, 0.01), (3, 0, 0)))
-    seen = look(lb.write_blocks(blocks, tmp_path / "a.obj"))
+    seen = look(lb.files.write_blocks(blocks, tmp_path / "a.obj"))
     assert any("'crumb', 1e-06 m3" in line for line in seen.warnings)
     assert str(seen) == f"{tmp_path / 'a.obj'}: 5 blocks, 3.505 x 1 x 4 m"
 
@@ -218,7 +218,7 @@ def test_read_with_materials(tmp_path, caplog):
             "brick": Material(18e3, lb.OrdunaLourenco(0.5), ["layer:VAULT"]),
         }
     )
-    file = lb.write_blocks(LABELLED, tmp_path / "a.3dm")
+    file = lb.files.write_blocks(LABELLED, tmp_path / "a.3dm")
     with caplog.at_level(logging.WARNING):
         model = lb.read(file, materials=table, supports="layer:BASE", live=LIVE)
     assert "material 'brick': pattern 'layer:VAULT' matches no layer; there are layers" in caplog.text
@@ -240,6 +240,6 @@ def test_a_drawing_too_large_for_metres_keeps_its_thickness(tmp_path):
         z = 300 * k
         drawing.modelspace().add_lwpolyline([(0, z), (800, z), (800, z + 300), (0, z + 300)], close=True)
     drawing.saveas(tmp_path / "pillar.dxf")
-    pillar = lb.read_drawing(tmp_path / "pillar.dxf", thickness=0.4)
-    assert "taken as mm" in pillar.warnings[0]
+    pillar = lb.files.read_drawing(tmp_path / "pillar.dxf", thickness=0.4)
+    assert "taken as mm" in pillar.guesses[0]
     assert pillar.blocks[0].volume == pytest.approx(0.8 * 0.3 * 0.4)
