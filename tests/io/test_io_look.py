@@ -10,6 +10,7 @@ import limitblocks as lb
 from limitblocks.io import guesses, look
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Material, Materials
+from limitblocks.reports.scene import scene
 from limitblocks.structures import EXAMPLES
 
 JOINT = lb.OrdunaLourenco(0.7)
@@ -108,6 +109,17 @@ def test_layers_and_materials_are_kept_by_the_model_file(tmp_path):
     assert again.digest == MODEL.digest
     bare = replace(MODEL, blocks=[replace(b, layer="", material="") for b in LABELLED])
     assert not [block for block in bare.to_dict()["blocks"] if {"layer", "material"} & block.keys()]
+
+
+def test_layers_and_materials_go_to_paraview_and_to_the_picture_of_a_report(tmp_path):
+    meshio = pytest.importorskip("meshio")
+    bounds = lb.bounds(MODEL)
+    blocks, _ = lb.files.write_vtu(MODEL, tmp_path / "a.vtu", bounds)
+    data = meshio.read(blocks).cell_data
+    assert np.concatenate(data["layer"]).tolist() == [0] * 6 + [1] * 12  # BASE, WALL
+    assert np.concatenate(data["material"]).tolist() == [2] * 6 + [1] * 6 + [0] * 6  # none, granite, rock
+    drawn = scene(MODEL, [bounds], "")["blocks"]
+    assert (drawn["layer"], drawn["material"]) == (["BASE", "WALL", "WALL"], ["rock", "granite", ""])
 
 
 def test_healing_keeps_labels():
