@@ -20,6 +20,7 @@ from limitblocks.reports.comparison import comparison
 from limitblocks.reports.content import content
 from limitblocks.reports.facts import assumptions, facts
 from limitblocks.reports.interfaces import interface_rows
+from limitblocks.reports.labels import Labels
 from limitblocks.reports.markdown import markdown
 from limitblocks.reports.page import page
 from limitblocks.reports.picture import Picture, mechanism_picture
@@ -42,11 +43,14 @@ class Report:
         Results of its analyses.
     date : datetime
         When the report was made.
+    labels : Labels
+        What was asked for beside the results.
     """
 
     model: Model
     results: tuple[Any, ...]
     date: datetime = field(default_factory=lambda: datetime.now().astimezone())
+    labels: Labels = field(default_factory=Labels)
 
     @cached_property
     def sections(self) -> tuple[Section, ...]:
@@ -77,7 +81,7 @@ class Report:
     @property
     def title(self) -> str:
         """Title of the report."""
-        return self.model.name or "Limit analysis of a rigid-block structure"
+        return self.labels.title or self.model.name or "Limit analysis of a rigid-block structure"
 
     @cached_property
     def html(self) -> str:
@@ -131,7 +135,15 @@ class Report:
         return files.save(self, file, files.suffix(file), overwrite)
 
 
-def report(model: Model, *results: Any) -> Report:
+def report(
+    model: Model,
+    *results: Any,
+    title: str = "",
+    author: str = "",
+    project: str = "",
+    notes: str = "",
+    demand: float | None = None,
+) -> Report:
     """Return a report on `model` and the results of its analyses.
 
     Parameters
@@ -140,13 +152,20 @@ def report(model: Model, *results: Any) -> Report:
         The structure.
     *results
         What the analyses of this model returned, such as :class:`limitblocks.Bounds`.
+    title : str
+        Title; by default the name of the model.
+    author, project, notes : str
+        Who made it, for what, and anything else to be written on it.
+    demand : float, optional
+        Load factor that the structure is required to carry. The report then says how many times this
+        demand the load factor is; it says nothing of compliance with a code.
 
     Raises
     ------
     LimitBlocksError
-        A result is of an unknown kind or belongs to another model.
+        A result is of an unknown kind or belongs to another model, or the demand is no finite number > 0.
     """
-    made = Report(model, results)
+    made = Report(model, results, labels=Labels(title, author, project, notes, demand))
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
     return made
 

@@ -1,0 +1,29 @@
+"""What a report is asked to carry beside the model and its results."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+from limitblocks.errors import LimitBlocksError
+
+
+@dataclass(frozen=True)
+class Labels:
+    """Title, author, project and notes of a report, and the load factor that is required.
+
+    Raises
+    ------
+    LimitBlocksError
+        The demand is no finite number > 0.
+    """
+
+    title: str = ""
+    author: str = ""
+    project: str = ""
+    notes: str = ""
+    demand: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.demand is not None and not (isfinite(self.demand) and self.demand > 0.0):
+            raise LimitBlocksError(f"demand is {self.demand!r}, expected a load factor > 0")
