@@ -158,6 +158,8 @@ def _images(kind: Place, rates: Array) -> tuple[Indices, Array]:
         there = table[bucket.ravel(), k]
         back = own @ inverse[there]  # the transpose of the turn
         off = np.abs(back[:, None] @ kind.strain[there] - mirrored).max(axis=(1, 2, 3)) / scale
+        # moments carry any interface over to any other; a mirror image has them about its own centroid
+        off = np.maximum(off, np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2)))
         fits = (k < number) & (off <= least)
         image, least = np.where(fits, there, image), np.where(fits, off, least)
         turn = np.where(fits[:, None, None], back.transpose(0, 2, 1), turn)

@@ -12,12 +12,13 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, State
 from limitblocks.problem.plane.alike import EXACT
-from limitblocks.problem.plane.mirror import Mirror, Mirrored, mirror_of
+from limitblocks.problem.plane.mirror import Mirror, Mirrored
 from limitblocks.problem.plane.rows import PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
@@ -38,21 +39,43 @@ class Planar:
         u = rates u'.
     multipliers : csr_array, shape (R, R')
         y = multipliers y'.
+    live : float
+        Unit of the live load of the whole problem over that of the reduced one.
     """
 
     problem: LimitProblem
     stresses: sparse.csr_array
     rates: sparse.csr_array
     multipliers: sparse.csr_array
+    live: float = 1.0
 
     def lifted(self, state: State) -> State:
         """Return a state of the reduced problem as one of the whole."""
         return State(
-            state.load_factor,
+            self.live * state.load_factor,
             self.stresses @ state.x,
-            self.rates @ state.u,
-            self.multipliers @ state.y,
+            self.live * (self.rates @ state.u),
+            self.live * (self.multipliers @ state.y),
         )
+
+    def averaged(self, state: State) -> State:
+        """Return the mean of a state of the whole problem and its mirror image as a reduced one.
+
+        Multipliers of rows that others imply go to the nearest ones.
+        """
+        M = self.multipliers
+        nearest = linalg.splu(sparse.csc_array(M.T @ M))
+        return State(
+            state.load_factor / self.live,
+            self.stresses_of(state.x),
+            self.rates.T @ state.u / self.live,
+            nearest.solve(M.T @ state.y) / self.live,
+        )
+
+    def measured(self, whole: LimitProblem) -> Planar:
+        """Return the same for the whole problem in other units of force."""
+        problem = self.problem.measured(whole.units.block_force)
+        return replace(self, problem=problem, live=whole.units.live / problem.units.live)
 
     def stresses_of(self, x: Array) -> Array:
         """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
@@ -60,22 +83,18 @@ class Planar:
         return np.asarray(self.stresses.T @ x / squares)
 
 
-def planar(problem: LimitProblem, *, every_row: bool = False) -> Planar | None:
-    """Return the problem in the plane parallel to which everything acts; None where there is none.
+def reduced(problem: LimitProblem, mirror: Mirror, *, every_row: bool = False) -> Planar:
+    """Return the problem reduced to the plane of its mirror.
 
     Parameters
     ----------
     problem : LimitProblem
         The whole problem.
+    mirror : Mirror
+        Its mirror plane.
     every_row : bool
         Keep rows that others imply: for margins, and for multipliers of every row.
     """
-    mirror = mirror_of(problem)
-    return None if mirror is None else in_plane(problem, mirror, every_row=every_row)
-
-
-def in_plane(problem: LimitProblem, mirror: Mirror, *, every_row: bool) -> Planar:
-    """Return the problem reduced to the plane of the mirror; see :func:`planar`."""
     stresses, rows = _stresses_and_rows(problem, mirror, every_row)
     rates = _rates(problem, mirror)
     source, weights, cones = rows
@@ -84,7 +103,7 @@ def in_plane(problem: LimitProblem, mirror: Mirror, *, every_row: bool) -> Plana
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
     B = sparse.csr_array(problem.resultants @ stresses)
     six = (6 * kept[:, None] + np.arange(6)).ravel()
-    reduced = replace(
+    planar = replace(
         problem,
         C=_cleaned(stresses.T @ problem.C @ rates),
         dead=read_only(rates.T @ problem.dead),
@@ -109,7 +128,7 @@ def in_plane(problem: LimitProblem, mirror: Mirror, *, every_row: bool) -> Plana
         ),
         interfaces=tuple(problem.interfaces[k] for k in kept),
     )
-    return Planar(reduced, stresses, rates, sparse.csr_array(W.T))
+    return Planar(planar, stresses, rates, sparse.csr_array(W.T))
 
 
 def _rates(problem: LimitProblem, mirror: Mirror) -> sparse.csr_array:
