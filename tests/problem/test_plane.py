@@ -61,7 +61,7 @@ def turned(model, turn, shift=(0.0, 0.0, 0.0)):
         values = load.on(model.free_blocks)
         assert not values[:, 3:].any()
         forces = [
-            lb.force(block.name, tuple(matrix @ value[:3]), matrix @ block.centroid + shift)
+            lb.loads.force(block.name, tuple(matrix @ value[:3]), matrix @ block.centroid + shift)
             for block, value in zip(model.free_blocks, values, strict=True)
         ]
         loads.append(sum(forces[1:], forces[0]))
@@ -130,9 +130,9 @@ def block_off(model, off):
 def test_what_is_not_planar_is_not_reduced():
     model = wall(PAPER)
     top = model.free_blocks[-1]
-    pushed = lb.force(top.name, (0.0, 1e-6 * top.weight, 0.0), top.centroid)
-    twisted = lb.moment(top.name, (0.0, 0.0, 1e-3 * top.weight))
-    aside = lb.force(top.name, (0.0, 0.0, -top.weight), top.centroid + np.array([0.0, 1e-3, 0.0]))
+    pushed = lb.loads.force(top.name, (0.0, 1e-6 * top.weight, 0.0), top.centroid)
+    twisted = lb.loads.moment(top.name, (0.0, 0.0, 1e-3 * top.weight))
+    aside = lb.loads.force(top.name, (0.0, 0.0, -top.weight), top.centroid + np.array([0.0, 1e-3, 0.0]))
     for live in (pushed, twisted, aside):
         assert in_plane(replace(model, live=model.live + live).problem) is None
         assert in_plane(replace(model, dead=model.dead + live).problem) is None
