@@ -102,7 +102,7 @@ def picture(folder, model, checks):
             column, row, text, ha="center", va="center", fontweight="bold" if value > TOLERANCE else None
         )
     verdicts = [f"{word}: {'passed' if check.passed else 'FAILED'}" for word, check in checks.items()]
-    right.set_xticks(range(len(names)), names, rotation=20, ha="right")
+    right.set_xticks(range(len(names)), names, fontsize=8)
     right.set_yticks(range(len(checks)), verdicts)
     right.set_title("Residuals of five claims; bold: above the tolerance of 1e-8")
     figure.savefig(folder / "17_check_somebody_elses_answer.png", dpi=120)

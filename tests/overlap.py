@@ -11,30 +11,28 @@ OUT = 2.0  # points by which a text may stand out of the figure
 
 
 def texts(figure):
-    """Visible texts that say something, but for ticks beyond the limits of their axis."""
+    """Visible texts that say something, but for ticks beyond the limits of their axis, and in 3D."""
     figure.canvas.draw()
-    beyond = set()
-    for axes in figure.axes:
-        for axis in (getattr(axes, name, None) for name in ("xaxis", "yaxis")):
-            if axis is None or getattr(axes, "name", "") == "3d":
-                continue
-            low, high = sorted(axis.get_view_interval())
-            room = 1e-9 * max(abs(low), abs(high))
-            for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-                if not low - room <= tick.get_loc() <= high + room:
-                    beyond |= {tick.label1, tick.label2}
+    left_out = {text for axes in figure.axes for text in _not_drawn(axes)}
     drawn = (one for one in figure.findobj(Text) if one.get_visible() and one.get_text().strip())
-    return [one for one in drawn if one not in beyond and is_drawn(one)]
+    return [one for one in drawn if one not in left_out and not isinstance(one, Text3D)]
 
 
-def is_drawn(one):
-    """Whether the axes that a text belongs to show it: those switched off show no ticks and labels."""
-    axes = one.axes
-    if isinstance(one, Text3D):  # placed by the projection while it is drawn: its extent is not known
-        return False
-    if axes is None or getattr(axes, "_axis3don", axes.axison):
-        return True
-    return one in {axes.title, *axes.texts}
+def _not_drawn(axes):
+    """Ticks and labels that are off or beyond the limits; in 3D those that only the drawing places."""
+    solid = getattr(axes, "name", "") == "3d"
+    for name in ("xaxis", "yaxis", "zaxis"):
+        axis = getattr(axes, name, None)
+        if axis is None:
+            continue
+        off = solid or not axes.axison or not axis.get_visible()
+        low, high = sorted(axis.get_view_interval())
+        room = 1e-9 * max(abs(low), abs(high))
+        for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
+            if off or not low - room <= tick.get_loc() <= high + room:
+                yield from (tick.label1, tick.label2)
+        if off:
+            yield from (axis.label, axis.get_offset_text())
 
 
 def collisions(figure):
