@@ -36,7 +36,7 @@ def test_nothing_crashes_on_letters_that_the_console_lacks(tmp_path, encoding):
     assert (shown.returncode, b"Traceback" in shown.stderr) == (0, False)
     answer = run(encoding, "bounds", model)
     assert answer.returncode == 0, answer.stderr
-    assert b"0.6" in answer.stdout  # slides: the friction
+    assert b"0.5000" in answer.stdout  # rocks: half of 1 m over half of 2 m
     wrong = run(encoding, "import", folder / "日本\udc80.obj", *words)
     assert (wrong.returncode, b"Traceback" in wrong.stderr) == (2, False)
     assert wrong.stderr.startswith(b"error: ")
