@@ -72,6 +72,10 @@ def contents_of(path: Path) -> Contents:
     suffix = path.suffix.lower()
     if suffix not in formats.READ:
         known = ", ".join(sorted(formats.READ))
+        if suffix in formats.INSTEAD:
+            raise ModelError(
+                f"{suffix[1:].upper()} is not read: {formats.INSTEAD[suffix]} (blocks are read from {known})"
+            )
         raise ModelError(f"suffix {suffix!r} is unknown; blocks are read from {known}, models from .json")
     module = formats.module(suffix)
     with foreign(suffix[1:]):
