@@ -54,7 +54,7 @@ def test_what_is_hidden_in_rhino_is_read_when_switched_on(tmp_path):
 
 
 def test_blender_obj_with_y_up_groups_and_smoothing(tmp_path):
-    """Blender 2.79 and later: comments, mtllib, vt, vn, s, y up; corners v/vt/vn, counted back from the last."""
+    """Comments, mtllib, vt, vn, s, y up; corners v/vt/vn, counted back from the last."""
     lines = ["# Blender v3.6.5", "mtllib wall.mtl"]
     for name, x in (("Cube.001", 0.0), ("Cube.002", 5.0)):
         lines += [f"o {name}", f"g {name}_stone"]
@@ -89,7 +89,8 @@ def test_a_scan_is_read_coarse_and_refused_fine(tmp_path):
         head = (
             f"ply\nformat binary_little_endian 1.0\ncomment VCGLIB generated\nelement vertex {len(points)}\n"
             "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
-            f"property uchar blue\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
+            f"property uchar blue\nelement face {len(faces)}\n"
+            "property list uchar int vertex_indices\nend_header\n"
         )
         (tmp_path / "scan.ply").write_bytes(head.encode() + table.tobytes() + rows.tobytes())
         if most:
@@ -105,7 +106,7 @@ def mesh(block):
 
 
 def test_compas_meshes_wrapped_twice_and_problems_of_compas_dem(tmp_path):
-    """COMPAS 0.18 wrote {"value": {"data": ..., "datatype": ...}}; a problem of compas_dem holds its model."""
+    """COMPAS 0.18 wrapped the data of a mesh twice; a problem of compas_dem holds its model."""
     old = {
         "dtype": "compas.datastructures/Mesh",
         "value": {"data": mesh(BOX), "datatype": "Mesh", "compas": "0"},
