@@ -52,16 +52,16 @@ class ImportedBlocks:
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
+    guesses : tuple of str
+        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     left_out : tuple of str
         Names of solids that are no blocks and were left out as asked; the notes say why.
-    warnings : tuple of str
-        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     """
 
     blocks: tuple[Block, ...]
     notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 
     @property
