@@ -14,7 +14,7 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
-from limitblocks.joints import Dowel, Tie
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
 
@@ -187,7 +187,7 @@ def _states(
     about = np.nan_to_num(e)
     sliding = dq[:, :2] + dq[:, 5:] * np.stack([-about[:, 1], about[:, 0]], axis=1)
     hinging = np.array([any(mode.opens for mode in own) for own in modes])
-    tied = np.array([isinstance(i.joint, Tie | Dowel) for i in interfaces])
+    tied = np.array([isinstance(i.joint, Tie | Dowel | Guide) for i in interfaces])
     motions = {
         "hinge": ~tied & hinging & (highest - lowest > least) & (lowest >= -least),
         "crush": ~tied & (lowest < -least),

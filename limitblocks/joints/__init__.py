@@ -1,7 +1,7 @@
 """What an interface can carry: one yield model a file, each as conic rows (F, g, G, K)."""
 
 from limitblocks.joints.base import Joint, YieldRows
-from limitblocks.joints.elements import Dowel, Tie
+from limitblocks.joints.elements import Dowel, Guide, Tie
 from limitblocks.joints.exact_torsion import ExactTorsion
 from limitblocks.joints.interaction import effective_strength
 from limitblocks.joints.orduna_lourenco import OrdunaLourenco
@@ -11,6 +11,7 @@ from limitblocks.joints.queries import interface
 __all__ = [
     "Dowel",
     "ExactTorsion",
+    "Guide",
     "Joint",
     "OrdunaLourenco",
     "PointContact",

@@ -1,4 +1,4 @@
-"""Ties and dowels between two blocks: interfaces that carry one force, or a shear, and flow as they yield."""
+"""Ties, dowels and guides between two blocks: interfaces that flow as they yield, without friction."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from limitblocks.problem import Mode
 class Tie:
     """A tie along the normal of its interface: tension from 0 to strength x area, no compression.
 
-    Rigid-plastic: it elongates at its strength, and goes slack where its ends approach; the flow is associated.
-    It acts along one line, so that where on the line its interface lies makes no difference.
+    Rigid-plastic: it elongates at its strength, and goes slack where its ends approach; the flow is
+    associated. It acts along one line: where on the line its interface lies makes no difference.
 
     Parameters
     ----------
@@ -113,5 +113,56 @@ class Dowel:
             linear=0,
             cones=(3,),
             modes=(Mode.YIELD,) * 3,
+            friction=0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A bilateral guide that lets block j move along s1 of its interface and nothing else.
+
+    It carries V2, N, M1, M2 and T of either sign, no V1: each force up to strength x area, each moment up
+    to that times the root of the area. Where a solution uses its strength nowhere, it is one of a rigid
+    guide: the rows are slack.
+
+    Parameters
+    ----------
+    strength : float
+        Force per area, Pa, > 0; far above what acts.
+
+    Raises
+    ------
+    ModelError
+        If the strength is not finite and positive.
+    """
+
+    strength: float
+    word = "guide"
+
+    def __post_init__(self) -> None:
+        checked_stress("strength of a guide", self.strength, positive=True)
+
+    @property
+    def friction(self) -> float:
+        """None: the flow is associated."""
+        return 0.0
+
+    def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
+        """Return two rows for each resultant but V1; see :class:`~limitblocks.joints.base.Joint`."""
+        m, area = len(polygons), areas(polygons)
+        rows = np.broadcast_to(np.concatenate([np.eye(5), -np.eye(5)]), (m, 10, 5))
+        most = (area * self.strength / stress_unit)[:, None] * np.ones(5)
+        most[:, 2:] *= np.sqrt(area)[:, None]
+        resultants = np.broadcast_to(np.eye(6)[:, 1:], (m, 6, 5))
+        return YieldRows(
+            F=rows,
+            g=np.concatenate([most, most], axis=1),
+            G=rows,
+            pivot=np.zeros((m, 10)),
+            half_sides=np.abs(polygons).max(axis=1),
+            resultants=resultants,
+            linear=10,
+            cones=(),
+            modes=(Mode.YIELD,) * 10,
             friction=0.0,
         )

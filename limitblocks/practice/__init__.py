@@ -1,5 +1,16 @@
-"""What practice asks: ties and reinforcement, settlement, verification."""
+"""What practice asks: ties and reinforcement, settlement."""
 
-from limitblocks.practice.reinforcement import Element, dowel, reinforced, strip, tie
+from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
+from limitblocks.practice.settlement import Settlement, Settling, settlement, settling
 
-__all__ = ["Element", "dowel", "reinforced", "strip", "tie"]
+__all__ = [
+    "Element",
+    "Settlement",
+    "Settling",
+    "dowel",
+    "reinforced",
+    "settlement",
+    "settling",
+    "strip",
+    "tie",
+]

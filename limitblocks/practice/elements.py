@@ -11,6 +11,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Tie
+from limitblocks.joints.base import checked_count
 from limitblocks.mechanics import Load, force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model
@@ -37,7 +38,7 @@ class Element:
         """Return the prestress as forces on its blocks, those that are `free`."""
         pull, own = self.prestress * self.interface.axes[2], self.interface
         ends = ((own.block_i, pull), (own.block_j, -pull))
-        on = [force(block, along, own.centroid) for block, along in ends if block in free]
+        on = [force(block, along.tolist(), own.centroid.tolist()) for block, along in ends if block in free]
         return sum(on, Load()) if self.prestress else Load()
 
 
@@ -73,8 +74,8 @@ def tie(
         Largest force that the anchors hold, N, all ties together.
     prestress : float
         Tension that is there from the beginning, N, all ties together: a dead load on both blocks. It stays
-        where the anchors approach, as in a long tie whose stretch is large beside the motion; what more the tie can
-        take is its capacity less the prestress.
+        where the anchors approach, as in a long tie whose stretch is large beside the motion; what more the
+        tie can take is its capacity less the prestress.
     number_of : int
         Ties side by side.
 
@@ -87,8 +88,7 @@ def tie(
     word = f"tie {block_i}|{block_j}"
     if block_i == block_j:
         raise ModelError(f"{word}: both ends are in block {block_i!r}; a tie joins two blocks")
-    if not (isinstance(number_of, int) and number_of >= 1):
-        raise ModelError(f"{word}: number_of is {number_of!r}, expected a whole number of at least 1")
+    checked_count(f"{word}: number_of", number_of, 1)
     start = np.array(vector(at_i, f"{word}: at_i"))
     end = np.array(vector(at_j, f"{word}: at_j"))
     length = float(np.linalg.norm(end - start))
@@ -100,7 +100,7 @@ def tie(
         raise ModelError(f"{word}: pull_out is {pull_out!r} N, expected a force > 0")
     if not 0.0 <= prestress < capacity:
         raise ModelError(
-            f"{word}: prestress is {prestress!r} N, expected 0 to less than the {capacity:g} N that it can carry"
+            f"{word}: prestress is {prestress!r} N, expected 0 to less than the {capacity:g} N it can carry"
         )
     side = np.sqrt(section)
     return Element(
@@ -108,7 +108,7 @@ def tie(
             block_i,
             block_j,
             read_only((start + end) / 2.0),
-            read_only(_axes((end - start) / length)),
+            read_only(axes_of((end - start) / length)),
             read_only(side * CORNERS),
             Tie((capacity - prestress) / section, length),
         ),
@@ -211,7 +211,7 @@ def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie |
     )
 
 
-def _axes(normal: Array) -> Array:
+def axes_of(normal: Array) -> Array:
     """Right-handed axes s1, s2, n with the given unit normal."""
     across = np.eye(3)[int(np.abs(normal).argmin())]
     s1 = np.cross(across, normal)
