@@ -104,7 +104,7 @@ class LoadFactorRange:
         Whether every load factor above an answer is one, too: stresses that balance the live load alone can
         be added to it.
     frictionless, associated : float
-        The bracket, as in :class:`limitblocks.Nonassociated`.
+        The bracket, as in :class:`limitblocks.results.Nonassociated`.
     wedging : Wedging
         Whether it can be wedged.
     least : Extreme, optional
@@ -118,7 +118,7 @@ class LoadFactorRange:
     remarks : tuple of str
         What a reader should know.
     dilatancy, turning, tolerance, digest
-        As in :class:`limitblocks.Nonassociated`.
+        As in :class:`limitblocks.results.Nonassociated`.
     """
 
     load_path: RangeAnswer | None
@@ -160,7 +160,7 @@ class LoadFactorRange:
     def __str__(self) -> str:
         start = f"{self.load_path.load_factor:.6g}" if self.load_path else "none"
         exact = f"; of all solutions {self.least} to {self.greatest}" if self.least else ""
-        stopped = "" if self.complete else "; stopped by the time limit"
+        stopped = "" if self.complete else "; stopped early, by the time limit or by hand"
         return (
             f"load factor {start} by the load path; {_span(self.reached)} reached from permanent-load "
             f"states; {_span(self.certified)} certified, reachable or not{exact}{stopped}"

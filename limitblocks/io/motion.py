@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.model import Model
@@ -39,8 +40,9 @@ def motion(model: Model, result: Any) -> Motion:
     Raises
     ------
     ModelError
-        The result has no displacements, or they are not of the blocks of the model.
+        The result has no displacements, or belongs to another model.
     """
+    refuse_other(model, result)
     n = len(model.blocks)
     if isinstance(result, LoadPath):
         states = np.array([step.displacements for step in result.steps], dtype=float)

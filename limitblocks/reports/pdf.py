@@ -1,4 +1,4 @@
-"""The report as PDF, with reportlab: `pip install limitblocks[pdf]`."""
+"""The report as PDF, with reportlab, which the extra `pdf` installs."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import Any
 from xml.sax.saxutils import escape
 
-from limitblocks.errors import MissingDependency
+from limitblocks.io.packages import missing
 from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
 from limitblocks.reports.picture import WIDTH, Drawn, Picture
 from limitblocks.reports.section import Table
@@ -38,9 +38,7 @@ def pdf(parts: Iterable[Part], title: str) -> bytes:
     try:
         from reportlab.platypus import SimpleDocTemplate
     except ImportError:
-        raise MissingDependency(
-            "a PDF needs the package reportlab; install it by: pip install limitblocks[pdf]"
-        ) from None
+        raise missing("reportlab", "a PDF") from None
     stream = BytesIO()
     sides = dict.fromkeys(("leftMargin", "rightMargin", "topMargin", "bottomMargin"), _MARGIN)
     document = SimpleDocTemplate(stream, pagesize=_PAGE, title=title, creator=CREATOR, **sides)

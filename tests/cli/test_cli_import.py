@@ -19,7 +19,7 @@ def obj(tmp_path):
         lb.Block.box("base", (2e3, 1e3, 200), (0, 0, -100)),
         lb.Block.box("block", (500, 500, 1e3), (0, 0, 500)),
     ]
-    return lb.write_blocks(boxes, tmp_path / "two.obj")
+    return lb.files.write_blocks(boxes, tmp_path / "two.obj")
 
 
 def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
@@ -54,7 +54,7 @@ def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
         lb.Block.box("stone", (0.5, 1, 1), (-0.5, 0, 0.5)),
         lb.Block.box("stone", (0.5, 1, 1), (0.004, 0, 0.5)),
     ]
-    result = run(lb.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
+    result = run(lb.files.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
     note, used, warning = result.stderr.splitlines()
     assert note == "note: 2 blocks are named 'stone'; all but the first got a number"
     assert used.startswith("note: too few joints to tell how accurate the faces are; gap 0.79 mm, ")
@@ -69,7 +69,7 @@ def test_joints_drawn_open_are_told_with_the_option(tmp_path):
     """The distance, 10 mm, and the option that takes it; the advice works."""
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
     stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]
-    file = lb.write_blocks(stones, tmp_path / "open.obj")
+    file = lb.files.write_blocks(stones, tmp_path / "open.obj")
     refused = run(file, *OPTIONS, "--supports", "base")
     assert refused.exit_code == 2
     assert "4 blocks without any interface would touch with gap=0.05 (block lengths, " in refused.stderr
@@ -84,7 +84,7 @@ def test_noisy_meshes_are_refused_and_healed(tmp_path):
         lb.Block(b.name, b.vertices + rng.uniform(-3e-3, 3e-3, b.vertices.shape), b.triangles.tolist())
         for b in clean.blocks
     ]
-    file = lb.write_blocks(stones, tmp_path / "scan.obj")
+    file = lb.files.write_blocks(stones, tmp_path / "scan.obj")
     options = ["--friction", "0.6", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
     refused = run(file, *options)
     assert refused.exit_code == 2
@@ -100,24 +100,33 @@ def test_noisy_meshes_are_refused_and_healed(tmp_path):
 WRONG = {
     "support": (("--supports", "bas"), "'bas' is neither a block nor a layer; did you mean 'base'?"),
     "units": (("--supports", "base", "--units", "km"), "'km'"),
-    "joint": (("--supports", "base", "--joint", "Glue"), "'Glue' is unknown"),
-    "slip": (("--supports", "base", "--slip", "round"), "'round', expected one of 'exact'"),
-    "slip of points": (("--supports", "base", "--joint", "PointContact", "--slip", "paper"), "only Orduna"),
-    "live": (("--supports", "base", "--live", "1;0;0"), "1,0,0"),
-    "live of two": (("--supports", "base", "--live", "1,0"), "three"),
+    "joint": (("--supports", "base", "--joint", "Glue"), "'--joint': 'Glue' is no joint"),
+    "slip": (
+        ("--supports", "base", "--slip", "round"),
+        "'--slip': Value error, 'round' is not one of 'exact'",
+    ),
+    "slip of points": (
+        ("--supports", "base", "--joint", "point-contact", "--slip", "paper"),
+        "--slip is 'paper', but",
+    ),
+    "live": (
+        ("--supports", "base", "--live", "1;0;0"),
+        "'--live' / '--direction': '1;0;0': expected 3 numbers, X,Y,Z",
+    ),
+    "live of two": (("--supports", "base", "--live", "1,0"), "'1,0': expected 3"),
     "unit weight": (("--supports", "base", "--unit-weight", "heavy"), "LAYER=NUMBER"),
     "layer": (("--supports", "base", "--unit-weight", "brick=1"), "LAYER=NUMBER each"),
     "gap": (("--supports", "base", "--gap", "-1"), "gap is -1.0"),
-    "friction": (("--supports", "base", "--friction", "-1"), "friction"),
+    "friction": (("--supports", "base", "--friction", "-1"), "friction is -1.0"),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_options_are_said_in_one_line(name, obj, tmp_path):
+def test_wrong_options_are_said_by_name_and_value(name, obj, tmp_path):
     options, said = WRONG[name]
     result = run(obj, *OPTIONS, *options)
     assert result.exit_code == 2
-    assert result.stderr.count("\n") == 1
+    assert "Traceback" not in result.stderr
     assert said in result.stderr
     assert not (tmp_path / "two.json").exists()
 
@@ -130,7 +139,7 @@ def test_slip_of_the_joint(obj, tmp_path):
 
 def test_unit_weights_by_layer(tmp_path):
     arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.8, voussoirs=7)
-    path = lb.write_blocks(arch, tmp_path / "arch.glb")
+    path = lb.files.write_blocks(arch, tmp_path / "arch.glb")
     options = (
         "--friction",
         "0.6",
@@ -141,7 +150,7 @@ def test_unit_weights_by_layer(tmp_path):
         "--unit-weight",
         "support=0",
     )
-    assert run(path, *options, "--supports", "support", "--joint", "PointContact").exit_code == 0
+    assert run(path, *options, "--supports", "support", "--joint", "point-contact").exit_code == 0
     model = lb.read(tmp_path / "arch.json")
     assert {block.unit_weight for block in model.free_blocks} == {20e3}
     assert type(model.interfaces[0].joint).__name__ == "PointContact"

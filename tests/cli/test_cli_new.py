@@ -67,7 +67,7 @@ def test_the_file_is_the_model_that_python_makes():
         (("--slip", "paper"), lb.OrdunaLourenco(0.6, slip="paper")),
         (("--compressive-strength", 3e6), lb.OrdunaLourenco(0.6, compressive_strength=3e6)),
         (("--joint", "point-contact"), lb.PointContact(0.6)),
-        (("--joint", "exact-torsion"), lb.ExactTorsion(0.6)),
+        (("--joint", "exact-torsion"), lb.joints.ExactTorsion(0.6)),
     ],
 )
 def test_joints(options, joint):
@@ -87,7 +87,7 @@ def test_nothing_is_overwritten_unless_asked():
     ("arguments", "said"),
     [
         ((*WALL, "--joint", "point-contact", "--compressive-strength", 1e6), "no compressive strength"),
-        ((*WALL, "--joint", "point-contact", "--slip", "paper"), "no slip; leave --slip out"),
+        ((*WALL, "--joint", "point-contact", "--slip", "paper"), "no slip; leave it out"),
         ((*WALL, "--slip", "round"), "'exact', 'paper', 'inner', 'outer'"),
         ((*WALL, "--friction", -1), "friction"),
         ((*WALL, "--courses", 0), "courses"),

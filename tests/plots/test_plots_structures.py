@@ -213,8 +213,8 @@ def test_missing_matplotlib_is_named():
         "import sys; sys.modules['matplotlib'] = None\n"
         "import limitblocks as lb\n"
         "try:\n    lb.plots\n"
-        "except lb.MissingDependency as error:\n"
-        "    sys.exit('pip install limitblocks[plots]' not in str(error))\n"
+        "except lb.errors.MissingDependency as error:\n"
+        '    sys.exit("pip install \'matplotlib>=3" not in str(error))\n'
         "sys.exit(2)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
