@@ -163,8 +163,8 @@ def verification(
     -----
     With P_i the weights of the live load on blocks that move and delta_i their displacements along it:
     M* = (sum P delta)^2 / (g sum P delta^2), e* = g M* / sum P, a0* = alpha0 g / (e* FC),
-    d* = d_k sum P delta^2 / (delta_k sum P delta). At the ground a0* >= a_g S / q. Limit states: d*_SLV = .4 d0*,
-    d*_SLC = .6 d0* on a* = a0* (1 - d* / d0*), periods 1.68 and 1.56 times pi sqrt(d* / a*).
+    d* = d_k sum P delta^2 / (delta_k sum P delta). At the ground a0* >= a_g S / q. Limit states:
+    d*_SLV = .4 d0*, d*_SLC = .6 d0* on a* = a0* (1 - d* / d0*), periods 1.68 and 1.56 times pi sqrt(d* / a*).
     """
     collapse = collapse_of(model, result)
     q, confidence = number(q, "q", "(no unit)", least=1.0), number(confidence, "FC", "(no unit)", least=1.0)
