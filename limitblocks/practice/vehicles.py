@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -106,6 +107,15 @@ class WorstPosition:
     position: float
     bounds: Bounds
     model: Model
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the envelope and the bounds at the worst position as numbers and text."""
+        return {
+            "positions": self.positions.tolist(),
+            "load_factors": [a if np.isfinite(a) else None for a in self.load_factors.tolist()],
+            "position": self.position,
+            "bounds": self.bounds.to_dict(),
+        }
 
     def __str__(self) -> str:
         return (
