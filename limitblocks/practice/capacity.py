@@ -10,7 +10,7 @@ import shapely
 
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, SolveError
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
@@ -28,7 +28,7 @@ FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before
 TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
-HELD = 0.5  # of the first load factor taken from the dead loads, so that the last points stand by themselves
+HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
 
 def capacity_curve(
@@ -168,14 +168,21 @@ def _advanced(
     changes = _changes(assembly, was, now, -least)
     carried = _carried(assembly, goal, control)
     goal = moving.slid(goal, sliding)
-    shift = HELD * scale
-    loaded = replace(goal.model, dead=goal.model.dead + (-shift) * goal.model.live)
-    result = nonassociated(loaded)
+    shift, loaded, result = _answered(goal.model, scale)
     at = point.displacement + float((carried.point - control.point) @ control.direction)
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, changes, _across(goal, result)
     )
     return goal, carried, found
+
+
+def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:
+    """The answer; beyond the zero of the curve with a little of the live load taken from the dead loads."""
+    try:
+        return 0.0, model, nonassociated(model)
+    except NoEquilibrium:
+        held = replace(model, dead=model.dead + (-HELD * scale) * model.live)
+        return HELD * scale, held, nonassociated(held)
 
 
 def _across(assembly: Assembly, result: Nonassociated) -> tuple[str, ...]:
