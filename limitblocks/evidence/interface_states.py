@@ -14,6 +14,7 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
 
@@ -56,7 +57,8 @@ class InterfaceStates:
     state : tuple of str
         "stick", "open" (moves apart all over, without a force), or what it does, joined by "-" in this
         order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
-        pressed together), "slide", "twist". A twist about the centre of pressure does not slide.
+        pressed together), "slide", "twist". A twist about the centre of pressure does not slide. Of a tie
+        or dowel: "yield" (it gives), "slack" (the ends of a tie approach), else "stick".
     active_modes : tuple of tuple of Mode
         Failure modes, in the joint's words, whose flow multipliers are not zero.
     centroid : Array, shape (m, 3)
@@ -185,13 +187,16 @@ def _states(
     about = np.nan_to_num(e)
     sliding = dq[:, :2] + dq[:, 5:] * np.stack([-about[:, 1], about[:, 0]], axis=1)
     hinging = np.array([any(mode.opens for mode in own) for own in modes])
+    tied = np.array([isinstance(i.joint, Tie | Dowel | Guide) for i in interfaces])
     motions = {
-        "hinge": hinging & (highest - lowest > least) & (lowest >= -least),
-        "crush": lowest < -least,
-        "slide": np.linalg.norm(sliding, axis=1) > least,
-        "twist": np.abs(dq[:, 5]) * reach > least,
+        "hinge": ~tied & hinging & (highest - lowest > least) & (lowest >= -least),
+        "crush": ~tied & (lowest < -least),
+        "slide": ~tied & (np.linalg.norm(sliding, axis=1) > least),
+        "twist": ~tied & (np.abs(dq[:, 5]) * reach > least),
+        "slack": np.array([Mode.SLACK in own for own in modes]),
+        "yield": np.array([Mode.YIELD in own for own in modes]),
     }
-    opened = (lowest > least) & ~loaded
+    opened = ~tied & (lowest > least) & ~loaded
     table = zip(opened.tolist(), *(motion.tolist() for motion in motions.values()), strict=True)
     return tuple(
         "open"

@@ -35,6 +35,8 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
         What makes an interface a good way: its distance to yield.
     """
     n = len(problem.blocks)
+    stresses = np.bincount(problem.stress_interface, minlength=len(room))
+    room = np.where(stresses < 6, -np.inf, room)  # ties and dowels cannot carry any force
     order = np.argsort(-room, kind="stable")
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
     best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
