@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from limitblocks.drawing.picture import Picture
 from limitblocks.io.result_file import versions
 from limitblocks.reports.comparison import NOT_UNIQUE, comparison
 from limitblocks.reports.facts import assumptions, fact_rows, facts
 from limitblocks.reports.interfaces import active_interfaces
-from limitblocks.reports.picture import Picture
 from limitblocks.reports.section import Section, Table
 
 if TYPE_CHECKING:

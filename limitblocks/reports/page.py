@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from limitblocks.drawing.picture import Picture
 from limitblocks.io.result_file import versions
 from limitblocks.reports import assets
 from limitblocks.reports.comparison import NOT_UNIQUE, comparison
 from limitblocks.reports.facts import assumptions, fact_rows, facts
 from limitblocks.reports.interfaces import active_interfaces
-from limitblocks.reports.picture import Picture
 from limitblocks.reports.scene import scene
 
 if TYPE_CHECKING:

@@ -9,9 +9,10 @@ from io import BytesIO
 from typing import Any
 from xml.sax.saxutils import escape
 
+from limitblocks.drawing.picture import Drawn, Picture
+from limitblocks.drawing.sheet import WIDTH
 from limitblocks.errors import MissingDependency
 from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.reports.picture import WIDTH, Drawn, Picture
 from limitblocks.reports.section import Table
 
 CREATOR = "limitblocks report"

@@ -9,6 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from limitblocks.drawing.picture import Picture, mechanism_picture
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
@@ -23,7 +24,6 @@ from limitblocks.reports.interfaces import interface_rows
 from limitblocks.reports.labels import Labels
 from limitblocks.reports.markdown import markdown
 from limitblocks.reports.page import page
-from limitblocks.reports.picture import Picture, mechanism_picture
 from limitblocks.reports.section import Section
 from limitblocks.reports.sections import section
 

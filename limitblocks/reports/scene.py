@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.chains import chains
+from limitblocks.drawing.motion import magnification
+from limitblocks.drawing.view import towards
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.reports.picture import magnification
 
 SCENE_VERSION = 1
 DIGITS = 6  # of coordinates and stress resultants
@@ -36,12 +38,13 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     return {
         "schema_version": SCENE_VERSION,
         "title": title,
+        "eye": short(towards(model)),
         "live": short(live / size) if size > 0.0 else None,
         "states": words.states,
         "modes": words.modes,
         **_blocks(model),
         **_interfaces(model),
-        "chains": chains(model),
+        "chains": [chain for chain in chains(model) if len(chain) > 1],
         "results": [_result(model, *pair, words) for pair in zip(shown, states, strict=True)],
     }
 
@@ -61,33 +64,6 @@ def without_noise(resultants: Array) -> Array:
     sizes = np.abs(resultants)
     forces, moments = sizes[:, :3].max(initial=0.0), sizes[:, 3:].max(initial=0.0)
     return np.where(sizes > NOISE * np.repeat([forces, moments], 3), resultants, 0.0)
-
-
-def chains(model: Model) -> list[list[int]]:
-    """Return the interfaces of each chain of blocks, from a support on; none if the blocks branch."""
-    supports, at = set(model.supports), dict[str, list[int]]()
-    for k, interface in enumerate(model.interfaces):
-        for name in {interface.block_i, interface.block_j} - supports:
-            at.setdefault(name, []).append(k)
-    if any(len(known) > 2 for known in at.values()):
-        return []
-    lines, seen = [], set[int]()
-    for k, interface in enumerate(model.interfaces):
-        if k not in seen and supports & {interface.block_i, interface.block_j}:
-            lines.append(_chain(model, k, at))
-            seen.update(lines[-1])
-    return [chain for chain in lines if len(chain) > 1]
-
-
-def _chain(model: Model, first: int, at: dict[str, list[int]]) -> list[int]:
-    chain = [first]
-    while True:
-        interface = model.interfaces[chain[-1]]
-        around = {k for name in (interface.block_i, interface.block_j) for k in at.get(name, ())}
-        beyond = sorted(around - set(chain))
-        if not beyond:
-            return chain
-        chain.append(beyond[0])
 
 
 @dataclass(frozen=True)
@@ -161,7 +137,8 @@ def _result(model: Model, result: Any, states: InterfaceStates, words: _Words) -
     return {
         "title": named[0],
         "moves": "Displacement rates, for live work 1 N m",
-        "magnification": magnification(model, result.displacement_rates),
+        "magnification": magnification(model.blocks, result.displacement_rates),
+        "eye": short(towards(model, result.displacement_rates)),
         "steps": [_collapse(f"load factor {named[1]:.6g}", result.displacement_rates, states, words)],
     }
 
@@ -181,7 +158,8 @@ def _path(model: Model, path: LoadPath, states: InterfaceStates, words: _Words) 
     return {
         "title": "Load path",
         "moves": "Displacement since the permanent loads",
-        "magnification": magnification(model, path.steps[-1].displacements),
+        "magnification": magnification(model.blocks, path.steps[-1].displacements),
+        "eye": short(towards(model, path.collapse.displacement_rates)),
         "steps": steps,
     }
 

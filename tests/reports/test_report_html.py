@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.drawing import painter, picture
 from limitblocks.evidence.backward_error import MEANINGS, BackwardError
 from limitblocks.evidence.residuals import Residual
-from limitblocks.geometry import painter
 from limitblocks.problem import Turning
-from limitblocks.reports import picture
 from limitblocks.reports.facts import facts
 
 
