@@ -90,8 +90,8 @@ def import_blocks(
     """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
     with clean_errors():
         from limitblocks.analysis.magnitudes import questions
-        from limitblocks.io.dxf_outlines import read_drawing
-        from limitblocks.io.formats import read_blocks
+        from limitblocks.io.blocks import read_blocks
+        from limitblocks.io.formats.dxf.outlines import read_drawing
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics import mass_proportional
 

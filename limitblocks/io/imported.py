@@ -89,6 +89,11 @@ def refuse_many(solids: int = 0, faces: int = 0) -> None:
             raise ModelError(f"has {number} {word}; at most {most} are read, split the file")
 
 
+def one_line(name: str) -> str:
+    """Return a name as one line of a text file, without blanks around it."""
+    return " ".join(name.split())
+
+
 @contextmanager
 def foreign(word: str) -> Iterator[None]:
     """Turn whatever another package does with a damaged file into one ModelError; `word` is the format."""

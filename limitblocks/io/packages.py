@@ -7,9 +7,11 @@ from types import ModuleType
 
 from limitblocks.errors import MissingDependency
 
+_EXTRAS = {"ezdxf": "dxf", "meshio": "meshes", "rhino3dm": "rhino", "trimesh": "meshes"}
+
 
 def package(name: str, files: str) -> ModuleType:
-    """Return the package `name`, or a module in it, of the extra `meshes`; `files` are what it is for.
+    """Return the package `name`, or a module in it; `files` are what it is for.
 
     Raises
     ------
@@ -19,6 +21,7 @@ def package(name: str, files: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError:
+        root = name.partition(".")[0]
         raise MissingDependency(
-            f"{files} files need {name.partition('.')[0]}: pip install limitblocks[meshes]"
+            f"{files} files need {root}: pip install limitblocks[{_EXTRAS[root]}]"
         ) from None

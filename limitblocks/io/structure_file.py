@@ -10,7 +10,7 @@ from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.io import faults, model_file
-from limitblocks.io.formats import is_model_file, read_blocks
+from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load, self_weight

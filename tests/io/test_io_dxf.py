@@ -234,7 +234,7 @@ def test_bad_drawings_are_one_clean_error(tmp_path, case):
 
 
 def test_bad_nesting_ends(tmp_path, monkeypatch):
-    monkeypatch.setattr("limitblocks.io.dxf.MOST_FACES", 1000)
+    monkeypatch.setattr("limitblocks.io.formats.dxf.reader.MOST_FACES", 1000)
     drawing = ezdxf.new(units=6)
     many_by_nesting(drawing)
     drawing.saveas(tmp_path / "a.dxf")

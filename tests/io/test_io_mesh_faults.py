@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.io.mesh_files import write_blocks
+from limitblocks.io.blocks import write_blocks
 
 JOINT = lb.OrdunaLourenco(0.6)
 COLUMN = lb.structures.column(JOINT, count=2, width=0.5, height=1.0, depth=0.5)

@@ -6,7 +6,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.geometry.polygon import areas
-from limitblocks.io import rhino_chunks
+from limitblocks.io.formats.rhino import chunks
 
 rhino3dm = pytest.importorskip("rhino3dm")
 
@@ -34,7 +34,7 @@ def fault(path):
 def trials(request, monkeypatch):
     """Sound files are read without a trial, which takes a new process."""
     if not request.node.name.startswith(("test_endless", "test_damaged", "test_old")):
-        monkeypatch.setattr("limitblocks.io.rhino_trial.fault", lambda path: "")
+        monkeypatch.setattr("limitblocks.io.formats.rhino.trial.fault", lambda path: "")
 
 
 class Drawing:
@@ -231,12 +231,12 @@ def test_files_that_are_no_3dm(tmp_path):
 
 def test_endless_search_of_rhino3dm_is_cut_off(tmp_path, monkeypatch):
     """A length within the data of a mesh that reaches far beyond the file; rhino3dm 8.35 does not return."""
-    monkeypatch.setattr("limitblocks.io.rhino_trial.SECONDS", 1.0)
+    monkeypatch.setattr("limitblocks.io.formats.rhino.trial.SECONDS", 1.0)
     data = bytearray(lb.write_blocks(STRUCTURES["wall"], tmp_path / "a.3dm").read_bytes())
     objects = data.find((0x20008070).to_bytes(4, "little"))
     nested = data.find((0x40008000).to_bytes(4, "little"), objects)
     data[nested + 11] = 0x31
-    assert not rhino_chunks.fault(bytes(data))
+    assert not chunks.fault(bytes(data))
     (tmp_path / "a.3dm").write_bytes(data)
     assert "3dm" in fault(tmp_path / "a.3dm")
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.packages import package
 
 #: Application under whose name the name of a block is kept beside an entity.
 APPLICATION = "LIMITBLOCKS"
@@ -54,24 +54,10 @@ class Part(NamedTuple):
         return np.asarray(rows @ self.matrix[:3, :3].T + self.matrix[:3, 3])
 
 
-def ezdxf() -> ModuleType:
-    """Return the package ezdxf.
-
-    Raises
-    ------
-    MissingDependency
-        It is not installed.
-    """
-    try:
-        import ezdxf as package
-    except ImportError:
-        raise MissingDependency("DXF files need ezdxf: pip install limitblocks[dxf]") from None
-    return package
-
-
 def contents(path: Path) -> Contents:
     """Return the solids in a DXF drawing: meshes, polyfaces, 3D faces, bodies with plane faces."""
-    from limitblocks.io import dxf_solids, shells
+    from limitblocks.io import shells
+    from limitblocks.io.formats.dxf import solids as bodies
 
     drawing = opened(path)
     left_out: Counter[str] = Counter()
@@ -82,13 +68,13 @@ def contents(path: Path) -> Contents:
             if part.kind == "3DFACE":
                 faces.append(part)
                 continue
-            shape = dxf_solids.polygons(part)
+            shape = bodies.polygons(part)
             if shape is None:
                 left_out[part.kind] += 1
                 continue
             for points, loops in shape:
                 solids += shells.solids(part.name, part.layer, points, part.turned(loops))
-        solids += dxf_solids.from_3d_faces(faces)
+        solids += bodies.from_3d_faces(faces)
     if not solids:
         raise ModelError(f"holds no solid{_instead(left_out)}")
     return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)])
@@ -103,11 +89,11 @@ def _instead(left_out: Counter[str]) -> str:
 
 def opened(path: Path) -> Any:
     """Return the drawing in a DXF file, text or binary."""
-    package = ezdxf()
+    ezdxf = package("ezdxf", "DXF")
     if read_bytes(path)[:6].startswith(b"AC10"):
         raise ModelError("is a DWG, not a DXF; save it as DXF")
     with foreign("DXF"):
-        return package.readfile(path)
+        return ezdxf.readfile(path)
 
 
 def metres_per_unit(drawing: Any) -> float | None:

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.io.imported import Contents, Solid, read_bytes, refuse_many
+from limitblocks.geometry import Block
+from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
 
 _HEADER = 84  # bytes: 80 of text, 4 for the number of triangles
@@ -71,3 +73,23 @@ def _corners(body: str, name: str) -> Array:
         return np.array(rows, dtype=np.float64).reshape(-1, 3, 3)
     except ValueError as error:
         raise ModelError(f"solid {name!r}: {error}") from None
+
+
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:  # it has none
+    """Return the STL file of blocks in text: triangles, names and every digit."""
+    lines: list[str] = []
+    for block in blocks:
+        lines.append(f"solid {one_line(block.name)}")
+        trios = block.vertices[block.triangles]
+        normals = np.cross(trios[:, 1] - trios[:, 0], trios[:, 2] - trios[:, 0])
+        normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+        for corners, normal in zip(trios.tolist(), normals.tolist(), strict=True):
+            lines.append(f" facet normal {_digits(normal)}\n  outer loop")
+            lines += [f"   vertex {_digits(corner)}" for corner in corners]
+            lines.append("  endloop\n endfacet")
+        lines.append(f"endsolid {one_line(block.name)}")
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _digits(vector: Sequence[float]) -> str:
+    return " ".join(map(repr, vector))

@@ -10,22 +10,22 @@ from typing import Any
 
 from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import Block
-from limitblocks.io.rhino import rhino3dm
+from limitblocks.io.packages import package
 
 _VERSION = 7  # of Rhino, that can open the file
 
 
-def rhino(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
     """Return the file; faces of more than four sides, or of blocks that are not convex, become triangles."""
-    package = rhino3dm()
-    model = package.File3dm()
-    model.Settings.ModelUnitSystem = package.UnitSystem.Meters
+    rhino3dm = package("rhino3dm", "3dm")
+    model = rhino3dm.File3dm()
+    model.Settings.ModelUnitSystem = rhino3dm.UnitSystem.Meters
     numbers: dict[str, int] = {}
     for block in blocks:
-        attributes = package.ObjectAttributes()
+        attributes = rhino3dm.ObjectAttributes()
         attributes.Name = block.name
-        attributes.LayerIndex = _layer(package, model, numbers, layers.get(block.name, "") or "block")
-        model.Objects.AddMesh(_mesh(package, block), attributes)
+        attributes.LayerIndex = _layer(rhino3dm, model, numbers, layers.get(block.name, "") or "block")
+        model.Objects.AddMesh(_mesh(rhino3dm, block), attributes)
     with TemporaryDirectory() as folder:  # rhino3dm writes to files only
         file = Path(folder) / "blocks.3dm"
         if not model.Write(str(file), _VERSION):
@@ -33,20 +33,20 @@ def rhino(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
         return file.read_bytes()
 
 
-def _layer(package: ModuleType, model: Any, numbers: dict[str, int], path: str) -> int:
+def _layer(rhino3dm: ModuleType, model: Any, numbers: dict[str, int], path: str) -> int:
     """Return the number of the layer with a path such as "walls::north", made where there is none."""
     if path not in numbers:
         above, _, name = path.rpartition("::")
-        layer = package.Layer()
+        layer = rhino3dm.Layer()
         layer.Name = name
         if above:
-            layer.ParentLayerId = model.Layers[_layer(package, model, numbers, above)].Id
+            layer.ParentLayerId = model.Layers[_layer(rhino3dm, model, numbers, above)].Id
         numbers[path] = model.Layers.Add(layer)
     return numbers[path]
 
 
-def _mesh(package: ModuleType, block: Block) -> Any:
-    mesh = package.Mesh()
+def _mesh(rhino3dm: ModuleType, block: Block) -> Any:
+    mesh = rhino3dm.Mesh()
     for x, y, z in block.vertices.tolist():
         mesh.Vertices.AddPoint3d(x, y, z)  # in double precision, unlike Add
     quads = block.convex and max(map(len, block.faces)) <= 4

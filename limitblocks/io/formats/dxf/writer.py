@@ -7,17 +7,17 @@ import re
 from collections.abc import Mapping, Sequence
 
 from limitblocks.geometry import Block
-from limitblocks.io.dxf import APPLICATION, ezdxf
+from limitblocks.io.formats.dxf.reader import APPLICATION
+from limitblocks.io.packages import package
 
 _METRES = 6  # $INSUNITS
 _LONGEST = 255  # of names
 _COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of the colour index
 
 
-def dxf(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
     """Return the drawing; the name of each block is kept beside its mesh, for the reader of this library."""
-    package = ezdxf()
-    drawing = package.new("R2010", units=_METRES)
+    drawing = package("ezdxf", "DXF").new("R2010", units=_METRES)
     drawing.appids.add(APPLICATION)
     names = {block.name: _layer(layers.get(block.name, "")) for block in blocks}
     for k, layer in enumerate(dict.fromkeys(names.values())):

@@ -20,7 +20,7 @@ _STRAIGHT = 1e-6
 _CURED = "run Mesh on it in Rhino, or save it with a shaded view so that render meshes are in the file"
 
 
-def polygons(package: ModuleType, geometry: Any) -> Polygons | None:
+def polygons(rhino3dm: ModuleType, geometry: Any) -> Polygons | None:
     """Return the polygons of a geometry; None where it is no solid, such as a curve or a text.
 
     Raises
@@ -28,16 +28,16 @@ def polygons(package: ModuleType, geometry: Any) -> Polygons | None:
     ModelError
         It is a solid that cannot be read; says what to do.
     """
-    if isinstance(geometry, package.Mesh):
+    if isinstance(geometry, rhino3dm.Mesh):
         return _mesh(geometry)
-    if isinstance(geometry, package.Extrusion):
+    if isinstance(geometry, rhino3dm.Extrusion):
         brep = geometry.ToBrep(True)
         if brep is None:
             raise ModelError("extrusion cannot be read; convert it to a polysurface in Rhino")
-        return _brep(package, brep)
-    if isinstance(geometry, package.Brep):
-        return _brep(package, geometry)
-    if isinstance(geometry, package.SubD):
+        return _brep(rhino3dm, brep)
+    if isinstance(geometry, rhino3dm.Brep):
+        return _brep(rhino3dm, geometry)
+    if isinstance(geometry, rhino3dm.SubD):
         raise ModelError("is a SubD, which has no plane faces; convert it to a mesh in Rhino")
     return None
 
@@ -50,7 +50,7 @@ def _mesh(mesh: Any) -> Polygons:
     return np.array(points, dtype=np.float64).reshape(-1, 3), faces
 
 
-def _brep(package: ModuleType, brep: Any) -> Polygons:
+def _brep(rhino3dm: ModuleType, brep: Any) -> Polygons:
     refuse_many(faces=len(brep.Faces))
     if not brep.IsSolid:
         raise ModelError(f"polysurface of {len(brep.Faces)} faces is open; join and cap it in Rhino")
@@ -64,7 +64,7 @@ def _brep(package: ModuleType, brep: Any) -> Polygons:
             raise ModelError("has a face with a hole; run Mesh on it in Rhino")
         outline = _outline(face, tolerance)
         if outline is None:
-            return _render_mesh(package, brep)
+            return _render_mesh(rhino3dm, brep)
         outlines.append(outline)
     return soup(outlines)
 
@@ -97,9 +97,9 @@ def _xyz(point: Any) -> tuple[float, float, float]:
     return point.X, point.Y, point.Z
 
 
-def _render_mesh(package: ModuleType, brep: Any) -> Polygons:
+def _render_mesh(rhino3dm: ModuleType, brep: Any) -> Polygons:
     """Return the triangles that Rhino drew a curved polysurface with."""
-    meshes = [face.GetMesh(package.MeshType.Any) for face in brep.Faces]
+    meshes = [face.GetMesh(rhino3dm.MeshType.Any) for face in brep.Faces]
     if any(mesh is None for mesh in meshes):
         raise ModelError(f"has curved faces or edges and no render mesh; {_CURED}")
     shapes = [_mesh(mesh) for mesh in meshes]

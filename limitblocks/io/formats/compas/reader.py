@@ -26,7 +26,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
-from limitblocks.io.compas_geometry import frame, polygons, transformation
+from limitblocks.io.formats.compas.geometry import frame, polygons, transformation
 from limitblocks.io.imported import SUPPORT_LAYERS, Contents, Solid, foreign
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")

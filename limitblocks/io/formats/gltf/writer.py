@@ -5,7 +5,7 @@ trimesh writes no animations; see the glTF 2.0 specification, sections 3.6 (data
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -59,10 +59,10 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     supports = set(model.supports)
     layers = {block.name: "support" if block.name in supports else "block" for block in model.blocks}
     still = np.zeros_like(states[:1])
-    return write(path, glb(model.blocks, layers, np.concatenate([still, states])), overwrite)
+    return write(path, encoded(model.blocks, layers, np.concatenate([still, states])), overwrite)
 
 
-def glb(blocks: Sequence[Block], layers: dict[str, str], states: Array | None = None) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], states: Array | None = None) -> bytes:
     """Return the GLB file of blocks, with an animation through the displacements `states` (k, n, 6)."""
     trimesh, gltf = package("trimesh", "GLB"), package("trimesh.exchange.gltf", "GLB")
     scene = trimesh.Scene()

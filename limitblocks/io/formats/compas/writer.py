@@ -13,7 +13,7 @@ from limitblocks.io.imported import SUPPORT_LAYERS
 _FRAME = {"point": [0.0, 0.0, 0.0], "xaxis": [1.0, 0.0, 0.0], "yaxis": [0.0, 1.0, 0.0]}
 
 
-def compas(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
     """Return a compas.datastructures.Assembly whose graph has "block", a mesh, and "is_support" at each node.
 
     The graph is that of an assembly of compas_assembly, with a part beside each block.

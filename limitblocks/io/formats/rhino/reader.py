@@ -11,9 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import MissingDependency, ModelError
-from limitblocks.io import rhino_breps, rhino_chunks, rhino_trial, shells
+from limitblocks.errors import ModelError
+from limitblocks.io import shells
+from limitblocks.io.formats.rhino import breps, chunks, trial
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.packages import package
 
 _DEEPEST = 32  # instances within instances
 #: Metres per unit of Rhino's unit systems.
@@ -42,32 +44,17 @@ class Part(NamedTuple):
         return np.asarray(points @ self.matrix[:3, :3].T + self.matrix[:3, 3])
 
 
-def rhino3dm() -> ModuleType:
-    """Return the package rhino3dm.
-
-    Raises
-    ------
-    MissingDependency
-        It is not installed.
-    """
-    try:
-        import rhino3dm as package
-    except ImportError:
-        raise MissingDependency("3dm files need rhino3dm: pip install limitblocks[rhino]") from None
-    return package
-
-
 def contents(path: Path) -> Contents:
     """Return the solids in a Rhino file; hidden objects and all that is no solid are left out with a note."""
-    package = rhino3dm()
-    model, notes = _model(package, path)
+    rhino3dm = package("rhino3dm", "3dm")
+    model, notes = _model(rhino3dm, path)
     left_out: Counter[str] = Counter()
     wrong: list[str] = []
     solids: list[Solid] = []
     with foreign("3dm"):
-        for part in _Expansion(package, model, left_out).everything():
+        for part in _Expansion(rhino3dm, model, left_out).everything():
             try:
-                shape = rhino_breps.polygons(package, part.geometry)
+                shape = breps.polygons(rhino3dm, part.geometry)
             except ModelError as error:
                 wrong += [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
                 continue
@@ -87,17 +74,17 @@ def contents(path: Path) -> Contents:
     return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
 
 
-def _model(package: ModuleType, path: Path) -> tuple[Any, list[str]]:
+def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
     """Return the model in a file, and a note where rhino3dm left out objects without a word."""
     data = read_bytes(path)
-    fault = rhino_chunks.fault(data) or rhino_trial.fault(path)
+    fault = chunks.fault(data) or trial.fault(path)
     if fault:
         raise ModelError(fault)
     with foreign("3dm"):
-        model = package.File3dm.FromByteArray(data)
+        model = rhino3dm.File3dm.FromByteArray(data)
         if model is None:
             raise ModelError("is not sound 3dm: rhino3dm cannot read it; save it again in Rhino")
-        lost = rhino_chunks.objects(data) - len(model.Objects)
+        lost = chunks.objects(data) - len(model.Objects)
     return model, [f"left out: {lost} objects that rhino3dm cannot read, damaged or of plug-ins"] * (lost > 0)
 
 
@@ -113,8 +100,8 @@ def _metres(model: Any) -> tuple[float | None, list[str]]:
 class _Expansion:
     """State of taking a model apart."""
 
-    def __init__(self, package: ModuleType, model: Any, left_out: Counter[str]) -> None:
-        self.package, self.model, self.left_out = package, model, left_out
+    def __init__(self, rhino3dm: ModuleType, model: Any, left_out: Counter[str]) -> None:
+        self.rhino3dm, self.model, self.left_out = rhino3dm, model, left_out
         self.met = 0
         self.layers = {layer.Index: layer for layer in model.Layers}
         shown = {str(layer.Id): layer for layer in model.Layers}
@@ -139,7 +126,7 @@ class _Expansion:
                 self.left_out["hidden objects"] += 1
                 continue
             title = name or attributes.Name
-            if isinstance(geometry, self.package.InstanceReference):
+            if isinstance(geometry, self.rhino3dm.InstanceReference):
                 yield from self.instances(geometry, matrix, title, depth)
             elif geometry is not None:
                 path = layer.FullPath if layer is not None else ""

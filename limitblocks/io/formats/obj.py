@@ -3,11 +3,12 @@
 # trimesh reads triangles alone: it would lose quads, and objects that groups or materials divide.
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from limitblocks.errors import ModelError
-from limitblocks.io.imported import Contents, Solid, read_bytes, refuse_many
+from limitblocks.geometry import Block
+from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
 
 _Section = tuple[str, str]  # name and layer of what is drawn
@@ -75,3 +76,16 @@ def _face(corners: list[str], known: int) -> _Face:
         if not (1 <= index <= known or -known <= index <= -1):
             raise ValueError(f"vertex {index} is not one of the {known} vertices before it")
     return tuple(index - 1 if index > 0 else known + index for index in indices)
+
+
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+    """Return the OBJ file of blocks: faces, names and every digit; layers as materials."""
+    lines = ["# limitblocks; m, Z up"]
+    first = 1
+    for block in blocks:
+        lines.append(f"o {one_line(block.name)}")
+        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in block.vertices.tolist()]
+        lines += [f"usemtl {one_line(layers[block.name])}"] if layers.get(block.name) else []
+        lines += ["f " + " ".join(str(first + vertex) for vertex in face) for face in block.faces]
+        first += len(block.vertices)
+    return ("\n".join(lines) + "\n").encode()

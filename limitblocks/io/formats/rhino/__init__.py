@@ -1,0 +1,6 @@
+"""Rhino's 3dm files."""
+
+from limitblocks.io.formats.rhino.reader import contents
+from limitblocks.io.formats.rhino.writer import encoded
+
+__all__ = ["contents", "encoded"]
