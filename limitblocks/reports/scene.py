@@ -18,8 +18,9 @@ from limitblocks.evidence.interface_states import InterfaceStates, interface_sta
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
+from limitblocks.reports.words import joint_words
 
-SCENE_VERSION = 1
+SCENE_VERSION = 2
 DIGITS = 6  # of coordinates and stress resultants
 DRAWN_DIGITS = 4  # of what is drawn more than read: displacements, and forces before collapse
 NOISE = 1e-7  # of the largest of its kind: shown as zero
@@ -30,7 +31,7 @@ UNKNOWN = "not evaluated"
 
 def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     """Return what the viewer shows: shapes, blocks, interfaces and each result with a mechanism."""
-    shown = [result for result in results if isinstance(result, Bounds | Nonassociated | LoadPath)]
+    shown = [result for result in results if in_scene(result)]
     states = [interface_states(model, result) for result in shown]
     words = _Words.of(states, any(isinstance(result, LoadPath) for result in shown))
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
@@ -47,6 +48,11 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
         "chains": [chain for chain in chains(model) if len(chain) > 1],
         "results": [_result(model, *pair, words) for pair in zip(shown, states, strict=True)],
     }
+
+
+def in_scene(result: Any) -> bool:
+    """Whether the viewer shows a result."""
+    return isinstance(result, Bounds | Nonassociated | LoadPath)
 
 
 def short(values: Any, noise: float = 0.0, digits: int = DIGITS) -> list[float | None]:
@@ -109,7 +115,7 @@ def _interfaces(model: Model) -> dict[str, Any]:
         corners = tuple(short(interface.polygon @ interface.axes[:2], 1e-9))
         axes = tuple(short(interface.axes, 1e-9))
         kinds.append(outlines.setdefault((corners, axes), len(outlines)))
-        laws.append(joints.setdefault(repr(interface.joint), len(joints)))
+        laws.append(joints.setdefault(joint_words(interface.joint), len(joints)))
     return {
         "joints": list(joints),
         "outlines": [{"corners": corners, "axes": axes} for corners, axes in outlines],
