@@ -85,10 +85,10 @@ class Picture:
         for name, x, y in self.axes:
             foot = np.array([260.0 if name == "live" else 90.0, self.height + 75.0])
             tip = foot + _ARM * np.array([x, y])
-            arms.append(
-                Group("live" if name == "live" else "axis", "", (Shape(sheet.path(np.array([foot, tip]))),))
-            )
-            labels.append(Label(float(tip[0]) + 10.0, float(tip[1]) - 4.0, name, "start axis"))
+            arm = Shape(sheet.path(np.array([foot, tip]), closed=False))
+            arms.append(Group("live" if name == "live" else "axis", "", (arm,)))
+            side, off = ("start axis", 10.0) if x >= 0.0 else ("end axis", -10.0)
+            labels.append(Label(float(tip[0]) + off, float(tip[1]) - 4.0, name, side))
         text = f"Axonometric drawing. {self.summary} Dashed: the moving blocks before they moved."
         return Sheet("mechanism", title, text, self.height + _FOOT, (*groups, *arms), tuple(labels))
 

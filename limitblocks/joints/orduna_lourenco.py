@@ -124,9 +124,8 @@ class OrdunaLourenco(Queries):
     def in_words(self) -> str:
         """Return the joint in words."""
         strengths = strength_words(self.cohesion, self.tensile_strength, self.compressive_strength)
-        return f"{friction_words(self.friction)}, {strengths}, torsion by {_SLIP_WORDS[self.slip]}".format(
-            self.sides
-        )
+        shear = f"shear and torsion by {_SLIP_WORDS[self.slip].format(self.sides)}"
+        return f"{friction_words(self.friction)}, {strengths}, {shear}"
 
     def assumed(self) -> tuple[str, ...]:
         """Return a sentence for each assumption."""

@@ -90,9 +90,10 @@ def answer(results: Sequence[Any]) -> Answer:
         load_factor, source = certified[0]
         least = f"{LEAST.format(len(certified))} " if len(certified) > 1 else ""
         return Answer(load_factor, True, source, least + CERTIFIED)
-    bounds = [result for result in results if isinstance(result, Bounds)]
+    bounds = [one.lower for one in results if isinstance(one, Bounds)]
+    bounds += [one.load_factor for one in results if isinstance(one, CheckedClaim) and one.check.accepted]
     if bounds:
-        return Answer(min(one.lower for one in bounds), False, "static bound", UPPER)
+        return Answer(min(bounds), False, "static bound", UPPER)
     return Answer()
 
 

@@ -49,6 +49,7 @@ SENSITIVITY = (
 )
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
+VIEWED = (("still", "block that can move"), ("support", "support"))
 LEGEND = (("moving", "moving"), ("still", "standing still"), ("support", "support"), ("ghost", "before"))
 
 
@@ -127,7 +128,7 @@ def _side_by_side(results: Sequence[Any]) -> Iterator[Chapter]:
 def _model(model: Model, known: dict[str, Any]) -> Chapter:
     parts: list[Part] = [
         Table.of("Facts", ("Quantity", "Value"), fact_rows(known)),
-        Figure(elevations(model), VIEWS, LEGEND[1:3]),
+        Figure(elevations(model), VIEWS, VIEWED),
     ]
     given = acceleration(model)
     if given:

@@ -24,6 +24,7 @@ CREATOR = "limitblocks report"
 _MARGIN = 51.0  # points
 _PAGE = (595.3, 841.9)  # A4, points
 _WIDE = _PAGE[0] - 2 * _MARGIN - 12
+_GAP, _PADDING = 7.0, 8.0  # between columns, points; and a little for rounding
 _SAFE = str.maketrans({"−": "-", "≤": "<=", "≥": ">="})
 
 
@@ -74,26 +75,28 @@ def _story(document: Document) -> Iterator[Any]:
 def _chapter(chapter: Chapter) -> Iterator[Any]:
     from reportlab.platypus import CondPageBreak, Spacer
 
-    # a title needs room for what follows it: keepWithNext does not hold a table to its title
-    yield CondPageBreak(110.0)
+    # room for what follows the title; reportlab's keepWithNext would move a whole table with it
+    yield CondPageBreak(150.0)
     yield Spacer(1, 8)
-    yield _paragraph(chapter.title, 13.0, bold=True, stays=True)
+    yield _paragraph(chapter.title, 13.0, bold=True)
     for part in chapter.parts:
         yield from flowables(part)
 
 
 def flowables(part: Part) -> list[Any]:
     """Return a part as reportlab lays it out."""
+    from reportlab.platypus import CondPageBreak
+
     match part:
         case Text():
             return [_paragraph(part.text, bold=part.warning)]
         case Heading():
-            return [_paragraph(part.text, 10.0, bold=True, stays=True)]
+            return [CondPageBreak(60.0), _paragraph(part.text, 10.0, bold=True)]
         case Items():
             return [_paragraph(f"• {line}", space=2.0) for line in part.lines]
         case Headline():
-            text = f'<font color="#8a2f00"><b>{marked(part.number)}</b></font>'
-            return [_paragraph(f'{text} <font size="9">{marked(part.quantity)}</font>', 24.0, raw=True)]
+            number = f'<font color="#8a2f00"><b>{marked(part.number)}</b></font>'
+            return [_paragraph(number, 24.0, space=1.0, raw=True), _paragraph(part.quantity, 10.0)]
         case Figure():
             return _figure(part)
         case Table():
@@ -107,10 +110,9 @@ def _paragraph(
     bold: bool = False,
     space: float = 4.0,
     raw: bool = False,
-    stays: bool = False,
     right: bool = False,
 ) -> Any:
-    """A paragraph of `size` points; `raw` text is markup already, `stays` with what follows."""
+    """A paragraph of `size` points; `raw` text is markup already."""
     from reportlab.lib.enums import TA_LEFT, TA_RIGHT
     from reportlab.lib.styles import ParagraphStyle
     from reportlab.platypus import Paragraph
@@ -122,7 +124,6 @@ def _paragraph(
         leading=1.3 * size,
         spaceAfter=space,
         splitLongWords=1,
-        keepWithNext=stays,
         alignment=TA_RIGHT if right else TA_LEFT,
     )
     return Paragraph(text if raw else marked(text), style)
@@ -156,16 +157,26 @@ def _table(part: Table) -> list[Any]:
         [_paragraph(cell.text, size, space=0.0, right=r) for cell, r in zip(row, numbers, strict=True)]
         for row in part.rows
     ]
-    table = LongTable(cells, colWidths=[_WIDE * share for share in _shares(part)], repeatRows=1)
+    table = LongTable(cells, colWidths=_widths(part, size), repeatRows=1)
     rules = [("LINEBELOW", (0, 0), (-1, -1), 0.4, HexColor("#999999")), ("VALIGN", (0, 0), (-1, -1), "TOP")]
-    table.setStyle([*rules, ("LEFTPADDING", (0, 0), (-1, -1), 0), ("RIGHTPADDING", (0, 0), (-1, -1), 5)])
-    caption = _paragraph(part.caption, 8.0, space=2.0, stays=True)
+    table.setStyle([*rules, ("LEFTPADDING", (0, 0), (-1, -1), 0), ("RIGHTPADDING", (0, 0), (-1, -1), _GAP)])
+    caption = _paragraph(part.caption, 8.0, space=2.0)
     # the caption, the heads and two rows stay on one page
     return [Spacer(1, 4), CondPageBreak(5 * 1.6 * size + 16), caption, table, Spacer(1, 6)]
 
 
-def _shares(table: Table) -> list[float]:
-    """Widths of the columns over that of the table, by the longest of their texts."""
+def _widths(table: Table, size: float) -> list[float]:
+    """Widths of the columns, points: as wide as their texts, the widest ones less where that is too much."""
+    from reportlab.pdfbase.pdfmetrics import stringWidth
+
     columns = zip(*(table.heads, *([cell.text for cell in row] for row in table.rows)), strict=True)
-    lengths = [min(max(map(len, column)), 60) + 2.0 for column in columns]
-    return [length / sum(lengths) for length in lengths]
+    wanted = [
+        max(stringWidth(latin(text), "Helvetica-Bold", size) for text in column) + _PADDING
+        for column in columns
+    ]
+    left, widths = _WIDE, [0.0] * len(wanted)
+    for rank, k in enumerate(sorted(range(len(wanted)), key=wanted.__getitem__)):
+        widths[k] = min(wanted[k], left / (len(wanted) - rank))
+        left -= widths[k]
+    widths[-1] += left  # what is to spare, so that the rules run across the page
+    return widths

@@ -192,7 +192,7 @@ def _claim(model: Model, claim: CheckedClaim) -> Section:
     return Section(
         title=f"Claimed solution, check {check.headline}",
         meaning=f"A load factor and a state that were read, not computed here. {check.meaning}",
-        headline=_number(claim.load_factor) if claim.check.accepted else "not proven",
+        headline=f"{claim.load_factor:#.4g}" if claim.check.accepted else "not proven",
         quantity="load factor α as claimed",
         values=(
             ("Load factor", _number(claim.load_factor), "as claimed"),
