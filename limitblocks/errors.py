@@ -19,6 +19,8 @@ Every message is one line: what is wrong, the name and value, what would be righ
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from difflib import get_close_matches
 from typing import Any
 
 
@@ -80,3 +82,10 @@ class CheckFailed(LimitBlocksError):
 
 class MissingDependency(LimitBlocksError):
     """An optional package is needed; the message names it and how to install it."""
+
+
+def near(name: str, known: Iterable[str]) -> str:
+    """Return '; did you mean ...?', or nothing where no known name is like `name`."""
+    letters = {one.casefold(): one for one in known}
+    names = get_close_matches(name.casefold(), letters, 1)
+    return f"; did you mean {letters[names[0]]!r}?" if names else ""

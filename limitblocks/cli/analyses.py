@@ -1,4 +1,4 @@
-"""The analyses, imported when they are asked for, and their progress on a terminal."""
+"""The analyses, imported when they are asked for, and their progress."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from limitblocks.cli.progress import of_iterations
 from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
@@ -20,18 +21,16 @@ if TYPE_CHECKING:
 def stability(model: Model) -> Stability:
     """Does it stand under its dead loads."""
     from limitblocks.analysis.stability import stability as solve
-    from limitblocks.reports.terminal import shown_progress
 
-    with shown_progress():
+    with of_iterations("stability"):
         return solve(model)
 
 
 def bounds(model: Model, **settings: float) -> Bounds:
     """Associated bounds."""
     from limitblocks.analysis.bounds import bounds as solve
-    from limitblocks.reports.terminal import shown_progress
 
-    with shown_progress():
+    with of_iterations("bounds"):
         return solve(model, **settings)
 
 
@@ -49,25 +48,22 @@ def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[A
 def nonassociated(model: Model, **settings: Any) -> Nonassociated:
     """Solution without dilatancy, or with little."""
     from limitblocks.analysis.nonassociated.loop import nonassociated as solve
-    from limitblocks.reports.terminal import shown_progress
 
-    with shown_progress() as show:
+    with of_iterations("nonassociated") as show:
         return solve(model, **settings, progress=show)
 
 
 def load_factor_range(model: Model, **settings: Any) -> LoadFactorRange:
     """Certified load factors and how far they reach."""
     from limitblocks.analysis.load_factor_range.run import load_factor_range as solve
-    from limitblocks.reports.terminal import shown_progress
 
-    with shown_progress() as show:
+    with of_iterations("range") as show:
         return solve(model, **settings, progress=show)
 
 
 def path(model: Model, **settings: Any) -> LoadPath:
     """States from the permanent loads to collapse."""
     from limitblocks.analysis.nonassociated.load_path import load_path as solve
-    from limitblocks.reports.terminal import shown_progress
 
-    with shown_progress() as show:
+    with of_iterations("path") as show:
         return solve(model, **settings, progress=show)

@@ -11,6 +11,7 @@ import typer
 from limitblocks.errors import CheckFailed, LimitBlocksError, ModelError, SolveError
 
 _MOST_FAULTS = 20
+INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
 
 
 @contextmanager
@@ -25,6 +26,9 @@ def clean_errors() -> Iterator[None]:
         if len(faults) > _MOST_FAULTS:
             typer.echo(f"error: and {len(faults) - _MOST_FAULTS} more faults", err=True)
         raise typer.Exit(exit_code(error)) from None
+    except KeyboardInterrupt:
+        typer.echo("interrupted, with nothing to write yet", err=True)
+        raise typer.Exit(INTERRUPTED) from None
 
 
 def exit_code(error: LimitBlocksError) -> int:
@@ -34,9 +38,11 @@ def exit_code(error: LimitBlocksError) -> int:
     return 3 if isinstance(error, SolveError) else 2
 
 
-def refuse_existing(file: Path | None, force: bool, model: Path) -> None:
-    """Refuse before the analysis, not after it."""
-    if file and file.resolve() == model.resolve():
-        raise LimitBlocksError(f"{file} is the model; name another file with --output")
-    if file and not force and file.exists():
-        raise LimitBlocksError(f"{file} exists; name another file with --output or replace it with --force")
+def refuse_existing(file: Path | None, force: bool, *read: Path, option: str = "--output") -> None:
+    """Refuse before the analysis, not after it; `read` are the files that the command reads."""
+    if file is None:
+        return
+    if any(file.resolve() == other.resolve() for other in read):
+        raise LimitBlocksError(f"{file} is what the command reads; name another file with {option}")
+    if not force and file.exists():
+        raise LimitBlocksError(f"{file} exists; name another file with {option} or replace it with --force")

@@ -12,8 +12,9 @@ from typing import Annotated
 import typer
 
 from limitblocks.cli.errors import clean_errors
-from limitblocks.errors import LimitBlocksError, MissingDependency
+from limitblocks.errors import LimitBlocksError
 from limitblocks.io.faults import near
+from limitblocks.io.packages import missing
 
 examples = typer.Typer(
     help="Teaching examples: list them, run one, read one.", no_args_is_help=True, rich_markup_mode=None
@@ -74,9 +75,7 @@ def run(name: Name) -> None:
         try:
             runpy.run_path(str(file), run_name="__main__")
         except ModuleNotFoundError as error:
-            raise MissingDependency(
-                f"{file.stem} needs {error.name}: pip install limitblocks[plots]"
-            ) from None
+            raise missing(str(error.name), file.stem) from None
         finally:
             sys.path.remove(str(file.parent))
 

@@ -2,54 +2,31 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import Force
+from limitblocks.cli.joints import DEFAULT, JointName, MaybeFriction, Slip, Strength, make_joint
+from limitblocks.cli.options import BlocksFile, Force, Live, MaterialsFile, Supports, Units, UnitWeights, Up
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
     from limitblocks.io.imported import ImportedBlocks
-    from limitblocks.joints import Joint
+    from limitblocks.joints import Joint, Materials
+    from limitblocks.model import Model
 
-BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="MODEL", help="Model file [default: beside FILE].")
 ]
-Friction = Annotated[float, typer.Option(help="Coefficient of friction of every interface.")]
-JointName = Annotated[str, typer.Option("--joint", metavar="NAME", help="What an interface can carry.")]
-Slip = Annotated[
-    str | None,
-    typer.Option(
-        help="Friction of OrdunaLourenco: exact (Coulomb's circle), paper (octagon), inner or outer "
-        "[default: exact]."
-    ),
-]
-Supports = Annotated[
-    list[str],
-    typer.Option(
-        "--supports",
-        metavar="NAME",
-        help="A block or layer that does not move; repeat. [default: those that FILE marks]",
-        show_default=False,
-    ),
-]
-Live = Annotated[str, typer.Option(metavar="X,Y,Z", help="Direction of the mass-proportional live load.")]
-UnitWeights = Annotated[
-    list[str],
-    typer.Option("--unit-weight", metavar="[LAYER=]N/M3", help="Of all blocks, or of a layer; repeat."),
-]
-Units = Annotated[str | None, typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft.")]
 Thickness = Annotated[
     float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
 ]
-Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
 Gap = Annotated[
     float | None,
     typer.Option(
@@ -71,12 +48,14 @@ Width = Annotated[
 
 def import_blocks(
     file: BlocksFile,
-    friction: Friction,
     live: Live,
-    unit_weight: UnitWeights,
-    supports: Supports = [],  # noqa: B006 # typer wants a list, and nothing changes it
-    joint: JointName = "OrdunaLourenco",
+    friction: MaybeFriction = None,
+    unit_weight: UnitWeights = [],  # noqa: B006 # typer wants a list, and nothing changes it
+    materials: MaterialsFile = None,
+    supports: Supports = [],  # noqa: B006 # as above
+    joint: JointName = DEFAULT,
     slip: Slip = None,
+    compressive_strength: Strength = None,
     units: Units = None,
     thickness: Thickness = None,
     up: Up = None,
@@ -87,7 +66,7 @@ def import_blocks(
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
+    """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; `look` at FILE first."""
     with clean_errors():
         from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.blocks import read_blocks
@@ -97,18 +76,22 @@ def import_blocks(
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
-        law, load = _joint(joint, friction, slip), mass_proportional(_vector(live))
-        weight = _unit_weight(unit_weight)
+        strength = {"slip": slip, "compressive_strength": compressive_strength}
+        law, table = _joints(joint, friction, strength, materials)
+        load = mass_proportional(live)
+        weight = _unit_weight(unit_weight, table)
         if thickness is None:
             imported = read_blocks(file, units=units, unit_weight=weight, up=up)
         else:
             imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+        _refuse_no_supports(file, imported, supports)
         used: Tolerances | None = None
         if heal:
             imported, used = _healed(imported)
-        model, contacts = model_of(
+        model, contacts, vain = model_of(
             imported,
             joint=law,
+            materials=table,
             supports=supports,
             live=load,
             gap=used.gap if used and gap is None else gap,
@@ -116,8 +99,11 @@ def import_blocks(
             width=used.width if used and width is None else width,
             name=file.stem,
         )
-        notes = (*imported.notes, contacts.accuracy, *contacts.nothing)
-        for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
+        notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
+        for word, lines in (
+            ("note", notes),
+            ("warning", (*imported.warnings, *vain, *contacts.warnings, *questions(model))),
+        ):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
@@ -132,26 +118,55 @@ def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
     return replace(imported, blocks=mended.blocks, notes=notes), mended.tolerances
 
 
-def _joint(name: str, friction: float, slip: str | None) -> Joint:
-    from limitblocks.io.registry import JOINTS
+def _joints(
+    name: str, friction: float | None, strength: dict[str, Any], file: Path | None
+) -> tuple[Joint | None, Materials | None]:
+    """Return the joint of all interfaces, or the table of materials that has them."""
+    from limitblocks.io.materials import read_materials
 
-    if name not in JOINTS:
-        raise ModelError(f"--joint {name!r} is unknown; expected one of {', '.join(JOINTS)}")
-    if slip is not None and name != "OrdunaLourenco":
-        raise ModelError(f"--slip is {slip!r}, but only OrdunaLourenco has a choice; leave it out")
-    joint: Joint = JOINTS[name](friction=friction, **({} if slip is None else {"slip": slip}))
-    return joint
+    if file is None:
+        if friction is None:
+            raise ModelError("give --friction, the same for every interface, or --materials with a table")
+        return make_joint(name, friction, **strength), None
+    said = {"friction": friction} | strength
+    given = [f"--{word.replace('_', '-')}" for word, value in said.items() if value is not None]
+    if given:
+        raise ModelError(f"{', '.join(given)} and --materials: the table has the joints; give one of both")
+    return None, read_materials(file)
 
 
-def _vector(text: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(part) for part in text.split(","))
-    except ValueError:
-        raise ModelError(f"--live is {text!r}; expected three numbers as in 1,0,0") from None
+def _refuse_no_supports(file: Path, imported: ImportedBlocks, supports: list[str]) -> None:
+    """Say what could be chosen, in words of the shell."""
+    from limitblocks.geometry.selection import listed
+    from limitblocks.io.supports import likely_supports
+
+    if supports or imported.supports:
+        return
+    likely = likely_supports(imported.blocks)
+    such = f", perhaps {' '.join(f'--supports {shlex.quote(one)}' for one in likely[0].chosen_by)}" * bool(
+        likely
+    )
+    raise ModelError(
+        f"{file}: which blocks do not move? give --supports{such}; there are {listed(imported.blocks)}; "
+        f"limitblocks look {shlex.quote(str(file))} shows more"
+    )
 
 
-def _unit_weight(texts: list[str]) -> float | Mapping[str, float]:
-    """Return one unit weight, or one by layer."""
+def _joint_words(model: Model, table: Materials | None) -> list[str]:
+    """Return where the joints between the materials of a model come from."""
+    if table is None:
+        return []
+    material = {block.name: block.material for block in model.blocks}
+    pairs = {tuple(sorted((material[i.block_i], material[i.block_j]))) for i in model.interfaces}
+    return [f"joint {table.words(*pair)}" for pair in sorted(pairs)]
+
+
+def _unit_weight(texts: list[str], table: Materials | None) -> float | Mapping[str, float] | None:
+    """Return one unit weight, or one by layer; None where the materials have it."""
+    if not texts and table is not None:
+        return None
+    if not texts:
+        raise ModelError("give --unit-weight in N/m3, for all blocks or LAYER=NUMBER, or --materials")
     pairs = [text.rpartition("=") for text in texts]
     try:
         weights = {layer: float(number) for layer, _, number in pairs}

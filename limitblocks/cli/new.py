@@ -11,66 +11,27 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 
 import typer
 
-from limitblocks import joints, structures
-from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import Force
-from limitblocks.errors import LimitBlocksError
+from limitblocks import structures
+from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.joints import DEFAULT, Friction, JointName, Slip, Strength, make_joint
+from limitblocks.cli.options import LIVE, Force
+from limitblocks.cli.vectors import Command, vector
 
 new = typer.Typer(
     help="Write the model file of a parametric structure.", no_args_is_help=True, rich_markup_mode=None
 )
 
-JOINTS = {
-    "orduna-lourenco": joints.OrdunaLourenco,
-    "point-contact": joints.PointContact,
-    "exact-torsion": joints.ExactTorsion,
-}
-JointName = Annotated[
-    Literal["orduna-lourenco", "point-contact", "exact-torsion"],
-    typer.Option(help="Joint of all interfaces."),
-]
-Friction = Annotated[float, typer.Option(help="Friction coefficient of the joint.", show_default=False)]
-Strength = Annotated[
-    float | None,
-    typer.Option(help="Effective compressive strength, Pa [default: infinite].", show_default=False),
-]
-Slip = Annotated[
-    Literal["exact", "paper", "inner", "outer"] | None,
-    typer.Option(
-        help="Friction of orduna-lourenco: exact (Coulomb's circle), the paper's octagon, or an octagon "
-        "within the circle or around it [default: exact].",
-        show_default=False,
-    ),
-]
 NewFile = Annotated[
     Path | None,
     typer.Option("--output", "-o", metavar="MODEL", help="Model file (JSON) [default: STRUCTURE.json]."),
 ]
-COMMON = {"joint": (JointName, "orduna-lourenco"), "friction": (Friction, ...)}
+COMMON: dict[str, tuple[Any, Any]] = {"joint": (JointName, DEFAULT), "friction": (Friction, ...)}
 COMMON |= {
     "slip": (Slip, None),
     "compressive_strength": (Strength, None),
     "output": (NewFile, None),
     "force": (Force, False),
 }
-
-
-def make_joint(name: str, friction: float, **options: Any) -> joints.Joint:
-    """Return the joint of that name; options that are None are left out.
-
-    Raises
-    ------
-    LimitBlocksError
-        If an option is given that the joint does not have.
-    """
-    kind: Any = JOINTS[name]
-    given = {option: value for option, value in options.items() if value is not None}
-    for option in given.keys() - inspect.signature(kind).parameters:
-        raise LimitBlocksError(
-            f"joint {name} has no {option.replace('_', ' ')}; leave --{option.replace('_', '-')} out "
-            "or choose --joint orduna-lourenco"
-        )
-    return kind(friction, **given)  # type: ignore[no-any-return]
 
 
 def generators() -> dict[str, Callable[..., Any]]:
@@ -99,10 +60,7 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
             options = {option: values[option] for option in ("slip", "compressive_strength")}
             joint = make_joint(values["joint"], values["friction"], **options)
             file = values["output"] or Path(f"{make.__name__}.json")
-            if file.exists() and not values["force"]:
-                raise LimitBlocksError(
-                    f"{file} exists; name another file with --output or replace it with --force"
-                )
+            refuse_existing(file, values["force"])
             model = make(joint=joint, **given)
             typer.echo(f"{model.save(file, overwrite=values['force'])}: {model}")
 
@@ -128,6 +86,11 @@ def _options(make: Callable[..., Any]) -> Iterator[inspect.Parameter]:
         option = typer.Option(f"--{name.replace('_', '-')}", help=said.get(name, ""), **settings)
         if kind is bool:
             option = typer.Option(help=said.get(name, ""))
+        elif kind is Any and not settings:
+            shown = ",".join(f"{part:g}" for part in parameter.default)
+            words = {"names": "X,Y,Z", "help": said.get(name, "")} if name != "direction" else LIVE
+            alias = ("--live",) if name == "direction" else ()
+            option = vector(*alias, f"--{name.replace('_', '-')}", **words, show_default=shown)
         default = parameter.default if keeps_default or parameter.default is parameter.empty else None
         yield inspect.Parameter(
             name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=Annotated[kind, option]
@@ -149,7 +112,7 @@ def _kind(hint: Any, default: Any) -> tuple[Any, dict[str, Any], bool]:
     if record:
         return list[Any], {**_record(record), "show_default": False}, False
     if part is float and isinstance(default, tuple) and len(default) == 3:
-        return tuple[float, float, float], {"metavar": "X Y Z"}, True
+        return Any, {}, True
     return None, {}, False
 
 
@@ -204,4 +167,4 @@ for _make in generators().values():
     _about = _plain(_about[:1].upper() + _about[1:])
     if _rest := left_out(_make):
         _about += f"\n\nOnly in Python: {', '.join(_rest)}."
-    new.command(_make.__name__.replace("_", "-"), help=_about)(command(_make))
+    new.command(_make.__name__.replace("_", "-"), help=_about, cls=Command)(command(_make))

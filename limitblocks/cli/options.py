@@ -1,10 +1,11 @@
-"""Arguments and options that the verbs share."""
+"""Arguments and options: one place for all commands; joints are in `joints`, vectors in `vectors`."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
+from limitblocks.cli.vectors import vector
 from limitblocks.evidence.ending import Method
 from limitblocks.problem import Turning
 
@@ -44,6 +45,11 @@ ReportFile = Annotated[
     ),
 ]
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
+ResultFiles = Annotated[
+    list[Path],
+    typer.Argument(metavar="[RESULT...]", help="Result files that --output wrote.", show_default=False),
+]
+WithBounds = Annotated[bool, typer.Option("--bounds", help="Also the bounds.")]
 WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]
 WithPath = Annotated[bool, typer.Option("--path", help="Also the load path.")]
 Paths = Annotated[int, typer.Option(help="Load paths and other ways to a solution.", min=1)]
@@ -51,4 +57,50 @@ Mechanisms = Annotated[int, typer.Option(help="Mechanisms drawn at random.", min
 Seed = Annotated[int, typer.Option(help="Of all that is random.", min=0)]
 Seconds = Annotated[float, typer.Option("--time-limit", help="Seconds; of each exact program, too.", min=0.0)]
 Exact = Annotated[bool, typer.Option("--exact", help="Also the least and the greatest of all solutions.")]
+BlocksFile = Annotated[Path, typer.Argument(metavar="FILE", help="File of blocks.", show_default=False)]
+Supports = Annotated[
+    list[str],
+    typer.Option(
+        "--supports",
+        metavar="WHICH",
+        help="Blocks that do not move: a block or layer, layer:LAYER, a pattern such as 'ground*', "
+        "or 'z<0.05'; repeat. [default: those that FILE marks]",
+        show_default=False,
+    ),
+]
+MaterialsFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--materials",
+        metavar="TOML",
+        help="Table of unit weights and joints by layer or name, instead of --friction; see docs/files.md.",
+        show_default=False,
+    ),
+]
+LIVE = {"names": "X,Y,Z", "help": "Direction of the live load, which is the weight."}
+Live = Annotated[Any, vector("--live", "--direction", **LIVE)]
+UnitWeights = Annotated[
+    list[str],
+    typer.Option("--unit-weight", metavar="[LAYER=]N/M3", help="Of all blocks, or of a layer; repeat."),
+]
+Units = Annotated[
+    str | None,
+    typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft [default: as FILE says, or m]."),
+]
+Up = Annotated[
+    str | None, typer.Option(help="Axis of FILE that points up: y or z [default: as FILE says, or z].")
+]
+Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
+Workers = Annotated[
+    int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)
+]
+CsvFile = Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Also write the rows as CSV.")]
+Title = Annotated[str, typer.Option(help="Title of the report [default: name of the model].")]
+Author = Annotated[str, typer.Option(help="Who answers for the report.")]
+Project = Annotated[str, typer.Option(help="Name or number of the project.")]
+Notes = Annotated[str, typer.Option(help="What else the report should say.")]
+Demand = Annotated[
+    float | None,
+    typer.Option(help="Load factor that is needed; the report compares it.", min=0.0, show_default=False),
+]
 Version = Annotated[bool, typer.Option("--version", help="Print the version and leave.")]

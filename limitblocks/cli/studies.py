@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from limitblocks.cli.errors import INTERRUPTED as EXIT_INTERRUPTED
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import AsJson, Dilatancy, Force, ModelFile, ResultFile, Tolerance
+from limitblocks.cli.options import (
+    AsJson,
+    Count,
+    CsvFile,
+    Dilatancy,
+    Force,
+    ModelFile,
+    ResultFile,
+    Tolerance,
+    Workers,
+)
+from limitblocks.cli.progress import of_a_count
+from limitblocks.cli.vectors import Command, vector
 from limitblocks.errors import LimitBlocksError, SolveError
 
 if TYPE_CHECKING:
@@ -22,20 +33,13 @@ studies = typer.Typer(
     rich_markup_mode=None,
 )
 
-Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
 Vertical = Annotated[bool, typer.Option("--vertical", help="Also up and down.")]
 Nonassociated = Annotated[
     bool, typer.Option("--nonassociated", help="Joints that slide without lifting, not the bounds.")
 ]
-Workers = Annotated[
-    int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)
-]
-CsvFile = Annotated[Path | None, typer.Option("--csv", metavar="FILE", help="Also write the rows as CSV.")]
-MovingForce = Annotated[
-    tuple[float, float, float], typer.Option("--load", metavar="FX FY FZ", help="Force, N, global axes.")
-]
-Start = Annotated[tuple[float, float], typer.Option("--from", metavar="X Y", help="First place in plan, m.")]
-End = Annotated[tuple[float, float], typer.Option("--to", metavar="X Y", help="Last place in plan, m.")]
+MovingForce = Annotated[Any, vector("--load", names="FX,FY,FZ", help="Force, N, global axes.")]
+Start = Annotated[Any, vector("--from", names="X,Y", help="First place in plan, m.")]
+End = Annotated[Any, vector("--to", names="X,Y", help="Last place in plan, m.")]
 
 
 @studies.command()
@@ -60,12 +64,12 @@ def directions(
 
         _refuse(model, csv, output, force)
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
-        with _bar() as show:
+        with of_a_count("study") as show:
             answer = study(read(model), compass(count, vertical=vertical), progress=show, **settings)
         _tell(answer, as_json, csv, output, force)
 
 
-@studies.command()
+@studies.command(cls=Command)
 def moving(
     model: ModelFile,
     load: MovingForce,
@@ -90,7 +94,7 @@ def moving(
 
         _refuse(model, csv, output, force)
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
-        with _bar() as show:
+        with of_a_count("study") as show:
             places = np.linspace(start, end, count)
             answer = study(read(model), load, places, progress=show, **settings)
         _tell(answer, as_json, csv, output, force)
@@ -104,8 +108,8 @@ def _settings(nonassociated: bool, dilatancy: float, tolerance: float, workers: 
 
 
 def _refuse(model: Path, csv: Path | None, output: Path | None, force: bool) -> None:
-    for file in (csv, output):
-        refuse_existing(file, force, model)
+    refuse_existing(csv, force, model, option="--csv")
+    refuse_existing(output, force, model)
 
 
 def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, force: bool) -> None:
@@ -113,6 +117,7 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
     from limitblocks.io import write_result
     from limitblocks.io.result_file import result_text
     from limitblocks.reports.terminal import print_table, print_warnings
+    from limitblocks.studies.pool import INTERRUPTED
 
     if csv:
         study.write_csv(csv, overwrite=force)
@@ -127,24 +132,11 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
         print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
         print_warnings(f"row {k + 1}: {error}" for k, error in enumerate(errors) if error)
         typer.echo(f"\n{study}")
+    if INTERRUPTED in study.errors:
+        raise typer.Exit(EXIT_INTERRUPTED)
     if all(study.errors) and not (study.load_factors == float("inf")).any():
         raise SolveError(f"no analysis gave a load factor: {study.errors[0]}")
 
 
 def _cell(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else str(value)
-
-
-@contextmanager
-def _bar() -> Iterator[Callable[[int, int], None] | None]:
-    """Give a callback that shows a bar on stderr, or None where nobody watches."""
-    from rich.console import Console
-    from rich.progress import Progress
-
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield None
-        return
-    with Progress(console=console, transient=True) as bar:
-        task = bar.add_task("analysing", total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.model import Model
@@ -41,8 +42,9 @@ def motion(model: Model, result: Any) -> Motion:
     Raises
     ------
     ModelError
-        The result has no displacements, or they are not of the blocks of the model.
+        The result has no displacements, or belongs to another model.
     """
+    refuse_other(model, result)
     n = len(model.blocks)
     if isinstance(result, LoadPath):
         states = np.array([step.displacements for step in result.steps], dtype=float)
@@ -56,12 +58,6 @@ def motion(model: Model, result: Any) -> Motion:
     if states.shape[1:] != (n, 6) or not np.isfinite(states).all():
         raise ModelError(
             f"the result has displacements of shape {states.shape[1:]}; the model has {n} blocks"
-        )
-    digest = getattr(getattr(result, "collapse", result), "digest", "")
-    if digest and digest != model.digest:
-        raise ModelError(
-            f"this {type(result).__name__} belongs to model {digest[:12]}, not to this model "
-            f"{model.digest[:12]}; give the model it is a result of"
         )
     factor = magnification(model.blocks, states)
     return Motion(factor * states, factor)

@@ -71,6 +71,19 @@ def as_lists(result: Any) -> dict[str, Any]:
     return {name: getattr(result, name).tolist() for name in ARRAYS}
 
 
+def refuse_other(model: Model, result: Any) -> None:
+    """Refuse a result that says it belongs to another model; a load path says so by its collapse.
+
+    Raises
+    ------
+    ModelError
+        Its digest is another one.
+    """
+    digest = str(getattr(getattr(result, "collapse", result), "digest", ""))
+    if digest and digest != model.digest:
+        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+
+
 def claim_of(model: Model, result: Any) -> Claim:
     """Return what `result` claims of `model`; a load path claims its collapse.
 
@@ -86,9 +99,7 @@ def claim_of(model: Model, result: Any) -> Claim:
         raise ModelError(
             f"{type(result).__name__} has no {' and no '.join(missing)}; expected a Claim or a result"
         )
-    digest = str(getattr(result, "digest", ""))
-    if digest and digest != model.digest:
-        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    refuse_other(model, result)
     problem, shapes = model.problem, {}
     stresses, rows = problem.C.shape[0], len(problem.g)
     expected = ((len(model.interfaces), 6), (len(model.blocks), 6), (rows,), (stresses,), (stresses,))
@@ -106,7 +117,7 @@ def claim_of(model: Model, result: Any) -> Claim:
         proven=bool(getattr(result, "proven", False)),
         dilatancy=dilatancy,
         turning=turning_of(getattr(result, "turning", Turning.CENTROID)),
-        digest=digest,
+        digest=str(getattr(result, "digest", "")),
         **shapes,  # type: ignore[arg-type] # the required one is there
     )
 

@@ -160,7 +160,7 @@ class LoadFactorRange:
     def __str__(self) -> str:
         start = f"{self.load_path.load_factor:.6g}" if self.load_path else "none"
         exact = f"; of all solutions {self.least} to {self.greatest}" if self.least else ""
-        stopped = "" if self.complete else "; stopped by the time limit"
+        stopped = "" if self.complete else "; stopped early, by the time limit or by hand"
         return (
             f"load factor {start} by the load path; {_span(self.reached)} reached from permanent-load "
             f"states; {_span(self.certified)} certified, reachable or not{exact}{stopped}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from reprlib import repr as _value
@@ -13,10 +12,12 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, near
 
 if TYPE_CHECKING:
     from limitblocks.io.documents import Document
+
+__all__ = ["Faults", "named", "near", "validated"]
 
 _LONGEST_LINE = 500
 D = TypeVar("D", bound="Document")
@@ -63,12 +64,6 @@ class Faults(list[str]):
     def all_made(self, key: str, make: Callable[..., Any], parts: Iterable[Any], *more: Any) -> list[Any]:
         """Return what `make` gives for each part."""
         return [self.made(f"{key}[{k}]", make, part, *more) for k, part in enumerate(parts)]
-
-
-def near(name: str, known: Any) -> str:
-    """Return '; did you mean ...?', or nothing where no known name is like `name`."""
-    names = get_close_matches(name, known, 1)
-    return f"; did you mean {names[0]!r}?" if names else ""
 
 
 def _place(steps: tuple[int | str, ...], data: Any) -> str:

@@ -1,13 +1,12 @@
-"""Packages that are installed with an extra: `pip install limitblocks[meshes]`."""
+"""Packages of the extras: found when they are needed, and what to install where they are not."""
 
 from __future__ import annotations
 
-from importlib import import_module
+import re
+from importlib import import_module, metadata
 from types import ModuleType
 
 from limitblocks.errors import MissingDependency
-
-_EXTRAS = {"ezdxf": "dxf", "meshio": "meshes", "rhino3dm": "rhino", "trimesh": "meshes"}
 
 
 def package(name: str, files: str) -> ModuleType:
@@ -21,7 +20,19 @@ def package(name: str, files: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError:
-        root = name.partition(".")[0]
-        raise MissingDependency(
-            f"{files} files need {root}: pip install limitblocks[{_EXTRAS[root]}]"
-        ) from None
+        raise missing(name, f"{files} files") from None
+
+
+def missing(name: str, user: str) -> MissingDependency:
+    """Return the error that says what `user` needs and how to install it, however limitblocks itself was."""
+    top = name.partition(".")[0]
+    return MissingDependency(f"{user} needs the package {top}; install it by: pip install '{required(top)}'")
+
+
+def required(name: str) -> str:
+    """Return the requirement that the extras of limitblocks state for the package `name`."""
+    for line in metadata.requires("limitblocks") or ():
+        requirement = line.partition(";")[0].strip()
+        if re.match(r"[\w.-]+", requirement)[0].lower() == name.lower():  # type: ignore[index] # it has a name
+            return requirement
+    return name

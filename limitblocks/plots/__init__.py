@@ -1,17 +1,15 @@
-"""Figures for papers, drawn by matplotlib: `pip install limitblocks[plots]`.
+"""Figures for papers, drawn by matplotlib, which the extra `plots` installs.
 
 Every function returns the Axes it drew on; `ax` is where to draw, a new figure without it. No function
 touches pyplot, so that nothing is left open: save by ``ax.figure.savefig("wall.pdf")``.
 """
 
-from limitblocks.errors import MissingDependency
+from limitblocks.io.packages import missing
 
 try:
     import matplotlib as _matplotlib  # noqa: F401
 except ImportError as error:
-    raise MissingDependency(
-        "limitblocks.plots needs matplotlib, which is not installed; pip install limitblocks[plots]"
-    ) from error
+    raise missing("matplotlib", "limitblocks.plots") from error
 
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import bracket, convergence, load_path, polar

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,6 @@ def facts(model: Model) -> dict[str, Any]:
     diagnosis = diagnose(model)
     corners = np.concatenate([block.vertices for block in model.blocks])
     free = model.free_blocks
-    words = {joint: joint_words(joint) for joint in dict.fromkeys(i.joint for i in model.interfaces)}
     heights = np.concatenate([block.vertices[:, 2] for block in free])
     return {
         "name": model.name,
@@ -43,7 +43,9 @@ def facts(model: Model) -> dict[str, Any]:
         "heights": [float(heights.min()), float(heights.max())],
         "interface_area": float(sum(areas(interface.polygon) for interface in model.interfaces)),
         "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
-        "joints": counted(words[interface.joint] for interface in model.interfaces),
+        "joints": counted(_joints(model)),
+        "layers": counted(block.layer for block in model.blocks if block.layer),
+        "materials": _materials(model),
         "block_types": counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
         "interface_types": counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
@@ -64,9 +66,14 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
     overall = ", ".join(f"{name} {length(value)}" for name, value in known["dimensions"].items())
     foot, top = known["heights"]
+    labels = [
+        ("Layers", times(known["layers"])),
+        ("Materials", "; ".join(map(_made_of, known["materials"]))),
+    ]
     return (
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
         ("Supports", some(known["supports"])),
+        *(row for row in labels if row[1]),
         ("Size of the free blocks as a whole", overall),
         ("Height of the free blocks", f"{length(top - foot)}, from Z = {foot:.4g} m to {top:.4g} m"),
         ("Block types", times(known["block_types"])),
@@ -99,6 +106,37 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
         ("Numbers that look like slips in their unit", questions(model)),
     )
     return [[words, some([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
+
+
+def _joints(model: Model) -> Iterator[str]:
+    """Yield the joint of each interface, after the materials that it joins where they are known."""
+    material = {block.name: block.material for block in model.blocks}
+    words = {joint: joint_words(joint) for joint in dict.fromkeys(i.joint for i in model.interfaces)}
+    for one in model.interfaces:
+        pair = "|".join(sorted((material[one.block_i], material[one.block_j])))
+        yield f"{pair}: {words[one.joint]}" if pair != "|" else words[one.joint]
+
+
+def _materials(model: Model) -> list[dict[str, Any]]:
+    """Return the number of blocks, volume (m3) and unit weights (N/m3) of each material."""
+    names = counted(block.material for block in model.blocks if block.material)
+    made = {name: [block for block in model.blocks if block.material == name] for name in names}
+    return [
+        {
+            "material": name,
+            "blocks": len(blocks),
+            "volume": sum(block.volume for block in blocks),
+            "unit_weights": sorted({b.unit_weight for b in blocks if b.unit_weight is not None}),
+        }
+        for name, blocks in made.items()
+    ]
+
+
+def _made_of(one: dict[str, Any]) -> str:
+    weights = (
+        " and ".join(f"{weight / 1e3:g} kN/m³" for weight in one["unit_weights"][:3]) or "no unit weight"
+    )
+    return f"{one['blocks']} × {one['material']}, {one['volume']:.4g} m³, {weights}"
 
 
 def assumptions(model: Model) -> dict[str, list[str]]:

@@ -1,4 +1,4 @@
-"""The report as PDF, with reportlab: `pip install limitblocks[pdf]`."""
+"""The report as PDF, with reportlab, which the extra `pdf` installs."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from io import BytesIO
 from typing import Any
 from xml.sax.saxutils import escape
 
-from limitblocks.errors import MissingDependency
+from limitblocks.io.packages import missing
 from limitblocks.reports.document import (
     Chapter,
     Document,
@@ -39,9 +39,7 @@ def pdf(document: Document) -> bytes:
     try:
         from reportlab.platypus import SimpleDocTemplate
     except ImportError:
-        raise MissingDependency(
-            "a PDF needs the package reportlab; install it by: pip install limitblocks[pdf]"
-        ) from None
+        raise missing("reportlab", "a PDF") from None
     from limitblocks.reports.pdf_pages import numbered
 
     stream = BytesIO()

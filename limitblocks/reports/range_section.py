@@ -54,7 +54,8 @@ def range_section(
         checks=checks(shown.check.residuals, result.tolerance) if shown else (),
         tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
-        warnings=result.remarks + (() if result.complete else ("the time limit ended the search",)),
+        warnings=result.remarks
+        + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         steps=Table.of(
             "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
         ),

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as ProgressBar
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
 from limitblocks.reports.chapters import chapter
 from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table
@@ -98,25 +92,3 @@ def _table(part: Table) -> RichTable:
     for row in part.rows:
         table.add_row(*(Text(cell.text) for cell in row))  # Text: a name in brackets is not markup
     return table
-
-
-@contextmanager
-def shown_progress() -> Iterator[Callable[[Iteration], None] | None]:
-    """Give a callback that shows each iteration on stderr, or None where nobody watches."""
-    console = Console(stderr=True)
-    if not console.is_terminal:
-        yield None
-        return
-    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    with ProgressBar(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("solving", total=None)
-
-        def show(iteration: Iteration) -> None:
-            left = max(iteration.residuals.values(), default=float("nan"))
-            text = f"{iteration.kind}: load factor {iteration.load_factor:.6g}"
-            if left > 0.0:  # a bar by the decades of theta, or of the largest residual, down to the tolerance
-                share = min(1.0, math.log10(min(left, 1.0)) / math.log10(TOLERANCE))
-                bar.update(task, total=1.0, completed=share)
-            bar.update(task, description=text)
-
-        yield show

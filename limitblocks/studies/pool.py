@@ -19,6 +19,7 @@ from limitblocks.model import Model
 Analysis = Literal["bounds", "nonassociated"]
 Result = Bounds | Nonassociated
 Progress = Callable[[int, int], None]
+INTERRUPTED = "KeyboardInterrupt: interrupted before this one was done"
 ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}
 
 
@@ -65,7 +66,7 @@ def analyse_all(
     workers: int | None,
     progress: Progress | None,
 ) -> list[Outcome]:
-    """Return what became of each model, in order.
+    """Return what became of each model, in order; where the user interrupts it, what there is until then.
 
     Parameters
     ----------
@@ -96,11 +97,15 @@ def analyse_all(
     outcomes: dict[int, Outcome] = {k: made for k, made in enumerate(models) if isinstance(made, Outcome)}
     places = [k for k in range(len(models)) if k not in outcomes]
     tasks = [(models[k], analysis, settings) for k in places]
-    for k, outcome in zip(places, in_order(analyse, tasks, workers), strict=True):
-        outcomes[k] = outcome
-        if progress is not None:
-            progress(len(outcomes), len(models))
-    return [outcomes[k] for k in range(len(models))]
+    try:
+        for k, outcome in zip(places, in_order(analyse, tasks, workers), strict=True):
+            outcomes[k] = outcome
+            if progress is not None:
+                progress(len(outcomes), len(models))
+    except KeyboardInterrupt:
+        if not any(k in outcomes for k in places):
+            raise
+    return [outcomes.get(k, Outcome(np.nan, None, INTERRUPTED)) for k in range(len(models))]
 
 
 def in_order(

@@ -100,24 +100,33 @@ def test_noisy_meshes_are_refused_and_healed(tmp_path):
 WRONG = {
     "support": (("--supports", "bas"), "'bas' is neither a block nor a layer; did you mean 'base'?"),
     "units": (("--supports", "base", "--units", "km"), "'km'"),
-    "joint": (("--supports", "base", "--joint", "Glue"), "'Glue' is unknown"),
-    "slip": (("--supports", "base", "--slip", "round"), "'round', expected one of 'exact'"),
-    "slip of points": (("--supports", "base", "--joint", "PointContact", "--slip", "paper"), "only Orduna"),
-    "live": (("--supports", "base", "--live", "1;0;0"), "1,0,0"),
-    "live of two": (("--supports", "base", "--live", "1,0"), "three"),
+    "joint": (("--supports", "base", "--joint", "Glue"), "'--joint': 'Glue' is no joint"),
+    "slip": (
+        ("--supports", "base", "--slip", "round"),
+        "'--slip': Value error, 'round' is not one of 'exact'",
+    ),
+    "slip of points": (
+        ("--supports", "base", "--joint", "point-contact", "--slip", "paper"),
+        "--slip is 'paper', but",
+    ),
+    "live": (
+        ("--supports", "base", "--live", "1;0;0"),
+        "'--live' / '--direction': '1;0;0': expected 3 numbers, X,Y,Z",
+    ),
+    "live of two": (("--supports", "base", "--live", "1,0"), "'1,0': expected 3"),
     "unit weight": (("--supports", "base", "--unit-weight", "heavy"), "LAYER=NUMBER"),
     "layer": (("--supports", "base", "--unit-weight", "brick=1"), "LAYER=NUMBER each"),
     "gap": (("--supports", "base", "--gap", "-1"), "gap is -1.0"),
-    "friction": (("--supports", "base", "--friction", "-1"), "friction"),
+    "friction": (("--supports", "base", "--friction", "-1"), "friction is -1.0"),
 }
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_wrong_options_are_said_in_one_line(name, obj, tmp_path):
+def test_wrong_options_are_said_by_name_and_value(name, obj, tmp_path):
     options, said = WRONG[name]
     result = run(obj, *OPTIONS, *options)
     assert result.exit_code == 2
-    assert result.stderr.count("\n") == 1
+    assert "Traceback" not in result.stderr
     assert said in result.stderr
     assert not (tmp_path / "two.json").exists()
 
@@ -141,7 +150,7 @@ def test_unit_weights_by_layer(tmp_path):
         "--unit-weight",
         "support=0",
     )
-    assert run(path, *options, "--supports", "support", "--joint", "PointContact").exit_code == 0
+    assert run(path, *options, "--supports", "support", "--joint", "point-contact").exit_code == 0
     model = lb.read(tmp_path / "arch.json")
     assert {block.unit_weight for block in model.free_blocks} == {20e3}
     assert type(model.interfaces[0].joint).__name__ == "PointContact"

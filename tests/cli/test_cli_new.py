@@ -87,7 +87,7 @@ def test_nothing_is_overwritten_unless_asked():
     ("arguments", "said"),
     [
         ((*WALL, "--joint", "point-contact", "--compressive-strength", 1e6), "no compressive strength"),
-        ((*WALL, "--joint", "point-contact", "--slip", "paper"), "no slip; leave --slip out"),
+        ((*WALL, "--joint", "point-contact", "--slip", "paper"), "no slip; leave it out"),
         ((*WALL, "--slip", "round"), "'exact', 'paper', 'inner', 'outer'"),
         ((*WALL, "--friction", -1), "friction"),
         ((*WALL, "--courses", 0), "courses"),

@@ -1,5 +1,6 @@
 import json
 import sys
+import time
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -8,7 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import limitblocks as lb
-from limitblocks.cli import app
+from limitblocks.cli import app, progress
 from limitblocks.evidence.ending import Method, Status
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -342,15 +343,19 @@ def test_report_does_without_bounds_where_dilating_joints_jam(solver, file):
 
 
 @pytest.mark.usefixtures("solver")
-def test_progress_is_silent_without_a_terminal_and_shown_on_one(file, monkeypatch, capsys):
-    from limitblocks.reports.terminal import shown_progress
-
-    assert run("nonassociated", file, "--json").stderr == ""
-    with shown_progress() as show:
-        assert show is None
+def test_progress_is_lines_without_a_terminal_and_a_bar_on_one(file, monkeypatch, capsys):
+    assert run("nonassociated", file, "--json").stderr == ""  # less than ten seconds
+    monkeypatch.setattr(progress, "EVERY", 0.01)
+    at = Iteration(0.25, "step", 1.0, {"flow": 1e-3, "yield": 1e-9}, 3, 0)
+    with progress.of_iterations("path") as show:
+        show(at)
+        time.sleep(0.2)
+    captured = capsys.readouterr()
+    assert captured.err.splitlines()[-1] == "path: 0 s, step: load factor 0.25"
+    assert captured.out == ""
     monkeypatch.setenv("FORCE_COLOR", "1")
-    with shown_progress() as show:
-        show(Iteration(0.25, "step", 1.0, {"flow": 1e-3, "yield": 1e-9}, 3, 0))
+    with progress.of_iterations("path") as show:
+        show(at)
     captured = capsys.readouterr()
     assert "step: load factor 0.25" in captured.err
     assert captured.out == ""
@@ -375,3 +380,55 @@ def test_dilatancy_above_friction_is_code_2(arguments, file):
     done = run(*arguments, file)
     assert done.exit_code == 2
     assert "dilatancy is 0.9" in done.stderr
+
+
+def test_an_interrupted_analysis_writes_its_best_state_or_says_there_is_none(solver, file, tmp_path):
+    def interrupted(_model, **_settings):
+        raise KeyboardInterrupt
+
+    solver(interrupted, stopped)
+    output = tmp_path / "best.json"
+    done = run("nonassociated", file, "-o", output)
+    assert (done.exit_code, done.stdout) == (130, "")
+    assert done.stderr == "interrupted, with nothing to write yet\n"
+    assert not output.exists()
+    assert run("path", file, "--dilatancy", 0.2, "-o", output).exit_code == 3
+    assert output.exists()
+
+
+def test_a_study_interrupted_keeps_its_rows(file, tmp_path, monkeypatch):
+    from limitblocks.studies import pool
+
+    done = iter([pool.Outcome(0.25, lb.bounds(lb.read(file)), "")])
+
+    def in_order(*_):
+        yield from done
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pool, "in_order", in_order)
+    rows = tmp_path / "rows.csv"
+    arguments = ("study", "directions", file, "--count", 3, "--csv", rows)
+    kept = run(*arguments)
+    assert kept.exit_code == 130
+    assert kept.stdout.count("interrupted before this one was done") == 2
+    assert len(rows.read_text().splitlines()) == 4
+    assert run(*arguments, "--force").exit_code == 130  # not even one row: nothing is replaced
+    assert "0.25" in rows.read_text()
+
+
+def test_report_refuses_to_replace_what_it_reads(file, result):
+    done = run("report", file, result, "-o", result, "--force")
+    assert done.exit_code == 2
+    assert "is what the command reads; name another file with --output" in done.stderr
+
+
+def test_report_is_labelled(file, tmp_path):
+    output = tmp_path / "report.json"
+    labels = {"title": "North wall", "author": "A. Mason", "project": "17", "notes": "dry", "demand": "0.15"}
+    options = [word for name, text in labels.items() for word in (f"--{name}", text)]
+    assert run("report", file, *options, "-o", output).exit_code == 0
+    text = output.read_text()
+    assert json.loads(text)["title"] == labels["title"]
+    done = run("report", file, "--demand", "-1")
+    assert done.exit_code == 2
+    assert "demand" in done.stderr

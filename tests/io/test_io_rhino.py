@@ -132,7 +132,7 @@ def test_polysurfaces_extrusions_layers_and_what_is_hidden(tmp_path):
     assert imported.supports == ("ground",)
     assert imported.notes == ("left out: 1 LineCurve, 3 hidden objects",)
     again = lb.read_blocks(lb.write_blocks(imported, tmp_path / "b.3dm"))
-    assert again.layers == dict(imported.layers) | {"ground": "support"}
+    assert (again.layers, again.supports) == (imported.layers, ("ground",))
 
 
 @pytest.mark.parametrize(("units", "metres"), [("Centimeters", 0.01), ("Feet", 0.3048), ("Inches", 0.0254)])
@@ -270,7 +270,7 @@ def test_damaged_files_read_or_fail_cleanly(tmp_path):
 
 def test_without_rhino3dm(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "rhino3dm", None)
-    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[rhino\]"):
+    with pytest.raises(lb.MissingDependency, match="pip install 'rhino3dm>="):
         lb.write_blocks(STRUCTURES["wall"], tmp_path / "a.3dm")
-    with pytest.raises(lb.MissingDependency, match=r"pip install limitblocks\[rhino\]"):
+    with pytest.raises(lb.MissingDependency, match="pip install 'rhino3dm>="):
         lb.read_blocks(tmp_path / "a.3dm")

@@ -116,7 +116,7 @@ def test_pdf_names_the_package_it_needs(report, tmp_path, monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(lb.MissingDependency, match=r"reportlab.*pip install limitblocks\[pdf\]"):
+    with pytest.raises(lb.MissingDependency, match=r"reportlab.*pip install 'reportlab>=4"):
         report.save(tmp_path / "arch.pdf")
     assert not (tmp_path / "arch.pdf").exists()
 

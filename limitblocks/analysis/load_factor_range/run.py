@@ -33,6 +33,7 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
@@ -123,10 +124,12 @@ def load_factor_range(
         refuse(flow)
     task = _task(model, flow, enclosing, progress)
     begun = time.monotonic()
-    first, walked = _walked(task, paths, seed, begun + time_limit / 2)
-    drawn = _drawn(task, mechanisms if flow.constant else 0, seed, begun + time_limit)
-    ends = [_extreme(task, sense, time_limit) if exact else None for sense in (1.0, -1.0)]
-    return _result(task, first, walked, drawn, ends, (paths, mechanisms if flow.constant else 0))
+    first, walked, stopped = _walked(task, paths, seed, begun + time_limit / 2)
+    wanted = mechanisms if flow.constant else 0
+    drawn = (0, 0) if stopped else _drawn(task, wanted, seed, begun + time_limit)
+    asked = exact and not stopped
+    ends = [_extreme(task, sense, time_limit) if asked else None for sense in (1.0, -1.0)]
+    return _result(task, first, walked, drawn, ends, (paths, wanted))
 
 
 def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | None) -> _Task:
@@ -145,14 +148,17 @@ def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | Non
 
 def _walked(
     task: _Task, paths: int, seed: int, deadline: float
-) -> tuple[RangeAnswer | None, tuple[int, int]]:
-    """Follow the load path and `paths` - 1 other ways; its answer, how many were tried, how many arrived."""
+) -> tuple[RangeAnswer | None, tuple[int, int], bool]:
+    """Follow the load path and `paths` - 1 other ways; its answer, how many were tried, how many arrived.
+
+    Last whether the user stopped it, which keeps what was found until then.
+    """
 
     def watch(_: object) -> None:
         if time.monotonic() > deadline:
             raise _TimeUp
 
-    first, tried, arrived = None, 0, 0
+    first, tried, arrived, stopped = None, 0, 0, False
     try:
         tried += 1
         first = _first(task, watch)
@@ -168,7 +174,11 @@ def _walked(
             watch(None)
     except _TimeUp:
         pass
-    return first, (tried, arrived)
+    except KeyboardInterrupt:
+        if first is None and not task.collected.found:
+            raise
+        stopped = True
+    return first, (tried, arrived), stopped
 
 
 def _first(task: _Task, watch: Callable[[object], None]) -> RangeAnswer | None:
@@ -177,6 +187,8 @@ def _first(task: _Task, watch: Callable[[object], None]) -> RangeAnswer | None:
     result = nonassociated(
         task.model, dilatancy=flow.dilatancy, turning=flow.turning, progress=watch, throw=False
     )
+    if result.status is Status.INTERRUPTED:
+        raise KeyboardInterrupt
     if not result.converged:
         return None
     loaded = any(word in result.how for word in LOADING)
@@ -197,11 +209,14 @@ def _drawn(task: _Task, count: int, seed: int, deadline: float) -> tuple[int, in
             if one is not None and time.monotonic() < deadline:
                 state = draw.beyond((one.state.u, one.state.y), sense)
                 task.collected.add(state, f"descent or ascent; {one.how}", Origin.SEARCHED, keep=False)
-    while tried < count and time.monotonic() < deadline:
-        tried += 1
-        state, how = draw.solution(), f"mechanism drawn at random, seed {seed}, number {tried}"
-        task.tell(state, how)
-        arrived += task.collected.add(state, how, Origin.SEARCHED, keep=False)
+    try:
+        while tried < count and time.monotonic() < deadline:
+            tried += 1
+            state, how = draw.solution(), f"mechanism drawn at random, seed {seed}, number {tried}"
+            task.tell(state, how)
+            arrived += task.collected.add(state, how, Origin.SEARCHED, keep=False)
+    except KeyboardInterrupt:  # what was found is kept
+        tried -= 1
     return tried, arrived
 
 

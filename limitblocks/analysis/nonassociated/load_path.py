@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import end, finished, small_barrier
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
@@ -82,7 +83,7 @@ def load_path(
     NoEquilibrium
         If the dead loads alone cannot stand.
     NotConverged
-        If the path ends above the tolerance; carries the last state.
+        If the path ends above the tolerance, or the user interrupts it; carries the last state.
     """
     if snaps not in ("across", "along"):
         raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
@@ -103,17 +104,22 @@ def load_path(
         if progress is not None:
             progress(iteration)
 
-    pushes, last = pushed(
-        flow,
-        x0,
-        weights,
-        tolerance,
-        settings or Settings(),
-        scale,
-        lambda one: record(_iteration(problem, one)),
-    )
-    record(end(flow, last))
+    met: list[Pushed] = []
+
+    def push(one: Pushed) -> None:
+        while met and met[-1].start is one.start:  # taken back and pushed once more, farther
+            met.pop()
+        met.append(one)
+        record(_iteration(problem, one))
+
     how = "increments of the load path"
+    try:
+        pushes, last = pushed(flow, x0, weights, tolerance, settings or Settings(), scale, push)
+    except KeyboardInterrupt:
+        if not met:
+            raise
+        pushes, last, how = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}"
+    record(end(flow, last))
     collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
     steps, folds, trace = told(model, flow, x0, pushes, last, Told(softness * _unit(model, problem), snaps))
     tracked = small_barrier(flow, x0, scale, tolerance)

@@ -14,6 +14,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import displaced, motion
 from limitblocks.errors import ModelError
+from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.io.packages import package
 from limitblocks.model import Model
@@ -56,9 +57,10 @@ def write_vtu(
     MissingDependency
         meshio is not installed.
     ModelError
-        The suffix is wrong, or the result is not one of the model.
+        The suffix is wrong, or the result belongs to another model.
     """
     path = Path(file)
+    refuse_other(model, result)
     wanted = ".pvd" if isinstance(result, LoadPath) else ".vtu"
     if path.suffix.lower() != wanted:
         raise ModelError(f"{path}: suffix {path.suffix!r} is not that of this result; expected {wanted}")

@@ -115,10 +115,11 @@ def _numbered(key: str) -> str:
     return f"block {key}" if key.isdigit() else key
 
 
-def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "") -> Solid:
+def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "", material: str = "") -> Solid:
     vertices, faces = shape
     vertices = vertices @ place[:3, :3].T + place[:3, 3]
-    return Solid(name, layer or ("support" if support else "block"), vertices, faces, support)
+    layer = layer or material or ("support" if support else "block")
+    return Solid(name, layer, vertices, faces, support, material)
 
 
 def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Iterator[Solid]:
@@ -135,7 +136,8 @@ def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> It
         shape = next((s for word in _GEOMETRY if (s := _shape(held.get(word)))), None)
         if shape is not None:
             name = shape[1] or part.name or _numbered(str(key))
-            yield _solid(shape[0], where, name, support)
+            layer, material = (str(node.get(word) or "") for word in ("layer", "material"))
+            yield _solid(shape[0], where, name, support, layer, material)
         elif part.kind:
             left_out[f"{part.kind} without geometry"] += 1
 
@@ -181,7 +183,7 @@ def _model(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
         material = thing(materials.get(item.data.get("material"))).name
         if item.data.get("features"):
             left_out[f"features of block {name!r}"] += len(item.data["features"])
-        yield _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material)
+        yield _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material=material)
 
 
 def _parents(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -15,7 +15,7 @@ from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.part import Part
-from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, imported, metres
+from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, frame, imported
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
 CLOSING = 1e-2
@@ -74,10 +74,12 @@ def read_drawing(
             raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
         drawing = dxf.opened(path)
         stated = dxf.metres_per_unit(drawing)
-        depth = thickness / metres(units, stated)
         with foreign("DXF"):
-            solids, notes = _solids(drawing, depth, [layers] if isinstance(layers, str) else layers)
-        return imported(Contents(solids, stated, [*dxf.unit_notes(drawing), *notes]), units, unit_weight)
+            solids, notes = _solids(drawing, 1.0, [layers] if isinstance(layers, str) else layers)
+        contents = Contents(solids, stated, [*dxf.unit_notes(drawing), *notes], "z")
+        depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])
+        solids = [solid._replace(vertices=solid.vertices * depth) for solid in solids]
+        return imported(contents._replace(solids=solids), units, unit_weight, "z")
 
 
 def _solids(drawing: Any, depth: float, layers: Sequence[str] | None) -> tuple[list[Solid], list[str]]:

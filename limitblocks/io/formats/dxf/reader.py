@@ -11,14 +11,12 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.io.formats.dxf.part import Part
+from limitblocks.io.formats.dxf.part import Part, written
 from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
 from limitblocks.io.packages import package
 
-#: Application under whose name the name of a block is kept beside an entity.
-APPLICATION = "LIMITBLOCKS"
 _DEEPEST = 32  # block references within block references
-_NO_UNIT = "states no unit of length ($INSUNITS is 0); metres unless units=... is given"
+_NO_UNIT = "states no unit of length ($INSUNITS is 0)"
 
 
 def contents(path: Path) -> Contents:
@@ -40,11 +38,12 @@ def contents(path: Path) -> Contents:
                 left_out[part.kind] += 1
                 continue
             for points, loops in shape:
-                solids += shells.solids(part.name, part.layer, points, part.turned(loops))
+                made = shells.solids(part.name, part.layer, points, part.turned(loops))
+                solids += [solid._replace(material=part.material) for solid in made]
         solids += bodies.from_3d_faces(faces)
     if not solids:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)])
+    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)], "z")
 
 
 def _instead(left_out: Counter[str]) -> str:
@@ -133,7 +132,7 @@ class _Expansion:
                 yield from self.inserted(entity, matrix, own, depth)
             else:
                 # the name that was written, else a name by which the entity is found in the drawing
-                given = _given_name(entity) or name or f"{own} {entity.dxf.handle}"
+                given = written(entity, 0) or name or f"{own} {entity.dxf.handle}"
                 yield Part(entity, matrix, own, given, reference)
 
     def inserted(self, insert: Any, matrix: Array, layer: str, depth: int) -> Iterator[Part]:
@@ -154,9 +153,3 @@ class _Expansion:
             yield from self.parts(block, where, layer, f"{title} {handle}", depth + 1)
             for label in one.attribs:
                 yield Part(label, matrix, layer, "", self.references)
-
-
-def _given_name(entity: Any) -> str:
-    if not entity.has_xdata(APPLICATION):
-        return ""
-    return next((str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000), "")

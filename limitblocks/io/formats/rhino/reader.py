@@ -33,6 +33,7 @@ class Part(NamedTuple):
     matrix: Array
     layer: str
     name: str
+    material: str
 
     def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
         """Return faces in the sense they have in the model, which a mirror image turns."""
@@ -62,7 +63,8 @@ def contents(path: Path) -> Contents:
                 left_out[type(part.geometry).__name__] += 1
             else:
                 points, faces = part.placed(shape[0]), part.turned(shape[1])
-                solids += shells.solids(part.name, part.layer, points, faces)
+                made = shells.solids(part.name, part.layer, points, faces)
+                solids += [solid._replace(material=part.material) for solid in made]
         metres, said = _metres(model)
     if wrong:
         raise ModelError(*wrong)
@@ -71,7 +73,7 @@ def contents(path: Path) -> Contents:
         raise ModelError(
             f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
         )
-    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
+    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])], "z")
 
 
 def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
@@ -91,7 +93,7 @@ def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
 def _metres(model: Any) -> tuple[float | None, list[str]]:
     unit = str(model.Settings.ModelUnitSystem).rpartition(".")[2]
     if unit in {"None", "Unset"}:
-        return None, ["states no unit of length; metres unless units=... is given"]
+        return None, ["states no unit of length"]
     if unit not in _METRES:
         raise ModelError(f"unit of length is {unit!r}; set one of {', '.join(_METRES)} in Rhino")
     return _METRES[unit], []
@@ -103,6 +105,7 @@ class _Expansion:
     def __init__(self, rhino3dm: ModuleType, model: Any, left_out: Counter[str]) -> None:
         self.rhino3dm, self.model, self.left_out = rhino3dm, model, left_out
         self.met = 0
+        self.materials = model.Materials
         self.layers = {layer.Index: layer for layer in model.Layers}
         shown = {str(layer.Id): layer for layer in model.Layers}
         self.hidden = {
@@ -130,7 +133,14 @@ class _Expansion:
                 yield from self.instances(geometry, matrix, title, depth)
             elif geometry is not None:
                 path = layer.FullPath if layer is not None else ""
-                yield Part(geometry, matrix, path, title or f"{path} {str(attributes.Id)[:8]}".strip())
+                title = title or f"{path} {str(attributes.Id)[:8]}".strip()
+                yield Part(geometry, matrix, path, title, self.material(attributes, layer))
+
+    def material(self, attributes: Any, layer: Any) -> str:
+        """Return the name of the material of an object, its own or that of its layer; empty for none."""
+        own = attributes.MaterialSource == self.rhino3dm.ObjectMaterialSource.MaterialFromObject
+        index = attributes.MaterialIndex if own else layer.RenderMaterialIndex if layer is not None else -1
+        return str(self.materials[index].Name) if 0 <= index < len(self.materials) else ""
 
     def instances(self, reference: Any, matrix: Array, name: str, depth: int) -> Iterator[Part]:
         definition = self.model.InstanceDefinitions.FindId(reference.ParentIdefId)

@@ -1,0 +1,52 @@
+"""Solve, write and print: what every verb that analyses does with its answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import typer
+
+from limitblocks.cli.errors import refuse_existing
+from limitblocks.errors import NotConverged
+
+if TYPE_CHECKING:
+    from limitblocks.model import Model
+
+
+def answer(
+    solve: Callable[..., Any],
+    file: Path,
+    as_json: bool,
+    output: Path | None,
+    force: bool,
+    **settings: Any,
+) -> Any:
+    """Solve the model in `file`, write and print the result; write the best state where it stopped early."""
+    from limitblocks.io import read, write_result
+
+    refuse_existing(output, force, file)
+    model = read(file)
+    try:
+        result = solve(model, **settings)
+    except NotConverged as error:
+        if output and error.result is not None:
+            write_result(error.result, output, overwrite=force)
+            typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+        raise
+    if output:
+        write_result(result, output, overwrite=force)
+    show(model, result, as_json)
+    return result
+
+
+def show(model: Model, result: Any, as_json: bool) -> None:
+    """Print a result as tables, or as JSON and nothing else."""
+    from limitblocks.io.result_file import result_text
+    from limitblocks.reports.terminal import print_result
+
+    if as_json:
+        typer.echo(result_text(result))
+    else:
+        print_result(model, result)

@@ -1,0 +1,82 @@
+"""Progress on stderr: a bar on a terminal, elsewhere a line every ten seconds."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as ProgressBar
+
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.results import Iteration
+
+EVERY = 10.0  # s between lines
+Tell = Callable[[str, float | None], None]
+
+
+@contextmanager
+def of_iterations(verb: str) -> Iterator[Callable[[Iteration], None]]:
+    """Give a callback for the iterations of an analysis."""
+    with _told(verb) as tell:
+        yield lambda one: tell(f"{one.kind}: load factor {one.load_factor:.6g}", _share(one))
+
+
+@contextmanager
+def of_a_count(verb: str) -> Iterator[Callable[[int, int], None]]:
+    """Give a callback for the number of analyses that are done, and of all."""
+    with _told(verb) as tell:
+        yield lambda done, total: tell(f"{done} of {total}", done / total)
+
+
+def _share(one: Iteration) -> float | None:
+    """Decades of theta, or of the largest residual, on the way down to the tolerance."""
+    left = max(one.residuals.values(), default=math.nan)
+    return min(1.0, math.log10(min(left, 1.0)) / math.log10(TOLERANCE)) if left > 0.0 else None
+
+
+@contextmanager
+def _told(verb: str) -> Iterator[Tell]:
+    console = Console(stderr=True)
+    with _bar(verb, console) if console.is_terminal else _lines(verb) as tell:
+        yield tell
+
+
+@contextmanager
+def _bar(verb: str, console: Console) -> Iterator[Tell]:
+    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    with ProgressBar(*columns, console=console, transient=True) as bar:
+        task = bar.add_task(verb, total=None)
+
+        def tell(text: str, share: float | None) -> None:
+            if share is not None:
+                bar.update(task, total=1.0, completed=share)
+            bar.update(task, description=text)
+
+        yield tell
+
+
+@contextmanager
+def _lines(verb: str) -> Iterator[Tell]:
+    """Lines from a thread: one convex program may take minutes and tells nothing meanwhile."""
+    begun, said, ended = time.monotonic(), [""], threading.Event()
+
+    def watch() -> None:
+        while not ended.wait(EVERY):
+            typer.echo(f"{verb}: {time.monotonic() - begun:.0f} s{said[0]}", err=True)
+
+    def tell(text: str, _share: float | None) -> None:
+        said[0] = f", {text}"
+
+    thread = threading.Thread(target=watch, daemon=True)
+    thread.start()
+    try:
+        yield tell
+    finally:
+        ended.set()
+        thread.join()

@@ -1,0 +1,131 @@
+"""The verbs that analyse one model, and the check of a result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+
+from limitblocks.cli import analyses
+from limitblocks.cli.answers import answer, show
+from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.options import (
+    Along,
+    AsJson,
+    BackwardLimit,
+    ClaimFile,
+    Dilatancy,
+    Exact,
+    Force,
+    Mechanisms,
+    ModelFile,
+    Paths,
+    ResultFile,
+    Seconds,
+    Seed,
+    Tolerance,
+    Turns,
+    Way,
+)
+from limitblocks.evidence.ending import Method
+from limitblocks.problem import Turning
+
+DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
+
+
+def stability(
+    model: ModelFile, as_json: AsJson = False, output: ResultFile = None, force: Force = False
+) -> None:
+    """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
+    with clean_errors():
+        found = answer(analyses.stability, model, as_json, output, force)
+    if not found.stands:
+        raise typer.Exit(1)
+
+
+def bounds(
+    model: ModelFile,
+    as_json: AsJson = False,
+    tolerance: Tolerance = BOUNDS_TOLERANCE,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the static and the kinematic bound on the associated load factor."""
+    with clean_errors():
+        answer(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
+
+
+def nonassociated(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    method: Way = Method.PATH,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print a load factor for joints that slide without lifting, and its proof."""
+    with clean_errors():
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        flow |= {"method": method, "backward_error": backward_error}
+        answer(analyses.nonassociated, model, as_json, output, force, **flow)
+
+
+def path(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    along: Along = False,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the steps from the permanent loads to collapse."""
+    with clean_errors():
+        flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
+        snaps = {"snaps": "along"} if along else {}
+        answer(analyses.path, model, as_json, output, force, **flow, **snaps)
+
+
+def load_factor_range(
+    model: ModelFile,
+    dilatancy: Dilatancy = 0.0,
+    turning: Turns = Turning.CENTROID,
+    paths: Paths = 15,
+    mechanisms: Mechanisms = 100,
+    seed: Seed = 0,
+    time_limit: Seconds = 120.0,
+    exact: Exact = False,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print certified load factors of many ways, and how far they reach."""
+    with clean_errors():
+        settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
+        settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
+        answer(analyses.load_factor_range, model, as_json, output, force, **settings)
+
+
+def check(
+    model: ModelFile,
+    result: ClaimFile,
+    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    backward_error: BackwardLimit = None,
+    as_json: AsJson = False,
+) -> None:
+    """Check a result file against Eqs (54)-(59) of its model."""
+    with clean_errors():
+        from limitblocks.evidence.check import check_mcp
+        from limitblocks.io import read, read_result
+
+        structure = read(model)
+        claim = read_result(result, structure)
+        checked = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
+        if not claim.digest:
+            typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
+        show(structure, checked, as_json)
+        checked.require()
