@@ -25,7 +25,7 @@ L1, L2, FRICTION, N = 0.15, 0.10, 0.7, -240.0  # m, m, -, N: the joint of Fig. 1
 
 def main(folder="output"):
     corners = [(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)]
-    joint = lb.interface(corners, lb.OrdunaLourenco(FRICTION))
+    joint = lb.joints.interface(corners, lb.OrdunaLourenco(FRICTION))
     T0 = joint.joint.strength(joint, direction=(0, 0, 0, 0, 0, 1), given=(0, 0, N, 0, 0, 0))
     print(f"T0 = {T0:.2f} N m; the paper draws 16.3 N m in Fig. 12")
     assert abs(T0 - 16.26) < 0.005

@@ -40,7 +40,7 @@ TABLE_4 = {  # M1, M2, T
 
 
 def main(folder="output"):
-    joint = lb.interface(SQUARE * [L1, L2], lb.OrdunaLourenco(FRICTION, slip="paper"))
+    joint = lb.joints.interface(SQUARE * [L1, L2], lb.OrdunaLourenco(FRICTION, slip="paper"))
     T0 = joint.joint.strength(joint, (0, 0, 0, 0, 0, 1), given=(0, 0, N, 0, 0, 0))
     print(f"T0 = {T0:.2f} N m (Fig. 12: 16.3)")
     assert abs(T0 - 16.26) < 0.005

@@ -24,8 +24,8 @@ SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
 JOINTS = {
     "point contacts": lb.PointContact(FRICTION),
     "Orduña & Lourenço": lb.OrdunaLourenco(FRICTION),
-    "uniform pressure, outer": lb.ExactTorsion(FRICTION, side="outer"),
-    "uniform pressure, inner": lb.ExactTorsion(FRICTION, side="inner"),
+    "uniform pressure, outer": lb.joints.ExactTorsion(FRICTION, side="outer"),
+    "uniform pressure, inner": lb.joints.ExactTorsion(FRICTION, side="inner"),
 }
 
 
@@ -52,7 +52,7 @@ def main(folder="output"):
 
 def torsion(joint, ratio):
     """Torsion strength of a joint with half sides `ratio` and 1 under N = -1."""
-    interface = lb.interface(SQUARE * [ratio, 1], joint)
+    interface = lb.joints.interface(SQUARE * [ratio, 1], joint)
     return joint.strength(interface, (0, 0, 0, 0, 0, 1), given=(0, 0, -1, 0, 0, 0))
 
 
@@ -62,7 +62,7 @@ def load_factor(joint, lever):
         lb.Block.box("base", size=(1, 1, 0.1), at=(0, 0, -0.05)),
         lb.Block.box("stone", size=(0.3, 0.2, 0.1), at=(0, 0, 0.05), unit_weight=20e3),
     ]
-    live = lb.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
+    live = lb.loads.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
     return lb.bounds(
         lb.Model(blocks, ["base"], lb.find_interfaces(blocks, joint), lb.self_weight(), live)
     ).lower

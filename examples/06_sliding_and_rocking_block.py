@@ -30,7 +30,7 @@ def main(folder="output"):
     for ratio, found in zip(RATIOS, swept.load_factors, strict=True):
         print(f"b/h = {ratio:.1f}: load factor {found:.4f}, min(mu, b/h) = {min(FRICTION, ratio):.4f}")
     column = lb.bounds(lb.structures.column(JOINT, count=5, width=0.5, height=0.4)).lower
-    angle = np.degrees(lb.Tilting.angle(lb.bounds(on_tilting_plane(0.4)).lower))
+    angle = np.degrees(lb.loads.Tilting.angle(lb.bounds(on_tilting_plane(0.4)).lower))
     print(f"five blocks of b/h = 1.25: {column:.4f}; b/h = 0.4 rocks on a plane of {angle:.2f} deg")
     picture(Path(folder), swept.load_factors)
     return {"load factors": swept.load_factors, "column of five": column, "angle": angle}
@@ -43,7 +43,7 @@ def stone(ratio):
 
 def on_tilting_plane(ratio):
     """The same block under the loads of a plane that tilts towards X."""
-    model, loads = stone(ratio), lb.tilting((1, 0, 0))
+    model, loads = stone(ratio), lb.loads.tilting((1, 0, 0))
     return lb.Model(model.blocks, model.supports, model.interfaces, loads.dead, loads.live)
 
 

@@ -64,9 +64,9 @@ def arch(friction, thickness):
     joint = lb.PointContact(friction)
     model = lb.structures.arch(joint, radius=1.0, thickness=thickness, voussoirs=VOUSSOIRS)
     angles = (np.arange(VOUSSOIRS) + 0.5) * np.pi / VOUSSOIRS - np.pi / 2
-    dead = lb.Load()
+    dead = lb.loads.Load()
     for block, angle in zip(model.free_blocks, angles, strict=True):
-        dead += lb.force(block.name, (0, 0, -block.weight), at=(np.sin(angle), 0, np.cos(angle)))
+        dead += lb.loads.force(block.name, (0, 0, -block.weight), at=(np.sin(angle), 0, np.cos(angle)))
     return replace(model, dead=dead)
 
 

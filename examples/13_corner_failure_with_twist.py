@@ -22,8 +22,8 @@ import limitblocks as lb
 
 FRICTION = 0.6
 JOINTS = {
-    "uniform pressure, inner": lb.ExactTorsion(FRICTION, side="inner"),
-    "uniform pressure, outer": lb.ExactTorsion(FRICTION, side="outer"),
+    "uniform pressure, inner": lb.joints.ExactTorsion(FRICTION, side="inner"),
+    "uniform pressure, outer": lb.joints.ExactTorsion(FRICTION, side="outer"),
     "Orduña & Lourenço": lb.OrdunaLourenco(FRICTION),
     "point contacts": lb.PointContact(FRICTION),
 }
@@ -50,7 +50,7 @@ def corner(joint):
 def twisted_quoin(joint):
     """A cube of 0.4 m under its weight W and alpha times the couple W x 1 m about the vertical."""
     cube = lb.structures.block(joint, width=0.4, height=0.4, depth=0.4)
-    couple = lb.moment(cube.free_blocks[0].name, (0, 0, cube.free_blocks[0].weight))
+    couple = lb.loads.moment(cube.free_blocks[0].name, (0, 0, cube.free_blocks[0].weight))
     return lb.Model(cube.blocks, cube.supports, cube.interfaces, cube.dead, couple)
 
 

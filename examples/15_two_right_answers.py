@@ -83,7 +83,7 @@ def claim(model, press):
     slides = [
         (0.0,) * 6 if block.name in model.supports else (1 / weight, 0, 0, 0, 0, 0) for block in model.blocks
     ]
-    return lb.Claim(FRICTION * (1 + 2 * press), resultants(model, forces), np.array(slides))
+    return lb.results.Claim(FRICTION * (1 + 2 * press), resultants(model, forces), np.array(slides))
 
 
 def at_rest(model, press):

@@ -42,14 +42,14 @@ def main(folder="output"):
     for w, answer in found.items():
         print(f"walls at {w} deg: {answer}")
         exists = -np.tan(np.radians(w)) < FRICTION
-        assert (answer.kind is not lb.Standing.FALLS) == exists
+        assert (answer.kind is not lb.results.Standing.FALLS) == exists
         assert answer.stands == (w > 0)
     slopes = [lb.stability(on_a_slope(tangent)) for tangent in SLOPES]
     for tangent, answer in zip(SLOPES, slopes, strict=True):
         print(f"slope of {tangent}: {answer}")
     picture(Path(folder), wedges, found)
     return {
-        "answers": [list(lb.Standing).index(answer.kind) for answer in found.values()],
+        "answers": [list(lb.results.Standing).index(answer.kind) for answer in found.values()],
         "vertical force over weight": [lift(wedges[w], found[w]) for w in DEGREES if w > 0],
         "margin on the slope": [answer.margin for answer in slopes],
     }

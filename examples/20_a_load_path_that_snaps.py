@@ -78,7 +78,7 @@ def plug_in_its_seat():
     ]
     found = lb.find_interfaces(blocks, SEAT)
     interfaces = [replace(i, joint=JACK) if i.name == "plug|jack" else i for i in found]
-    push = lb.force("jack", (0, 0, 1), at=(0, DEPTH / 2, -0.05))
+    push = lb.loads.force("jack", (0, 0, 1), at=(0, DEPTH / 2, -0.05))
     return lb.Model(blocks, ["floor", "left", "right"], interfaces, lb.self_weight(), push)
 
 

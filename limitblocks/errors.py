@@ -23,6 +23,20 @@ from collections.abc import Iterable
 from difflib import get_close_matches
 from typing import Any
 
+__all__ = [
+    "CheckFailed",
+    "GeometryError",
+    "LimitBlocksError",
+    "MissingDependency",
+    "ModelError",
+    "NoEquilibrium",
+    "NoSolution",
+    "NotConverged",
+    "SolveError",
+    "SolverFailure",
+    "UnlimitedLoad",
+]
+
 
 class LimitBlocksError(Exception):
     """Root of all errors that limitblocks raises on purpose."""
@@ -89,3 +103,7 @@ def near(name: str, known: Iterable[str]) -> str:
     letters = {one.casefold(): one for one in known}
     names = get_close_matches(name.casefold(), letters, 1)
     return f"; did you mean {letters[names[0]]!r}?" if names else ""
+
+
+def __dir__() -> list[str]:
+    return __all__

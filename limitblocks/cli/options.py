@@ -5,9 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
+from limitblocks.choices import Method, Turning
 from limitblocks.cli.vectors import vector
-from limitblocks.evidence.ending import Method
-from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]

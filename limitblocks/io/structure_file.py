@@ -42,7 +42,8 @@ def read(
     A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
     bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
     :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
-    warnings, a line each; :func:`limitblocks.read_blocks` and :func:`limitblocks.find_contacts` return them.
+    warnings, a line each; :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return
+    them.
 
     Parameters
     ----------

@@ -208,7 +208,7 @@ def report(
     model : Model
         The structure.
     *results
-        What the analyses of this model returned, such as :class:`limitblocks.Bounds`, or what
+        What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`, or what
         :func:`limitblocks.read_result` read; a claim is checked first.
     title : str
         Title; by default the name of the model.

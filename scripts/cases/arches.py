@@ -21,7 +21,9 @@ def lumped(model):
     weight = np.mean([part.weight for part in model.free_blocks])
     points = np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
     at = zip(model.free_blocks, points, strict=True)
-    return replace(model, dead=sum((lb.force(b.name, (0, 0, -weight), at=p) for b, p in at), lb.Load()))
+    return replace(
+        model, dead=sum((lb.loads.force(b.name, (0, 0, -weight), at=p) for b, p in at), lb.loads.Load())
+    )
 
 
 def least_ratio(build, low, high):
@@ -36,7 +38,7 @@ def least_lumped(friction, expected):
 def stands(friction, ratio):
     try:
         lb.bounds(lumped(semicircle(lb.PointContact, friction, 201, ratio)))
-    except lb.NoEquilibrium:
+    except lb.errors.NoEquilibrium:
         return 0.0
     return 1.0
 
@@ -47,7 +49,7 @@ def thinnest():
     model = lumped(semicircle(lb.PointContact, 0.7, 201, 0.10743))
     keystone = model.free_blocks[100]
     weight = sum(part.weight for part in model.free_blocks)
-    push = lb.force(keystone.name, (0, 0, -0.02 * weight), at=keystone.centroid)
+    push = lb.loads.force(keystone.name, (0, 0, -0.02 * weight), at=keystone.centroid)
     return model, weight / np.pi, lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
 
 

@@ -34,7 +34,7 @@ def associated(build, joint):
     """The static bound; `lb.bounds` raises unless the kinematic one agrees and all residuals are small."""
     try:
         return lb.bounds(build(joint)).lower
-    except lb.UnlimitedLoad:
+    except lb.errors.UnlimitedLoad:
         return math.inf
 
 

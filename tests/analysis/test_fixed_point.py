@@ -108,7 +108,7 @@ def test_confirmation_is_an_option_and_only_of_answers():
     assert alone.fixed_point_change is None
     assert "fixed point" not in str(alone)
     wall = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
-    means = [lb.Means(lb.Barrier(), seed=0, budget=1)]
+    means = [lb.settings.Means(lb.settings.Barrier(), seed=0, budget=1)]
     stopped = lb.nonassociated(wall, means=means, tolerance=1e-18, throw=False)
     assert not stopped.converged
     assert stopped.fixed_point_change is None

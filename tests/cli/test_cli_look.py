@@ -144,7 +144,7 @@ def test_wrong_tables_are_said_with_their_place(drawing, tmp_path, text):
 def test_look_lists_every_bad_block(tmp_path):
     """Two of four are open; the others are looked at."""
     boxes = [lb.Block.box(f"b{k}", (1, 1, 1), (0, 0, k)) for k in range(4)]
-    file = lb.write_blocks(boxes, tmp_path / "four.obj")
+    file = lb.files.write_blocks(boxes, tmp_path / "four.obj")
     lines = file.read_text().splitlines()
     last = [k for k, line in enumerate(lines) if line.startswith("f ")][5::6]
     file.write_text("\n".join(line for k, line in enumerate(lines) if k not in last[1:3]) + "\n")
@@ -168,7 +168,7 @@ def test_look_at_a_model_file(tmp_path):
 def test_joints_drawn_open_name_distance_and_gap(tmp_path):
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
     stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]
-    file = lb.write_blocks(stones, tmp_path / "open.obj")
+    file = lb.files.write_blocks(stones, tmp_path / "open.obj")
     for said in (
         run("look", file).stdout,
         run("import", file, *OPTIONS, "--supports", "base", code=2).stderr,

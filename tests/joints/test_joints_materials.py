@@ -63,7 +63,7 @@ def test_the_weaker_of_two_is_not_above_either():
     b = lb.OrdunaLourenco(0.5, compressive_strength=8e6)
     joint = weaker(a, b)
     assert joint == lb.OrdunaLourenco(0.5, compressive_strength=5e6)
-    face = lb.interface([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]], joint)
+    face = lb.joints.interface([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]], joint)
     for Q in ([3e5, 0, -1e6, 0, 0, 0], [1e5, 1e5, -3e6, 4e5, 0, 1e4], [0, 0, -1e6, 1e5, 3e5, 5e4]):
         assert joint.utilisation(face, Q) >= max(a.utilisation(face, Q), b.utilisation(face, Q)) - 1e-12
 

@@ -136,7 +136,9 @@ def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):
     assert f"{factor * 9.80665:#.4g} m/s²" in said
     twice = replace(house, live=2.0 * house.live)
     assert f"{2.0 * 0.5:#.4g} g" in Answer(0.5, True, "").quantity(twice)
-    pushed = replace(house, live=house.live + lb.force(house.free_blocks[0].name, (1e3, 0, 0), (0, 0, 0)))
+    pushed = replace(
+        house, live=house.live + lb.loads.force(house.free_blocks[0].name, (1e3, 0, 0), (0, 0, 0))
+    )
     assert " g = " not in Answer(0.5, True, "").quantity(pushed)
 
 
@@ -182,7 +184,7 @@ def test_labels_are_text_and_nothing_else(house):
 def test_a_saved_result_is_reported(house, results, tmp_path):
     for result, name in ((results[1], "solved"), (results[0], "bounds")):
         file = tmp_path / f"{name}.json"
-        lb.write_result(result, file)
+        lb.files.write_result(result, file)
         made = lb.report(house, lb.read_result(file, house))
         assert f"{result.load_factor:#.4g}" in made.html
     assert answer(lb.report(house, lb.read_result(tmp_path / "solved.json", house)).results).certified

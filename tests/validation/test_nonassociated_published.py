@@ -44,7 +44,7 @@ def test_load_path_ends_at_the_nonassociated_load_factor(number, joint):
 def test_a_wall_checked_again_from_its_result_file(tmp_path):
     wall = lb.structures.ferris_tin_loi_wall(3, JOINTS[0])
     result = lb.nonassociated(wall)
-    again = lb.read_result(lb.write_result(result, tmp_path / "wall.json"))
+    again = lb.read_result(lb.files.write_result(result, tmp_path / "wall.json"))
     check = lb.check_mcp(wall, again)
     assert check.worst.value <= 1e-6
     assert not check.mechanism_found

@@ -49,7 +49,9 @@ def contents(path: Path) -> Contents:
 def _instead(left_out: Counter[str]) -> str:
     drawn = left_out["LWPOLYLINE"] + left_out["POLYLINE"]
     if drawn:
-        return f" but {drawn} polylines; limitblocks.read_drawing makes blocks of outlines and a thickness"
+        return (
+            f" but {drawn} polylines; limitblocks.files.read_drawing makes blocks of outlines and a thickness"
+        )
     return f" but {listed(left_out)}" if left_out else ""
 
 

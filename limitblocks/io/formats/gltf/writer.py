@@ -32,7 +32,8 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     """Write a model with the motion of a result as an animation to a GLB file, and return its path.
 
     A mechanism grows from nothing in two seconds; a load path passes through its steps in them. Motion
-    is scaled as in :func:`limitblocks.write_vtu`, and the rotations are true ones, not their linear part.
+    is scaled as in :func:`limitblocks.files.write_vtu`, and the rotations are true ones, not their linear
+    part.
 
     Parameters
     ----------
