@@ -150,7 +150,7 @@ def look(file: str | Path, *, units: str | None = None, up: str | None = None) -
             _units(contents, where, units),
             _up(contents, where, up),
             marked=made.supports,
-            wrong=made.wrong,
+            wrong=tuple(line for lines in made.wrong.values() for line in lines),
             warnings=where.warnings,
             notes=(*contents.notes, *made.notes),
         )
