@@ -3,6 +3,7 @@
 import pytest
 
 import limitblocks as lb
+from limitblocks import loads
 from limitblocks.reports.words import assumed, joint_words, load_words
 
 JOINTS = {
@@ -26,17 +27,17 @@ LOADS = {
     "the weight of every block, downwards": lb.self_weight(),
     "the weight of every block, along -Y": lb.mass_proportional((0, -2, 0)),
     "0.5 × the weight of every block, along (0.6, 0.8, 0)": 0.5 * lb.mass_proportional((3, 4, 0)),
-    "a force (1.5, 0, -2) kN on block 'a' at (0, 0, 1) m": lb.loads.force("a", (1500, 0, -2000), (0, 0, 1)),
-    "a moment (0, 0, 3) kN m on block 'a'": lb.loads.moment("a", (0, 0, 3e3)),
+    "a force (1.5, 0, -2) kN on block 'a' at (0, 0, 1) m": loads.force("a", (1500, 0, -2000), (0, 0, 1)),
+    "a moment (0, 0, 3) kN m on block 'a'": loads.moment("a", (0, 0, 3e3)),
     "a pressure of 5 kPa plus 10 kN/m³ times the depth below Z = 2 m on the face facing (0, 1, 0) of block "
-    "'a'": lb.loads.pressure("a", 5e3, facing=(0, 1, 0), unit_weight=1e4, level=2.0),
-    "fill of 18 kN/m³ up to Z = 3 m on all blocks, coefficient of horizontal earth pressure 0.3": lb.loads.fill(
+    "'a'": loads.pressure("a", 5e3, facing=(0, 1, 0), unit_weight=1e4, level=2.0),
+    "fill of 18 kN/m³ up to Z = 3 m on all blocks, coefficient of horizontal earth pressure 0.3": loads.fill(
         18e3, 3.0, earth_pressure=0.3
     ),
-    "a force (0, 0, -10) kN on top of the structure at (1, 2) m in plan": lb.loads.top_force(
+    "a force (0, 0, -10) kN on top of the structure at (1, 2) m in plan": loads.top_force(
         (0, 0, -1e4), (1, 2)
     ),
-    "a line load (0, 0, -7) kN/m on top of the structure, from (0, 0) m to (1, 0) m in plan": lb.loads.line_load(
+    "a line load (0, 0, -7) kN/m on top of the structure, from (0, 0) m to (1, 0) m in plan": loads.line_load(
         (0, 0, -7e3), (0, 0), (1, 0)
     ),
 }
@@ -56,7 +57,7 @@ def test_a_load_in_words(words):
 
 
 def test_an_added_mass_in_words():
-    mass = lb.loads.added_mass("floor", (0, 0, 3), weight=12e3)
+    mass = loads.added_mass("floor", (0, 0, 3), weight=12e3)
     words = load_words(lb.mass_proportional((1, 0, 0), [mass]))
     assert words[1] == "a mass that weighs 12 kN, fixed to block 'floor' at (0, 0, 3) m, along +X"
 
