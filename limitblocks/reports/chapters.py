@@ -43,6 +43,7 @@ MECHANISM = (
     "linearly. Dashed: the moving blocks before they moved."
 )
 VIEWS = "Front, side and plan at one scale, with the overall size of the blocks that can move."
+SENSITIVE = "Sensitivity"  # how the title of the section of such a result begins
 SENSITIVITY = (
     "How much the load factor changes with friction, unit weights and geometry is not in this report: "
     "no sensitivity was given to it."
@@ -76,7 +77,9 @@ def document(
     warnings = [warning for one in sections for warning in one.warnings] + known["warnings"]
     said = Items(tuple(warnings)) if warnings else Text("There are no warnings.")
     chapters += [_model(model, known), _assumptions(model), *shown]
-    chapters += [Chapter("Sensitivity", (Text(SENSITIVITY),)), Chapter("Warnings", (said,))]
+    if not any(one.title.startswith(SENSITIVE) for one in sections):
+        chapters.append(Chapter(SENSITIVE, (Text(SENSITIVITY),)))
+    chapters.append(Chapter("Warnings", (said,)))
     chapters += [_findings(known), _origin(model)]
     about = (
         ("Project", labels.project or NOT_STATED),
@@ -104,7 +107,7 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
 
 def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
     found = answer(results)
-    parts: list[Part] = [Headline(found.number, found.quantity(model)), Text(found.reason)]
+    parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
     said = verdict(found, labels.demand) if labels.demand is not None else None

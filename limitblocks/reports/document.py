@@ -34,10 +34,11 @@ class Heading:
 
 @dataclass(frozen=True)
 class Headline:
-    """A number to be read from afar, and what it is."""
+    """A number and what it is; `main` is the one number of a report to be read from afar."""
 
     number: str
     quantity: str
+    main: bool = False
 
 
 class Cell(NamedTuple):

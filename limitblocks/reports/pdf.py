@@ -94,7 +94,9 @@ def flowables(part: Part) -> list[Any]:
             return [_paragraph(f"• {line}", space=2.0) for line in part.lines]
         case Headline():
             number = f'<font color="#8a2f00"><b>{marked(part.number)}</b></font>'
-            return [_paragraph(number, 24.0, space=1.0, raw=True), _paragraph(part.quantity, 10.0)]
+            if not part.main:
+                return [_paragraph(f"{number} {marked(part.quantity)}", 11.0, raw=True)]
+            return [_paragraph(number, 26.0, space=1.0, raw=True), _paragraph(part.quantity, 10.0)]
         case Figure():
             return _figure(part)
         case Table():

@@ -9,6 +9,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.drawing.chains import chains
+from limitblocks.drawing.view import towards
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.reports import assets, files
 from limitblocks.reports.interfaces import MOST, active_interfaces, interface_rows
@@ -100,6 +101,13 @@ def test_largest_movement_is_drawn_at_eight_hundredths_of_the_size(arch, results
     )
     assert moved <= 0.08 * np.linalg.norm(np.ptp(corners, axis=0)) * (1 + 1e-3)
     assert np.abs(rates[:, 3:]).max() <= 0.25 * (1 + 1e-3)
+
+
+def test_the_viewer_looks_from_the_side_to_which_the_mechanism_moves(arch, results, shown):
+    for result, one in zip(results, shown["results"], strict=True):
+        moved = getattr(result, "collapse", result).displacement_rates
+        assert one["eye"] == pytest.approx(towards(arch, moved), abs=1e-5)
+    assert shown["eye"] == pytest.approx(towards(arch), abs=1e-5)
 
 
 def test_thrust_line_runs_from_support_to_support(arch):
