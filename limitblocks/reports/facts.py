@@ -74,7 +74,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
         ("Supports", some(known["supports"])),
         *(row for row in labels if row[1]),
-        ("Size of the free blocks as a whole", overall),
+        ("Size of the free blocks", overall),
         ("Height of the free blocks", f"{length(top - foot)}, from Z = {foot:.4g} m to {top:.4g} m"),
         ("Block types", times(known["block_types"])),
         ("Interfaces", f"{known['interfaces']} ({times(known['interface_types'])})"),
@@ -86,9 +86,9 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         *((f"Unit weight {row[0]}", f"{row[1]} blocks, {row[2]}, {row[3]}") for row in known["unit_weights"]),
         ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
         ("Dead load", some(known["dead"]) or "none"),
-        ("Resultant of the dead load", known["dead_resultant"]),
+        ("Its resultant", known["dead_resultant"]),
         ("Live load", some(known["live"])),
-        ("Resultant of the live load, load factor 1", known["live_resultant"]),
+        ("Its resultant", f"{known['live_resultant']}, at load factor 1"),
     )
 
 

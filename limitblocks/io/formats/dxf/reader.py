@@ -12,8 +12,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io.formats.dxf.part import Part, written
-from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.imported import MOST_FACES, Contents, foreign, read_bytes
 from limitblocks.io.packages import package
+from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # block references within block references
 _NO_UNIT = "states no unit of length ($INSUNITS is 0)"

@@ -8,8 +8,8 @@ from typing import Any
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.io.formats.dxf.part import Part
-from limitblocks.io.imported import Solid
 from limitblocks.io.shells import solids, soup
+from limitblocks.io.solid import Solid
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 
