@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,7 @@ from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
+from limitblocks.shown import Tabular
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
@@ -45,8 +47,8 @@ class Collapse(Protocol):
         """SHA-256 of the model."""
 
 
-@dataclass(frozen=True, eq=False)
-class InterfaceStates:
+@dataclass(frozen=True, eq=False, repr=False)
+class InterfaceStates(Tabular):
     """State of each of the m interfaces of a model, in its order.
 
     Attributes
@@ -85,6 +87,29 @@ class InterfaceStates:
     centre_of_pressure: Array
     force: Array
     utilisation: Array
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each interface: SI units, vectors by component."""
+        parts = {
+            "": (("V1", "V2", "N", "M1", "M2", "T"), self.stress_resultants),
+            "force_": (tuple("XYZ"), self.force),
+            "pressure_": (tuple("XYZ"), self.centre_of_pressure),
+            "rate_": (("s1", "s2", "n", "th1", "th2", "thn"), self.strain_rates),
+        }
+        names = [f"{head}{name}" for head, (letters, _) in parts.items() for name in letters]
+        values = np.hstack([array for _, array in parts.values()]).tolist()
+        words = zip(self.names, self.state, self.utilisation.tolist(), self.active_modes, strict=True)
+        return [
+            {"interface": name, "state": state, "utilisation": used}
+            | dict(zip(names, row, strict=True))
+            | {"active_modes": ", ".join(map(str, modes))}
+            for (name, state, used, modes), row in zip(words, values, strict=True)
+        ]
+
+    def __str__(self) -> str:
+        counts = Counter(self.state)
+        said = ", ".join(f"{count} {word}" for word, count in counts.most_common())
+        return f"states of {len(self.names)} interfaces: {said}"
 
 
 def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStates:
