@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import Any
+from uuid import uuid4
 
+import numpy as np
+
+from limitblocks.arrays import Array
 from limitblocks.drawing.picture import mechanism_picture
-from limitblocks.errors import MissingDependency, ModelError
+from limitblocks.errors import ModelError
 from limitblocks.evidence.interface_states import interface_states
+from limitblocks.io.packages import package
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model, model_of
+from limitblocks.reports.claims import checked
 from limitblocks.reports.facts import fact_rows, facts
-from limitblocks.reports.page import drawing, viewer_page
+from limitblocks.reports.page import environment, viewer_page
 from limitblocks.reports.scene import in_scene, scene
-from limitblocks.reports.sections import section
+from limitblocks.reports.sections import section, shown
 
-_MOST_ROWS = 8
 _MOST_ANSWERS = 8  # of a range, in one viewer
-# The style goes into a page of somebody else's: nothing of it may reach beyond the class.
-_STYLE = """
-.limitblocks { display: flex; flex-wrap: wrap; gap: 1.5em; align-items: flex-start; }
-.limitblocks table { border-collapse: collapse; font-size: 90%; }
-.limitblocks td { text-align: left; padding: .15em .8em .15em 0; border: 0; }
-.limitblocks svg { width: 340px; max-height: 340px; }
-.limitblocks svg path { stroke: #4d4943; stroke-width: 1.5; fill: #ece6da; }
-.limitblocks svg .moving path { fill: #c3daee; }
-.limitblocks svg .support path { fill: #a8a39b; }
-.limitblocks svg .ghost path, .limitblocks svg .outline path { fill: none; stroke: #999; stroke-dasharray: 5 5; }
-.limitblocks svg .axis path, .limitblocks svg .live path { fill: none; stroke-width: 3; }
-.limitblocks svg .live path { stroke: #d55e00; }
-.limitblocks svg text { font: 26px sans-serif; fill: currentColor; }
-.limitblocks svg text.end { text-anchor: end; }
-"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,40 +47,61 @@ class View:
         return viewer_page(self.scene, versions()["limitblocks"])
 
     def _repr_html_(self) -> str:
-        frame = f'width="100%" height="{self.height}" style="border: 0" allowfullscreen'
-        return f'<iframe title="{escape(self.scene["title"])}" {frame} srcdoc="{escape(self.html)}"></iframe>'
+        title, style = escape(self.scene["title"]), f"width: 100%; height: {self.height}px; border: 0"
+        return f'<iframe title="{title}" style="{style}" srcdoc="{escape(self.html)}"></iframe>'
 
     def __repr__(self) -> str:
-        return f"<view of {self.scene['title']!r}; a notebook shows it>"
+        return f"<view of {self.scene['title']!r}, which a notebook shows>"
 
 
 def view(thing: Any, model: Model | None, height: int) -> View:
     """Return the viewer of a model, or of a result of it."""
     if isinstance(thing, Model):
-        return View(scene(thing, (), thing.name or "Structure"), height)
+        return View(scene(thing, (), _title(thing)), height)
     known = _model(thing, model)
     answers = getattr(thing, "answers", (thing,))[:_MOST_ANSWERS]
-    shown = [one for one in (_in_viewer(answer) for answer in answers) if in_scene(one)]
-    return View(scene(known, shown, known.name or "Structure"), height)
+    states = (getattr(one, "solution", one) for one in answers)
+    return View(scene(known, [one for one in states if in_scene(one)], _title(known)), height)
 
 
 def html(thing: Any) -> str:
-    """Return a small table and a picture; of a result without its model the line that print writes."""
+    """Return a small table and a picture; what print writes where there is no more to show."""
     if isinstance(thing, Model):
-        rates = [[0.0] * 6] * len(thing.blocks)
-        return _figure(str(thing), fact_rows(facts(thing)), _picture(thing, rates))
+        still = np.zeros((len(thing.blocks), 6))
+        return _rendered(str(thing), fact_rows(facts(thing)), _drawing(thing, still))
     known = model_of(thing)
-    said = None
-    return str(said)
+    if known is None or not shown(thing):
+        return _rendered(type(thing).__name__, [(line,) for line in str(thing).split("; ")])
+    said = section(known, checked(known, thing))
+    rates = said.rates
+    return _rendered(
+        f"{said.title}: {said.headline} {said.quantity}",
+        [*said.values, *(("Warning", one, "") for one in said.warnings)],
+        None if rates is None else _drawing(known, rates),
+    )
 
 
 def frame(thing: Any, model: Model | None) -> Any:
     """Return the rows of a result, or those of what its interfaces do and carry, as a pandas table."""
-    try:
-        import pandas as pd
-    except ImportError:
-        raise MissingDependency(
-            "to_frame needs the package pandas; install it by: pip install 'limitblocks[tables]'"
-        ) from None
-    rows = getattr(thing, "rows", None)
-    return pd.DataFrame((rows or interface_states(_model(thing, model), thing.collapse).rows)())
+    rows = getattr(thing, "rows", None) or interface_states(_model(thing, model), thing.collapse).rows
+    return package("pandas", "to_frame()").DataFrame(rows())
+
+
+def _model(thing: Any, model: Model | None) -> Model:
+    known = model_of(thing, model)
+    if known is None:
+        raise ModelError(f"the model of this {type(thing).__name__} is not in memory any more; give it")
+    return known
+
+
+def _title(model: Model) -> str:
+    return model.name or "Structure"
+
+
+def _drawing(model: Model, rates: Array) -> Any:
+    return mechanism_picture(model, rates).sheet(_title(model))
+
+
+def _rendered(title: str, rows: Any, drawn: Any = None) -> str:
+    template = environment().get_template("notebook.html")
+    return template.render(title=title, rows=rows, drawn=drawn, id=f"limitblocks-{uuid4().hex}")

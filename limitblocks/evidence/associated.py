@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.claim import as_lists
@@ -69,6 +69,8 @@ class Bounds(Result):
     solvers: tuple[str, str]
     tolerance: float
     digest: str
+
+    title: ClassVar[str] = "Associated bounds"
 
     @property
     def collapse(self) -> Bounds:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -57,6 +57,8 @@ class Claim(Result):
     proven: bool = False
     digest: str = ""
 
+    title: ClassVar[str] = "Claimed solution"
+
     @property
     def collapse(self) -> Claim:
         """The state at collapse, which is this one."""
@@ -74,10 +76,9 @@ class Claim(Result):
         if self.dilatancy == ASSOCIATED:
             said = {"analysis": "bounds", "lower": self.load_factor, "upper": self.upper}
             said |= {"proven": self.proven}
-        given = {
-            name: None if (v := getattr(self, name)) is None else np.asarray(v).tolist() for name in ARRAYS
-        }
-        return said | given | {"model_digest": self.digest}
+        given = {name: value for name in ARRAYS if (value := getattr(self, name)) is not None}
+        arrays = {name: np.asarray(value).tolist() for name, value in given.items()}
+        return said | arrays | {"model_digest": self.digest}
 
 
 ARRAYS = (

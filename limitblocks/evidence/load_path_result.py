@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -99,6 +99,8 @@ class LoadPath(Result):
     trace: Array = field(default_factory=lambda: np.zeros((0, 3)), repr=False)
     tracked: float = np.nan
     remarks: tuple[str, ...] = ()
+
+    title: ClassVar[str] = "Load path"
 
     @property
     def load_factor(self) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -118,6 +118,8 @@ class Nonassociated(Result):
     digest: str
     unclaimed: str = ""
     fixed_point_change: float | None = None
+
+    title: ClassVar[str] = "Non-associated"
 
     @property
     def collapse(self) -> Nonassociated:

@@ -7,7 +7,7 @@ from typing import Any
 
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.io.formats.dxf.reader import Part
+from limitblocks.io.formats.dxf.part import Part
 from limitblocks.io.imported import Solid
 from limitblocks.io.shells import solids, soup
 
