@@ -48,7 +48,7 @@ class View:
 
     def _repr_html_(self) -> str:
         title, style = escape(self.scene["title"]), f"width: 100%; height: {self.height}px; border: 0"
-        return f'<iframe title="{title}" style="{style}" srcdoc="{escape(self.html)}"></iframe>'
+        return f'<iframe title="{title}" style="{style}" allow="fullscreen" srcdoc="{escape(self.html)}"></iframe>'
 
     def __repr__(self) -> str:
         return f"<view of {self.scene['title']!r}, which a notebook shows>"
