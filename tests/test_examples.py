@@ -122,6 +122,15 @@ EXPECTED = {
         "vertical force over weight": (1, 1e-6),
         "margin on the slope": ((0.6 - np.array([0.5, 0.55, 0.7])) / np.hypot(1, [0.5, 0.55, 0.7]), 1e-6),
     },
+    "23_what_the_flow_rule_costs": {
+        "block": (np.minimum([0.3, 0.5, 0.7], 1 / 1.6), 1e-6),  # min(mu, b/h)
+        "arch, share": (1, 1e-6),  # hinges alone
+        "wedge, associated": (  # mu / sqrt(sin^2 w - mu^2 cos^2 w) and mu / sin w at 45 degrees
+            [mu / np.sqrt(0.5 - 0.5 * mu**2) for mu in (0.3, 0.5, 0.7)],
+            1e-6,
+        ),
+        "wedge, without lift": ([mu * np.sqrt(2) for mu in (0.3, 0.5, 0.7)], 1e-3),
+    },
     "22_three_ranges": {  # by hand in the example
         "certified less by hand": ([0, 0], 1e-7),
         "reached within": (1, 0),

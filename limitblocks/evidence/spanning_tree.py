@@ -40,7 +40,7 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
     rank = np.empty(len(room))
     rank[order] = np.arange(1.0, len(room) + 1.0)
-    i, j = pairs[best].T
+    i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no trees of graphs of longer indices
     graph = sparse.coo_array((rank[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
     sequence, before = csgraph.breadth_first_order(csgraph.minimum_spanning_tree(graph), n, directed=False)
     depth = np.zeros(n + 1, dtype=np.int64)
