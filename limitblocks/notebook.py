@@ -47,8 +47,9 @@ class View:
         return viewer_page(self.scene, versions()["limitblocks"])
 
     def _repr_html_(self) -> str:
-        title, style = escape(self.scene["title"]), f"width: 100%; height: {self.height}px; border: 0"
-        return f'<iframe title="{title}" style="{style}" allow="fullscreen" srcdoc="{escape(self.html)}"></iframe>'
+        style = f"width: 100%; height: {self.height}px; border: 0"
+        frame = f'title="{escape(self.scene["title"])}" style="{style}" allow="fullscreen"'
+        return f'<iframe {frame} srcdoc="{escape(self.html)}"></iframe>'
 
     def __repr__(self) -> str:
         return f"<view of {self.scene['title']!r}, which a notebook shows>"

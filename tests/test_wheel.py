@@ -1,6 +1,7 @@
 """A stranger's project with the wheel installed: type checkers see types, and names that are not there."""
 
 import importlib.util
+import os
 import shutil
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
+ALONE = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "MYPYPATH")}
 PROJECT = """\
 import limitblocks as lb
 
@@ -53,7 +55,7 @@ def mypy(folder, python):
         str(python),
         "project.py",
     ]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False).stdout
+    return subprocess.run(command, cwd=folder, env=ALONE, capture_output=True, text=True, check=False).stdout
 
 
 def test_mypy_sees_types_and_faults(stranger):
@@ -75,6 +77,6 @@ def test_pyright_sees_types_and_faults(stranger):
         pytest.skip("pyright is not installed")
     folder, _, python = stranger
     command = ["pyright", "--pythonpath", str(python), "project.py"]
-    said = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False).stdout
+    said = subprocess.run(command, cwd=folder, env=ALONE, capture_output=True, text=True, check=False).stdout
     assert '"bound" is not a known attribute' in said
     assert "2 errors" in said

@@ -30,7 +30,7 @@ class RangeAnswer(Viewed):
     Attributes
     ----------
     solution : Nonassociated
-        The solution of Eqs (54)-(59); :func:`limitblocks.files.write_result` saves it.
+        The solution of Eqs (54)-(59).
     check : Check
         Its residuals, recomputed.
     origin : Origin
