@@ -108,7 +108,10 @@ def test_what_was_saved_is_read_reported_and_saved_again(name, tmp_path):
     again = lb.read_result(claim.save(tmp_path / "again.json"), MODEL)
     for field in fields(claim):
         assert np.array_equal(getattr(claim, field.name), getattr(again, field.name)), field.name
-    assert "Claimed solution" in lb.report(MODEL, claim).markdown
+    report = lb.report(MODEL, claim)
+    assert "Claimed solution" in report.markdown
+    assert [one["title"] for one in report.scene["results"]] == ["Claimed solution"]
+    assert [row["state"] for row in report.to_dict()["interfaces"][0]] == ["slide"]
     assert "0.3000" in str(lb.report(MODEL, claim))
     assert "<iframe" in claim.view()._repr_html_()
     assert "<svg" in claim._repr_html_()

@@ -157,7 +157,8 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
 
 def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     """Return the stress state and mechanism of `result`; LimitBlocksError unless it is one of `model`."""
-    collapse = result.collapse if isinstance(result, LoadPath) else result
+    given: Any = result
+    collapse: Collapse = getattr(given, "collapse", given)
     kind = type(result).__name__
     if any(getattr(collapse, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
         raise LimitBlocksError(
