@@ -24,6 +24,7 @@ from limitblocks.reports.scene import in_scene, scene
 from limitblocks.reports.sections import section, shown
 
 _MOST_ANSWERS = 8  # of a range, in one viewer
+_MOST_BLOCKS = 600  # drawn: about 1 s, and .2 MB in the notebook file
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +101,8 @@ def _title(model: Model) -> str:
 
 
 def _drawing(model: Model, rates: Array) -> Any:
+    if len(model.blocks) > _MOST_BLOCKS:
+        return None
     return mechanism_picture(model, rates).sheet(_title(model))
 
 

@@ -13,6 +13,7 @@ from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Contacts, Healed
+from limitblocks.notebook import View
 from limitblocks.reports import Report
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "Stability",
     "Standing",
     "Status",
+    "View",
 ]
 
 

@@ -51,6 +51,13 @@ def test_html_has_a_picture(name):
     assert f"<title>{MODEL.free_blocks[0].name}</title>" in SHOWN[name]._repr_html_()
 
 
+def test_a_large_model_has_a_table_alone(monkeypatch):
+    monkeypatch.setattr("limitblocks.notebook._MOST_BLOCKS", len(MODEL.blocks) - 1)
+    for thing in (MODEL, FOUND):
+        assert "<table" in thing._repr_html_()
+        assert "<svg" not in thing._repr_html_()
+
+
 def test_names_cannot_break_out_of_the_html():
     stones = [replace(MODEL.blocks[0], name="<b>"), MODEL.blocks[1]]
     old = MODEL.blocks[0].name
