@@ -19,7 +19,7 @@ Every message is one line: what is wrong, the name and value, what would be righ
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -37,17 +37,26 @@ __all__ = [
     "UnlimitedLoad",
 ]
 
+#: Faults that are listed; who mends these reads the file again.
+MOST_PROBLEMS = 20
+
+
+def bounded(lines: Sequence[str]) -> tuple[str, ...]:
+    """Return the first 20 lines, and how many more there are where there are."""
+    more = len(lines) - MOST_PROBLEMS
+    return (*lines[:MOST_PROBLEMS], f"and {more} more faults") if more > 1 else tuple(lines)
+
 
 class LimitBlocksError(Exception):
     """Root of all errors that limitblocks raises on purpose."""
 
 
 class ModelError(LimitBlocksError):
-    """The model is wrong; `problems` lists every fault found, one line each."""
+    """The model is wrong; `problems` lists the first 20 faults found, one line each, and how many more."""
 
     def __init__(self, *problems: str) -> None:
-        self.problems = problems
-        super().__init__("; ".join(problems))
+        self.problems = bounded(problems)
+        super().__init__("; ".join(self.problems))
 
 
 class GeometryError(ModelError):

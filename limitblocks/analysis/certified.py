@@ -9,6 +9,7 @@ from __future__ import annotations
 import cvxpy as cp
 import numpy as np
 
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, compatible, scaled
@@ -44,11 +45,11 @@ def certified(problem: LimitProblem, state: State, dead: Array) -> tuple[State, 
     own = own_units(problem, state)
     given = own.dimensionless(problem.in_si(state))
     p = scaled(own)
-    strict = State(0.0, dead * problem.stress_units / own.stress_units, *opening(p))
+    strict = State(0.0, dead * problem.stress_units / own.stress_units, *_opened(problem, p))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         found, proof = _certified(problem, p, given, strict)
         if proof.width > CLOSE:
-            polished = polish(Flow(own, ASSOCIATED), given)
+            polished = _polished(problem, own, given)
             closer, better = _certified(problem, p, polished, strict)
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
@@ -59,6 +60,26 @@ def _certified(problem: LimitProblem, p: Scaled, state: State, strict: State) ->
     static, moving = _static(problem, p, state, strict), _kinematic(problem, p, state, strict)
     both = State(static.load_factor, static.x, moving.u, moving.y)
     return both, _proof(problem, p, both, strict)
+
+
+def _opened(problem: LimitProblem, p: Scaled) -> tuple[Array, Array]:
+    """A mechanism that opens every joint, in the plane if there is one: where one exists, one does there."""
+    plane = in_plane(problem, every_row=True)
+    if plane is None:
+        return opening(p)
+    plane = plane.measured(p.problem)
+    u, y = opening(scaled(plane.problem))
+    found = plane.lifted(State(0.0, np.zeros(plane.problem.C.shape[0]), u, y))
+    return found.u, found.y
+
+
+def _polished(problem: LimitProblem, own: LimitProblem, state: State) -> State:
+    """The state polished, in the plane if there is one."""
+    plane = in_plane(problem)
+    if plane is None:
+        return polish(Flow(own, ASSOCIATED), state)
+    plane = plane.measured(own)
+    return plane.lifted(polish(Flow(plane.problem, ASSOCIATED), plane.averaged(state)))
 
 
 def _proof(problem: LimitProblem, p: Scaled, state: State, strict: State) -> Proof:

@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
@@ -17,6 +17,7 @@ from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
+    from limitblocks.geometry.twisted import Twisted
     from limitblocks.io.imported import ImportedBlocks
     from limitblocks.joints import Joint, Materials
     from limitblocks.model import Model
@@ -41,6 +42,18 @@ Heal = Annotated[
     bool,
     typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
 ]
+TwistedFaces = Annotated[
+    str | None,
+    typer.Option(
+        "--twisted",
+        metavar="HOW",
+        help="Faces whose corners lie in no plane: triangulate, fit or refuse [default: triangles within the "
+        "accuracy of FILE, else refused].",
+    ),
+]
+SkipBad = Annotated[
+    bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")
+]
 Width = Annotated[
     float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
@@ -63,6 +76,8 @@ def import_blocks(
     angle: Angle = None,
     width: Width = None,
     heal: Heal = False,
+    twisted: TwistedFaces = None,
+    skip_bad: SkipBad = False,
     output: Output = None,
     force: Force = False,
 ) -> None:
@@ -81,9 +96,18 @@ def import_blocks(
         load = mass_proportional(live)
         weight = _unit_weight(unit_weight, table)
         if thickness is None:
-            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(
+                file,
+                units=units,
+                unit_weight=weight,
+                up=up,
+                twisted=cast("Twisted", twisted),
+                skip_bad=skip_bad,
+            )
         else:
-            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+            imported = read_drawing(
+                file, thickness=thickness, units=units, unit_weight=weight, skip_bad=skip_bad
+            )
         _refuse_no_supports(file, imported, supports)
         used: Tolerances | None = None
         if heal:
@@ -102,7 +126,7 @@ def import_blocks(
         notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
         for word, lines in (
             ("note", notes),
-            ("warning", (*imported.warnings, *vain, *contacts.warnings, *questions(model))),
+            ("warning", (*imported.guesses, *vain, *contacts.warnings, *questions(model))),
         ):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats
 from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported, labels, read_bytes
 from limitblocks.model import Model
@@ -14,7 +15,13 @@ from limitblocks.written import write
 
 
 def read_blocks(
-    file: str | Path, *, units: str | None = None, unit_weight: UnitWeight = None, up: str | None = None
+    file: str | Path,
+    *,
+    units: str | None = None,
+    unit_weight: UnitWeight = None,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the blocks in `file`, of any format in docs/files.md but the model file.
 
@@ -27,20 +34,27 @@ def read_blocks(
         metres where it says nothing.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer; blocks of other layers get none, as supports may.
-
     up : str, optional
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+    twisted : {"refuse", "triangulate", "fit"}, optional
+        What becomes of faces whose corners lie in no plane, within 1e-3 of the block's size: an error;
+        triangles; or planes that fit the corners best, into which the vertices go. Left out: triangles where
+        the corners are off no more than four times the accuracy that faces show which touch, or than the
+        digits of the coordinates tell; else an error.
+    skip_bad : bool
+        Leave out solids that are no blocks, with a note each, instead of refusing the file.
 
     Raises
     ------
     ModelError
-        The file cannot be read, or solids in it are no blocks; `problems` has a line per fault.
+        The file cannot be read, or solids in it are no blocks; `problems` has the first 20
+        faults, a line each.
     MissingDependency
         The format needs a package that is not installed.
     """
     path = Path(file)
     with faults.named(path):
-        return imported(contents_of(path), units, unit_weight, up)
+        return imported(contents_of(path), units, unit_weight, up, twisted, skip_bad)
 
 
 def contents_of(path: Path) -> Contents:

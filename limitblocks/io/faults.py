@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from functools import cache
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["Faults", "named", "near", "validated"]
 
 _LONGEST_LINE = 500
+_MORE = re.compile(r"and \d+ more faults")
 D = TypeVar("D", bound="Document")
 
 
@@ -30,8 +32,12 @@ def named(path: Path) -> Iterator[None]:
         with np.errstate(all="ignore"):  # numbers out of all proportion end as a fault, not as a warning
             yield
     except ModelError as error:
-        lines = (shorten(f"{path}: {fault}", _LONGEST_LINE, placeholder=" ...") for fault in error.problems)
-        raise ModelError(*lines) from None
+        raise ModelError(*(_at(path, fault) for fault in error.problems)) from None
+
+
+def _at(path: Path, fault: str) -> str:
+    said = fault if _MORE.fullmatch(fault) else f"{path}: {fault}"
+    return shorten(said, _LONGEST_LINE, placeholder=" ...")
 
 
 def validated(form: type[D], text: str, data: Any) -> D:

@@ -78,15 +78,13 @@ def tilted(boxes: Boxes, up: str) -> str:
         return f"the blocks whose names say support are at the bottom along {other}, not along {this}"
     ground, carried = _shares(boxes, a)
     ground_b, carried_b = _shares(boxes, b)
-    if ground_b > _HALF or carried_b < _ALL:
-        return ""
     n = len(boxes.low)
-    if ground >= _HALF and ground_b <= ground / 2.0:
+    if ground >= _HALF and ground_b <= ground / 2.0 and carried_b >= _HALF:
         return (
             f"{round(ground * n)} of {n} blocks would lie on the ground with {this} up, "
             f"{round(ground_b * n)} with {other} up"
         )
-    if carried <= _MOST:
+    if carried <= _MOST and ground_b <= _HALF and carried_b >= _ALL:
         return (
             f"{round((1.0 - carried) * n)} of {n} blocks would have nothing below them with {this} up, "
             f"{round((1.0 - carried_b) * n)} with {other} up"

@@ -9,6 +9,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,9 +17,10 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
-from limitblocks.geometry.mend import mended
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, guesses, strict_json
 from limitblocks.io.guesses import Boxes
+from limitblocks.io.made import Made, left_out, made, refused
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -46,14 +48,17 @@ class ImportedBlocks:
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
-    warnings : tuple of str
+    guesses : tuple of str
         What was guessed, or may not be meant: the unit of length, the axis up; a line each.
+    left_out : tuple of str
+        Names of solids that are no blocks and were left out as asked; the notes say why.
     """
 
     blocks: tuple[Block, ...]
     notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def layers(self) -> dict[str, str]:
@@ -76,12 +81,16 @@ class Solid(NamedTuple):
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes."""
+    """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes.
+
+    `wrong` says of parts of the file, by name, why they are no solids.
+    """
 
     solids: Sequence[Solid]
     metres: float | None = None
     notes: Sequence[str] = ()
     up: str | None = None
+    wrong: Mapping[str, Sequence[str]] = MappingProxyType({})
 
 
 class Frame(NamedTuple):
@@ -150,7 +159,12 @@ def metres(units: str | None, stated: float | None = None) -> float:
 
 
 def imported(
-    contents: Contents, units: str | None, unit_weight: UnitWeight, up: str | None = None
+    contents: Contents,
+    units: str | None,
+    unit_weight: UnitWeight,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the solids of a file as blocks with unique names, in metres, with Z up.
 
@@ -161,45 +175,31 @@ def imported(
     """
     solids = contents.solids
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
+    if not solids and contents.wrong:
+        raise refused(contents.wrong, 0)
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
     where = frame(contents, units, up)
-    made = blocks_of(contents, where)
-    if made.wrong:
-        raise ModelError(*made.wrong)
-    weights = _weights({block.name: block.layer for block in made.blocks}, unit_weight)
+    found = blocks_of(contents, where, twisted)
+    if found.wrong and (not skip_bad or not found.blocks):
+        raise refused(found.wrong, len(found.blocks))
+    weights = _weights({block.name: block.layer for block in found.blocks}, unit_weight)
     blocks = tuple(
         block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
-        for block in made.blocks
+        for block in found.blocks
     )
-    return ImportedBlocks(blocks, (*contents.notes, *made.notes), made.supports, where.warnings)
+    notes = (*contents.notes, *found.notes, *left_out(found.wrong))
+    return ImportedBlocks(blocks, notes, found.supports, where.warnings, tuple(found.wrong))
 
 
-class Made(NamedTuple):
-    """Blocks made of solids, what was mended, why others are none, and names of those that are supports."""
-
-    blocks: tuple[Block, ...]
-    notes: tuple[str, ...]
-    wrong: tuple[str, ...]
-    supports: tuple[str, ...]
-
-
-def blocks_of(contents: Contents, where: Frame) -> Made:
+def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) -> Made:
     """Return the solids of a file as blocks with unique names, in metres, with Z up."""
-    placement = where.metres * _upright(where.up)
     names, renamed = unique_names([solid.name for solid in contents.solids])
-    blocks: list[Block] = []
-    notes, wrong, supports = list(renamed), list[str](), list[str]()
-    for name, solid in zip(names, contents.solids, strict=True):
-        try:
-            block, said = mended(name, np.asarray(solid.vertices, dtype=np.float64) @ placement, solid.faces)
-        except ModelError as error:
-            wrong += error.problems
-        else:
-            blocks.append(block.labelled(unit_weight=None, layer=solid.layer, material=solid.material))
-            notes += said
-            supports += [name] if _is_support(solid) else []
-    return Made(tuple(blocks), tuple(notes), tuple(wrong), tuple(supports))
+    named = dict(zip(names, contents.solids, strict=True))
+    found = made(named, where.metres * _upright(where.up), twisted)
+    supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
+    wrong = {**contents.wrong, **found.wrong}
+    return Made(found.blocks, (*renamed, *found.notes), wrong, supports)
 
 
 def frame(contents: Contents, units: str | None, up: str | None) -> Frame:

@@ -9,6 +9,7 @@ from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Contacts, Selection, find_contacts, select
 from limitblocks.geometry.selection import listed
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
@@ -31,6 +32,8 @@ def read(
     unit_weight: UnitWeight = None,
     units: str | None = None,
     up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
     dead: Load | None = None,
     live: Load | None = None,
     gap: float | None = None,
@@ -65,6 +68,8 @@ def read(
     up : str, optional
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z, or with
         a warning Y where the structure would lie on its side.
+    twisted, skip_bad
+        As for :func:`limitblocks.files.read_blocks`.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
     gap, angle, width : float, optional
@@ -87,13 +92,17 @@ def read(
         "unit_weight": unit_weight,
         "units": units,
         "up": up,
+        "twisted": twisted,
+        "skip_bad": skip_bad or None,
     }
     said = [key for key, value in given.items() if value is not None]
     if is_model_file(path) and said:
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(
+        path, units=units, unit_weight=unit_weight, up=up, twisted=twisted, skip_bad=skip_bad
+    )
     table = read_materials(materials) if isinstance(materials, str | Path) else materials
     with faults.named(path):
         model, contacts, vain = model_of(
@@ -108,7 +117,7 @@ def read(
             width=width,
             name=path.stem,
         )
-    for line in (*imported.notes, *imported.warnings, *vain, *contacts.warnings, *questions(model)):
+    for line in (*imported.notes, *imported.guesses, *vain, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model
@@ -145,9 +154,20 @@ def model_of(
     try:
         model = Model(blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)  # type: ignore[arg-type]
     except ModelError as error:
-        raise ModelError(*error.problems, *open_joints(contacts, blocks)) from None
+        raise ModelError(*error.problems, *open_joints(contacts, blocks), *_missing(imported)) from None
     refuse_jointless(model)
     return model, contacts, vain
+
+
+def _missing(imported: ImportedBlocks) -> list[str]:
+    """Return the line that says which parts of the file are missing in the model; none where none is."""
+    gone = imported.left_out
+    if not gone:
+        return []
+    shown = ", ".join(map(repr, gone[:8])) + (f" and {len(gone) - 8} more" if len(gone) > 8 else "")
+    return [
+        f"{len(gone)} parts of the file are no blocks and were left out: {shown}; are they what is missing?"
+    ]
 
 
 def _refuse_missing(

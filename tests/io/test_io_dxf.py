@@ -428,3 +428,31 @@ def test_damaged_drawings_read_or_fail_cleanly(tmp_path):
             problems.append(error.problems)
     assert len(problems) > 30
     assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)
+
+
+def test_outlines_that_retrace_an_edge_are_counted_once(tmp_path):
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+    def draw(space):
+        space.add_lwpolyline([*square, (0, 0), (1, 0)])  # drawn on over its first side
+        space.add_lwpolyline([(2, 0), (3, 0), (3, 1), (3, 2), (3, 1), (2, 1)], close=True)  # out and back
+
+    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
+    assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0])
+    assert sum("retraces itself" in note for note in imported.notes) == 2
+
+
+def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
+    def draw(space):
+        space.add_lwpolyline([(0, 0), (1, 0), (1, 1), (0, 1)], close=True)
+        for x in (5, 8):
+            space.add_lwpolyline([(x, 0), (x + 1, 1), (x + 1, 0), (x, 1)], close=True)
+
+    file = drawn(tmp_path / "a.dxf", draw)
+    with pytest.raises(lb.ModelError) as raised:
+        lb.files.read_drawing(file, thickness=1.0)
+    assert "2 of 3 blocks are bad" in raised.value.problems[0]
+    assert sum("crosses or touches itself" in line for line in raised.value.problems) == 2
+    imported = lb.files.read_drawing(file, thickness=1.0, skip_bad=True)
+    assert (len(imported.blocks), len(imported.left_out)) == (1, 2)
+    assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2

@@ -66,7 +66,8 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 def _section(state: dict[str, str], path: Path) -> _Section:
     if state["o"]:
-        return state["o"], state["g"] or state["usemtl"], state["usemtl"] if state["g"] else ""
+        layer, material = state["g"] or state["usemtl"], state["usemtl"]
+        return state["o"], layer, "" if material == layer else material
     return state["g"] or path.stem, state["usemtl"], ""
 
 
@@ -82,12 +83,12 @@ def _face(corners: list[str], known: int) -> _Face:
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return the OBJ file of blocks: faces, names, every digit; layers as materials or groups."""
     lines = ["# limitblocks; m, Z up"]
-    first = 1
+    first, made = 1, any(block.material for block in blocks)
     for block in blocks:
         lines.append(f"o {one_line(block.name)}")
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in block.vertices.tolist()]
         layer, material = (one_line(word) for word in (layers.get(block.name, ""), block.material))
-        lines += [f"g {layer}"] if layer and material else []
+        lines += [f"g {layer}"] if layer and made else []
         lines += [f"usemtl {material or layer}"] if material or layer else []
         lines += ["f " + " ".join(str(first + vertex) for vertex in face) for face in block.faces]
         first += len(block.vertices)

@@ -30,6 +30,7 @@ from limitblocks.io.formats.compas.geometry import frame, polygons, transformati
 from limitblocks.io.imported import SUPPORT_LAYERS, Contents, Solid, foreign
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
+_HOLDERS = {"graph", "model"}  # keys of what holds blocks: assemblies, problems of compas_dem
 _SUPPORT = ("is_support", "is_fixed", "fixed", "is_boundary")
 
 
@@ -67,6 +68,8 @@ def thing(value: Any) -> Thing:
     if not isinstance(dtype, str):
         return Thing("", value, "", "")
     data = value.get("data", value.get("value"))
+    if isinstance(data, dict) and "datatype" in data and isinstance(data.get("data"), dict):
+        data = data["data"]  # wrapped twice, as COMPAS 0.18 did
     inner = data if isinstance(data, dict) else {}
     kind = dtype.rpartition("/")[2]
     attributes = inner.get("attributes")
@@ -87,7 +90,7 @@ def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[s
         yield _solid(solid, place, name or _numbered(key), support)
     elif isinstance(data, dict) and (within := _known(data, place, left_out)) is not None:
         yield from within
-    elif isinstance(data, dict) and kind and "graph" not in data:
+    elif isinstance(data, dict) and kind and not _HOLDERS & data.keys():
         left_out[kind] += 1
     else:
         for word, part in _parts(data, key, bool(kind)):
@@ -103,12 +106,12 @@ def _known(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
     return _network(data, place) if "assembly" in data and "blocks" in data else None
 
 
-def _parts(data: Any, key: str, graph_only: bool) -> Iterator[tuple[str, Any]]:
+def _parts(data: Any, key: str, holders_only: bool) -> Iterator[tuple[str, Any]]:
     """Yield what a list, a dictionary or an assembly holds, each with the key it stands under."""
     if isinstance(data, list):
         yield from ((f"{key} {k}".strip(), part) for k, part in enumerate(data))
     elif isinstance(data, dict):
-        yield from ((k, part) for k, part in data.items() if k == "graph" or not graph_only)
+        yield from ((k, part) for k, part in data.items() if k in _HOLDERS or not holders_only)
 
 
 def _numbered(key: str) -> str:

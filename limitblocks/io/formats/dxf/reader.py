@@ -28,12 +28,17 @@ def contents(path: Path) -> Contents:
     left_out: Counter[str] = Counter()
     faces: list[Part] = []
     solids: list[Solid] = []
+    wrong: dict[str, tuple[str, ...]] = {}
     with foreign("DXF"):
         for part in parts(drawing, left_out):
             if part.kind == "3DFACE":
                 faces.append(part)
                 continue
-            shape = bodies.polygons(part)
+            try:
+                shape = bodies.polygons(part)
+            except ModelError as error:
+                wrong[part.name] = error.problems
+                continue
             if shape is None:
                 left_out[part.kind] += 1
                 continue
@@ -41,9 +46,10 @@ def contents(path: Path) -> Contents:
                 made = shells.solids(part.name, part.layer, points, part.turned(loops))
                 solids += [solid._replace(material=part.material) for solid in made]
         solids += bodies.from_3d_faces(faces)
-    if not solids:
+    if not solids and not wrong:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)], "z")
+    notes = [*unit_notes(drawing), *notes_on(left_out)]
+    return Contents(solids, metres_per_unit(drawing), notes, "z", wrong)
 
 
 def _instead(left_out: Counter[str]) -> str:

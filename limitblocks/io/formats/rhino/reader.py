@@ -50,14 +50,15 @@ def contents(path: Path) -> Contents:
     rhino3dm = package("rhino3dm", "3dm")
     model, notes = _model(rhino3dm, path)
     left_out: Counter[str] = Counter()
-    wrong: list[str] = []
+    wrong: dict[str, list[str]] = {}
     solids: list[Solid] = []
     with foreign("3dm"):
         for part in _Expansion(rhino3dm, model, left_out).everything():
             try:
                 shape = breps.polygons(rhino3dm, part.geometry)
             except ModelError as error:
-                wrong += [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
+                said = [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
+                wrong.setdefault(part.name, []).extend(said)
                 continue
             if shape is None:
                 left_out[type(part.geometry).__name__] += 1
@@ -65,15 +66,17 @@ def contents(path: Path) -> Contents:
                 points, faces = part.placed(shape[0]), part.turned(shape[1])
                 made = shells.solids(part.name, part.layer, points, faces)
                 solids += [solid._replace(material=part.material) for solid in made]
-        metres, said = _metres(model)
-    if wrong:
-        raise ModelError(*wrong)
+        metres, units = _metres(model)
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
-    if not solids:
-        raise ModelError(
-            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
+    if not solids and not wrong:
+        shown = "; switch on what is hidden, objects and layers, and save again" * (
+            "hidden objects" in left_out
         )
-    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])], "z")
+        raise ModelError(
+            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces{shown}"
+        )
+    notes += [*units, *([f"left out: {listed}"] if listed else [])]
+    return Contents(solids, metres, notes, "z", wrong)
 
 
 def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
