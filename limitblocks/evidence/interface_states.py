@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +18,7 @@ from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
+from limitblocks.shown import Tabular
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
@@ -46,8 +48,8 @@ class Collapse(Protocol):
         """SHA-256 of the model."""
 
 
-@dataclass(frozen=True, eq=False)
-class InterfaceStates:
+@dataclass(frozen=True, eq=False, repr=False)
+class InterfaceStates(Tabular):
     """State of each of the m interfaces of a model, in its order.
 
     Attributes
@@ -87,6 +89,29 @@ class InterfaceStates:
     centre_of_pressure: Array
     force: Array
     utilisation: Array
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each interface: SI units, vectors by component."""
+        parts = {
+            "": (("V1", "V2", "N", "M1", "M2", "T"), self.stress_resultants),
+            "force_": (tuple("XYZ"), self.force),
+            "pressure_": (tuple("XYZ"), self.centre_of_pressure),
+            "rate_": (("s1", "s2", "n", "th1", "th2", "thn"), self.strain_rates),
+        }
+        names = [f"{head}{name}" for head, (letters, _) in parts.items() for name in letters]
+        values = np.hstack([array for _, array in parts.values()]).tolist()
+        words = zip(self.names, self.state, self.utilisation.tolist(), self.active_modes, strict=True)
+        return [
+            {"interface": name, "state": state, "utilisation": used}
+            | dict(zip(names, row, strict=True))
+            | {"active_modes": ", ".join(map(str, modes))}
+            for (name, state, used, modes), row in zip(words, values, strict=True)
+        ]
+
+    def __str__(self) -> str:
+        counts = Counter(self.state)
+        said = ", ".join(f"{count} {word}" for word, count in counts.most_common())
+        return f"states of {len(self.names)} interfaces: {said}"
 
 
 def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStates:
@@ -134,7 +159,8 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
 
 def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     """Return the stress state and mechanism of `result`; LimitBlocksError unless it is one of `model`."""
-    collapse = result.collapse if isinstance(result, LoadPath) else result
+    given: Any = result
+    collapse: Collapse = getattr(given, "collapse", given)
     kind = type(result).__name__
     if any(getattr(collapse, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
         raise LimitBlocksError(
