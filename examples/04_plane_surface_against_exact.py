@@ -93,7 +93,7 @@ def picture(folder):
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.6), layout="constrained")
     shear1, shear2 = FRICTION * np.eye(6)[0], FRICTION * np.eye(6)[1]
     torsion, bending = FRICTION * C_T * np.eye(6)[5], L2 * np.eye(6)[3]
-    styles = ("tab:green", "tab:orange", "tab:red", "tab:purple")
+    styles = ("#009E73", "#E69F00", "#D55E00", "#CC79A7")
     for (name, joint), colour in zip(JOINTS.items(), styles, strict=True):
         dashed = "--" if joint.__class__ is lb.OrdunaLourenco else "-"
         for ax, first, second in zip(

@@ -81,7 +81,7 @@ def picture(folder, levers, found):
     right.semilogx(ratio, np.hypot(ratio, 1) / rectangle_torsion_constant(ratio, 1))
     for known in (1, 4):
         excess = torsion(JOINTS["point contacts"], known) / torsion(JOINTS["Orduña & Lourenço"], known)
-        right.plot(known, excess, "o", color="tab:red")
+        right.plot(known, excess, "o", color="#D55E00")
         right.annotate(f"{excess:.2f}", (known, excess), xytext=(8, -10), textcoords="offset points")
     right.set(xlabel="aspect ratio $l_1/l_2$", ylabel="torsion strength, points / uniform pressure")
     right.set(ylim=(1.8, 2.02), title="Point contacts overestimate torsion")

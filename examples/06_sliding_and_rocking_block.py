@@ -53,10 +53,10 @@ def picture(folder, load_factors):
     figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained", width_ratios=(1.4, 1, 1))
     ratio = np.linspace(0, 1.2, 200)
     axes[0].plot(ratio, np.minimum(FRICTION, ratio), color="0.6", label="min(mu, b/h)")
-    axes[0].plot(RATIOS, load_factors, "o", color="tab:red", label="found")
+    axes[0].plot(RATIOS, load_factors, "o", color="#D55E00", label="found")
     axes[0].set(xlabel="b/h", ylabel="load factor", ylim=(0, 0.7), title="A block with friction 0.6")
-    axes[0].annotate("rocks", (0.2, 0.33), color="tab:blue")
-    axes[0].annotate("slides", (0.85, 0.63), color="tab:blue")
+    axes[0].annotate("rocks", (0.2, 0.33), color="#0072B2")
+    axes[0].annotate("slides", (0.85, 0.63), color="#0072B2")
     axes[0].legend(frameon=False, loc="lower right")
     for ax, ratio, word in zip(axes[1:], (0.3, 1.0), ("rocks", "slides"), strict=True):
         lb.plots.mechanism(stone(ratio), lb.nonassociated(stone(ratio)), ax=ax)

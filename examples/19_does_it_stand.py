@@ -33,7 +33,7 @@ FRICTION = 0.6
 DEGREES = (-40, -20, 0, 20, 40)
 SLOPES = (0.5, 0.55, 0.7)
 UNIT_WEIGHT = 20e3
-COLOURS = {"STANDS": "tab:green", "SELF_STRESS": "tab:orange", "FALLS": "tab:red"}
+COLOURS = {"STANDS": "#009E73", "SELF_STRESS": "#E69F00", "FALLS": "#D55E00"}
 
 
 def main(folder="output"):

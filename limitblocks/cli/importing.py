@@ -126,7 +126,7 @@ def import_blocks(
         notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
         for word, lines in (
             ("note", notes),
-            ("warning", (*imported.warnings, *vain, *contacts.warnings, *questions(model))),
+            ("warning", (*imported.guesses, *vain, *contacts.warnings, *questions(model))),
         ):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)

@@ -80,8 +80,9 @@ def _next(seen: Look, units: str | None, up: str | None) -> str:
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
     words = ["limitblocks", "import", seen.file]
-    words += ["--units", units] if units else []
-    words += ["--up", up] if up else []
+    for option, given, known in (("--units", units, seen.units), ("--up", up, seen.up)):
+        stated, _, source = known.partition(", ")
+        words += [option, stated.lower()] if given or source.startswith("guessed") else []
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)
         words += [part for one in chosen for part in ("--supports", one)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import warnings
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
@@ -32,6 +33,9 @@ MOST_FACES = 1_000_000
 #: From axes with Y up to axes with Z up.
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
+#: Control characters, and halves of letters.
+_NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
+
 UnitWeight = float | Mapping[str, float] | None
 
 
@@ -48,16 +52,16 @@ class ImportedBlocks:
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
+    guesses : tuple of str
+        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     left_out : tuple of str
         Names of solids that are no blocks and were left out as asked; the notes say why.
-    warnings : tuple of str
-        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     """
 
     blocks: tuple[Block, ...]
     notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
 
     @property
@@ -114,8 +118,8 @@ def refuse_many(solids: int = 0, faces: int = 0) -> None:
 
 
 def one_line(name: str) -> str:
-    """Return a name as one line of a text file, without blanks around it."""
-    return " ".join(name.split())
+    """Return a name as one line of text without blanks around it; what is no letter becomes U+FFFD."""
+    return " ".join(_NO_LETTER.sub("\ufffd", " ".join(name.split())).split())
 
 
 @contextmanager
@@ -248,7 +252,7 @@ def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
 
     The first of a name keeps it, the others get a number: "stone", "stone 2", "stone 3".
     """
-    given = [" ".join(name.split()) or "block" for name in names]
+    given = [one_line(name) or "block" for name in names]
     times, taken, last = Counter(given), set(given), dict.fromkeys(given, 1)
     unique = []
     for name in given:

@@ -76,8 +76,10 @@ class Look:
     marked_supports : tuple of str
         Blocks that the file says do not move.
     likely_supports : tuple of LikelySupports
-    warnings, notes : tuple of str
-        What may not be meant; what was mended and left out.
+    warnings : tuple of str
+        What may not be meant.
+    notes : tuple of str
+        What was mended and left out.
     """
 
     file: str
@@ -169,7 +171,7 @@ def _look(
     notes: tuple[str, ...] = (),
 ) -> Look:
     if not blocks:
-        raise ModelError(*wrong)
+        raise ModelError(*(wrong or ("holds no solid; expected at least one block",)))
     corners = np.concatenate([block.vertices for block in blocks])
     contacts = find_contacts(blocks, None)
     return Look(

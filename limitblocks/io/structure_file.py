@@ -117,7 +117,7 @@ def read(
             width=width,
             name=path.stem,
         )
-    for line in (*imported.notes, *imported.warnings, *vain, *contacts.warnings, *questions(model)):
+    for line in (*imported.notes, *imported.guesses, *vain, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import limitblocks as lb
+from limitblocks.structures.cases import Comparison
 
 JOINTS = {"OrdunaLourenco": lb.OrdunaLourenco, "PointContact": lb.PointContact}
 FLOWS = ("associated", "non-associated")
@@ -23,11 +24,20 @@ class Case:
     run: Callable[[], float]
     quick: bool = False
     at_least: bool = False  # every value from the published one upwards is right
+    comparison: Comparison = Comparison.SAME
 
     def met(self, computed):
         if self.at_least:
             return computed >= self.published - self.tolerance
         return computed == self.published or abs(computed - self.published) <= self.tolerance
+
+
+def of_print(group, structure, quantity, published, run, **options):
+    """The case of a value in the registry of `limitblocks.structures.cases`."""
+    value, tolerance = published.value, published.tolerance
+    options.setdefault("source", published.source)
+    return Case(group, structure, quantity, options.pop("source"), value, tolerance, run,
+                comparison=published.comparison, **options)  # fmt: skip
 
 
 def associated(build, joint):

@@ -62,7 +62,7 @@ def test_look_tells_what_is_there(drawing):
         "Size             4 × 1 × 2.6 m",
         "Likely supports  'layer:BASE': 1 (",
         "taken as mm, 4 m large with blocks of 1 m",
-        "Next: limitblocks import portal.dxf --supports layer:BASE --friction",
+        "Next: limitblocks import portal.dxf --units mm --supports layer:BASE --friction",
     ):
         assert line in said
     seen = json.loads(run("look", drawing, "--units", "mm", "--json").stdout)
@@ -90,7 +90,7 @@ def test_supports_by_layer_pattern_and_height(drawing, wanted):
 
 
 def test_a_stranger_gets_to_a_report(drawing):
-    """Five commands, as in docs/files.md."""
+    """Five commands, as in docs/from-a-drawing.md."""
     run("look", drawing)
     said = run(
         "import", drawing, "--units", "mm", "--supports", "layer:BASE", "--materials", "stones.toml",
