@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.least import least_loads, least_stresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.analysis.programs import Program, in_cone, solved, solvers
-from limitblocks.analysis.scales import scaled
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.evidence.associated import Bounds
@@ -90,19 +88,9 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
         raise ModelError("a candidate has a prestress; give the ties without it")
     tied = reinforced(model, *candidates)
     problem = tied.problem
-    p = scaled(problem)
-    x = cp.Variable(problem.C.shape[0])
     ties = problem.stress_interface >= len(model.interfaces)
-    weights = np.where(ties, p.stress * problem.stress_units, 0.0)
-    loads = p.dead + required * problem.units.live / p.load_factor * p.live
-    program = Program(
-        cp.Problem(
-            cp.Minimize((weights / weights.max()) @ x),
-            [p.C.T @ x == loads, *in_cone(p.F @ x + p.g, p.cones)],
-        ),
-        (x,),
-    )
-    (forces,) = _least(program, bool(problem.cones.second_order), "ties", required)
+    weights = np.where(ties, problem.stress_units, 0.0)
+    forces = least_stresses(problem, required * problem.units.live, weights)
     amounts = np.maximum(forces * weights, 0.0)[ties]
     own = [_of_force(one, amount) for one, amount in zip(candidates, amounts, strict=True)]
     kept = [one for one, amount in zip(own, amounts, strict=True) if amount > NONE * amounts.max(initial=0.0)]
@@ -136,19 +124,13 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         raise ModelError("least_masses needs at least one place")
     direction = pushes[0][1].direction
     problem, free = model.problem, model.free_blocks
-    p = scaled(problem)
     ones = [added_mass(block, at, weight=1.0) for block, at in places]
-    columns = []
-    for one in ones:
-        down, push = one.on(free), replace(one, direction=direction).on(free)
-        columns.append((down + required * push).ravel() / problem.units.loads / p.equation)
-    most = max(float(np.abs(column).max()) for column in columns)
-    x, m = cp.Variable(problem.C.shape[0]), cp.Variable(len(ones), nonneg=True)
-    loads = p.dead + required * problem.units.live / p.load_factor * p.live
-    balance = p.C.T @ x == loads + np.stack(columns, axis=1) / most @ m
-    program = Program(cp.Problem(cp.Minimize(cp.sum(m)), [balance, *in_cone(p.F @ x + p.g, p.cones)]), (m,))
-    (found,) = _least(program, bool(problem.cones.second_order), "masses", required)
-    amounts = np.maximum(found / most, 0.0) * (1.0 + AMPLE)
+    columns = [
+        (one.on(free) + required * replace(one, direction=direction).on(free)).ravel() / problem.units.loads
+        for one in ones
+    ]
+    found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
+    amounts = found * (1.0 + AMPLE)
     amounts = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
     heaps = [replace(one, weight=float(a)) for one, a in zip(ones, amounts, strict=True) if a > 0.0]
     added = replace(
@@ -157,19 +139,6 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
     )
     return _repair(amounts, added, required)
-
-
-def _least(program: Program, conic: bool, word: str, required: float) -> tuple[Array, ...]:
-    """The first finite answer of a solver; the bounds of the reinforced structure judge it."""
-    said = []
-    for solver in solvers(conic):
-        found = solved(program, solver)
-        if all(np.isfinite(value).all() for value in found.values) and "infeasible" not in found.status:
-            return found.values
-        said.append(f"{solver.name} {found.status}")
-    if any("infeasible" in one for one in said):
-        raise ModelError(f"the {word} cannot bring the structure to the load factor {required:g}")
-    raise SolverFailure(f"no least {word} found: " + "; ".join(said))
 
 
 def _of_force(element: Element, force: float) -> Element:
