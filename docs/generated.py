@@ -62,7 +62,8 @@ def api(module_name):
     if not public:
         return _constants(module)
     kinds = {"Functions": [], "Classes": [], "Errors": []}
-    for name in sorted(public, key=str.lower):
+    above = [] if module is lb else [n for n in public if getattr(lb, n, None) is getattr(module, n)]
+    for name in sorted(set(public) - set(above), key=str.lower):
         thing = getattr(module, name)
         if inspect.isclass(thing):
             kinds["Errors" if issubclass(thing, Exception) else "Classes"].append((name, _class(thing)))
@@ -70,7 +71,9 @@ def api(module_name):
             kinds["Functions"].append((name, ["autofunction"]))
         elif not inspect.ismodule(thing):
             kinds["Classes"].append((name, ["autodata", "   :no-value:"]))
-    return "\n".join(_group(module_name, kind, names) for kind, names in kinds.items() if names)
+    groups = [_group(module_name, kind, names) for kind, names in kinds.items() if names]
+    also = f"Also here: {', '.join(f'`{name}`' for name in above)}, see above.\n" if above else ""
+    return "\n".join([also, *groups])
 
 
 def _group(module, title, entries):

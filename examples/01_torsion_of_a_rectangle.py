@@ -25,7 +25,7 @@ L1, L2, FRICTION, N = 0.15, 0.10, 0.7, -240.0  # m, m, -, N: the joint of Fig. 1
 
 def main(folder="output"):
     corners = [(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)]
-    joint = lb.interface(corners, lb.OrdunaLourenco(FRICTION))
+    joint = lb.joints.interface(corners, lb.OrdunaLourenco(FRICTION))
     T0 = joint.joint.strength(joint, direction=(0, 0, 0, 0, 0, 1), given=(0, 0, N, 0, 0, 0))
     print(f"T0 = {T0:.2f} N m; the paper draws 16.3 N m in Fig. 12")
     assert abs(T0 - 16.26) < 0.005
@@ -40,7 +40,7 @@ def picture(folder):
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
     x, y = np.meshgrid(np.linspace(-0.135, 0.135, 13), np.linspace(-0.085, 0.085, 8))
     r = np.hypot(x, y)
-    left.quiver(x, y, -y / r, x / r, scale=24, width=0.004, pivot="mid", color="tab:blue")
+    left.quiver(x, y, -y / r, x / r, scale=24, width=0.004, pivot="mid", color="#0072B2")
     left.fill([L1, L1, -L1, -L1], [-L2, L2, L2, -L2], facecolor="0.94", edgecolor="black", zorder=0)
     left.plot(0, 0, "k+")
     left.set(
@@ -51,7 +51,7 @@ def picture(folder):
     right.plot(ratio, rectangle_torsion_constant(1, ratio), label="rectangle, Eq. (17)")
     right.plot(ratio, np.full_like(ratio, 0.5), ":", color="black", label="line, Eq. (22)")
     right.plot(
-        L2 / L1, rectangle_torsion_constant(1, L2 / L1), "o", color="tab:red", label="the joint of Fig. 12"
+        L2 / L1, rectangle_torsion_constant(1, L2 / L1), "o", color="#D55E00", label="the joint of Fig. 12"
     )
     right.set(xlabel="$l_2/l_1$", ylabel="$c_T/l_1$", title="Torsion constant", ylim=(0.45, 0.8))
     right.legend(frameon=False)

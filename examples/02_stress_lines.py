@@ -45,9 +45,9 @@ def picture(folder):
         else:
             radii = np.arange(0.05, distance + L1 + L2, 0.1)
             lines = [(-distance + r * np.cos(angle), r * np.sin(angle)) for r in radii]
-            ax.plot(-distance, 0, "+", color="tab:red", markersize=10, markeredgewidth=2)
+            ax.plot(-distance, 0, "+", color="#D55E00", markersize=10, markeredgewidth=2)
         for x, y in lines:
-            ax.plot(x, y, color="tab:blue", linewidth=1, clip_path=joint)
+            ax.plot(x, y, color="#0072B2", linewidth=1, clip_path=joint)
         where = (
             "infinitely far"
             if np.isinf(distance)

@@ -40,7 +40,7 @@ TABLE_4 = {  # M1, M2, T
 
 
 def main(folder="output"):
-    joint = lb.interface(SQUARE * [L1, L2], lb.OrdunaLourenco(FRICTION, slip="paper"))
+    joint = lb.joints.interface(SQUARE * [L1, L2], lb.OrdunaLourenco(FRICTION, slip="paper"))
     T0 = joint.joint.strength(joint, (0, 0, 0, 0, 0, 1), given=(0, 0, N, 0, 0, 0))
     print(f"T0 = {T0:.2f} N m (Fig. 12: 16.3)")
     assert abs(T0 - 16.26) < 0.005
@@ -80,7 +80,7 @@ def torsion_shear(ax):
     ax.plot(
         [*V, 1],
         [*approximate_torsion_shear(V), 0],
-        color="tab:red",
+        color="#D55E00",
         linewidth=2,
         label="planes, Eqs (23)-(29)",
     )
@@ -91,7 +91,7 @@ def torsion_shear(ax):
 
 def torsion_bending(ax):
     M1 = np.linspace(0, -L2 * N, 200)
-    for share, colour in ((0.0, "tab:blue"), (0.5, "tab:green"), (1.0, "tab:purple")):
+    for share, colour in ((0.0, "#0072B2"), (0.5, "#009E73"), (1.0, "#CC79A7")):
         M2 = -share * L1 * N
         ax.plot(
             M1,
@@ -137,7 +137,7 @@ def bending_surface(ax):
     exact = rectangle_torsion_bending(L1, L2, FRICTION, N, M1, M2)
     planes = approximate_torsion_bending(L1, L2, FRICTION, N, M1, M2)
     ax.plot_surface(M1, M2, exact, cmap="viridis", rstride=4, cstride=4)
-    ax.plot_wireframe(M1, M2, planes, color="tab:red", linewidth=0.7, rstride=8, cstride=8)
+    ax.plot_wireframe(M1, M2, planes, color="#D55E00", linewidth=0.7, rstride=8, cstride=8)
     for point, (m1, m2, T) in TABLE_4.items():
         ax.text(m1 * 1.06, m2 * 1.06, T + 1, point, fontweight="bold", zorder=20)
     ax.set(xlabel="$M_1$ (N m)", ylabel="$M_2$ (N m)", zlabel="$T$ (N m)")

@@ -27,8 +27,8 @@ L1, L2, FRICTION = 0.15, 0.10, 0.7
 RECTANGLE = np.array([(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)])
 C_T = float(rectangle_torsion_constant(L1, L2))
 JOINTS = {
-    "uniform pressure, inner": lb.ExactTorsion(FRICTION, fineness=4, side="inner"),
-    "uniform pressure, outer": lb.ExactTorsion(FRICTION, fineness=4, side="outer"),
+    "uniform pressure, inner": lb.joints.ExactTorsion(FRICTION, fineness=4, side="inner"),
+    "uniform pressure, outer": lb.joints.ExactTorsion(FRICTION, fineness=4, side="outer"),
     "planes of the paper": lb.OrdunaLourenco(FRICTION, slip="paper"),
     "the same, round friction": lb.OrdunaLourenco(FRICTION),
 }
@@ -41,7 +41,7 @@ def main(folder="output"):
     for name, load_factor in found.items():
         print(f"{name:28s}: load factor {load_factor:.4f}, {load_factor / exact - 1:+.1%}; exact {exact:.4f}")
     inner, outer, *_ = found.values()
-    gap = JOINTS["uniform pressure, inner"].discretisation_error(lb.interface(RECTANGLE, None))
+    gap = JOINTS["uniform pressure, inner"].discretisation_error(lb.joints.interface(RECTANGLE, None))
     assert inner <= exact <= outer <= (1 + gap) ** 2 * inner
     diagonal = [joint_strength(joint, np.pi / 8) / FRICTION for joint in list(JOINTS.values())[2:]]
     print(f"shear strength at 22.5 deg over mu |N|: octagon {diagonal[0]:.4f}, circle {diagonal[1]:.4f}")
@@ -57,7 +57,7 @@ def pushed_aside(joint, lever):
         lb.Block.box("base", size=(1, 1, 0.1), at=(0, 0, -0.05)),
         lb.Block.box("stone", size=(2 * L1, 2 * L2, 0.1), at=(0, 0, 0.05), unit_weight=20e3),
     ]
-    live = lb.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
+    live = lb.loads.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
     return lb.Model(blocks, ["base"], lb.find_interfaces(blocks, joint), lb.self_weight(), live)
 
 
@@ -75,13 +75,13 @@ def exact_load_factor(lever):
 def joint_strength(joint, angle):
     """Shear strength in a direction for N = -1."""
     direction = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
-    return joint.strength(lb.interface(RECTANGLE, joint), direction, given=(0, 0, -1, 0, 0, 0))
+    return joint.strength(lb.joints.interface(RECTANGLE, joint), direction, given=(0, 0, -1, 0, 0, 0))
 
 
 def cut(joint, first, second):
     """Boundary of the yield set at N = -1 in the plane of two stress directions."""
     angles = np.linspace(0, np.pi / 2, 91)
-    interface = lb.interface(RECTANGLE, joint)
+    interface = lb.joints.interface(RECTANGLE, joint)
     rays = [np.cos(a) * np.array(first) + np.sin(a) * np.array(second) for a in angles]
     t = np.array([joint.strength(interface, ray, given=(0, 0, -1, 0, 0, 0)) for ray in rays])
     return t * np.cos(angles), t * np.sin(angles)
@@ -93,7 +93,7 @@ def picture(folder):
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.6), layout="constrained")
     shear1, shear2 = FRICTION * np.eye(6)[0], FRICTION * np.eye(6)[1]
     torsion, bending = FRICTION * C_T * np.eye(6)[5], L2 * np.eye(6)[3]
-    styles = ("tab:green", "tab:orange", "tab:red", "tab:purple")
+    styles = ("#009E73", "#E69F00", "#D55E00", "#CC79A7")
     for (name, joint), colour in zip(JOINTS.items(), styles, strict=True):
         dashed = "--" if joint.__class__ is lb.OrdunaLourenco else "-"
         for ax, first, second in zip(

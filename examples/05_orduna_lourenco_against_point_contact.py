@@ -24,8 +24,8 @@ SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
 JOINTS = {
     "point contacts": lb.PointContact(FRICTION),
     "Orduña & Lourenço": lb.OrdunaLourenco(FRICTION),
-    "uniform pressure, outer": lb.ExactTorsion(FRICTION, side="outer"),
-    "uniform pressure, inner": lb.ExactTorsion(FRICTION, side="inner"),
+    "uniform pressure, outer": lb.joints.ExactTorsion(FRICTION, side="outer"),
+    "uniform pressure, inner": lb.joints.ExactTorsion(FRICTION, side="inner"),
 }
 
 
@@ -52,7 +52,7 @@ def main(folder="output"):
 
 def torsion(joint, ratio):
     """Torsion strength of a joint with half sides `ratio` and 1 under N = -1."""
-    interface = lb.interface(SQUARE * [ratio, 1], joint)
+    interface = lb.joints.interface(SQUARE * [ratio, 1], joint)
     return joint.strength(interface, (0, 0, 0, 0, 0, 1), given=(0, 0, -1, 0, 0, 0))
 
 
@@ -62,7 +62,7 @@ def load_factor(joint, lever):
         lb.Block.box("base", size=(1, 1, 0.1), at=(0, 0, -0.05)),
         lb.Block.box("stone", size=(0.3, 0.2, 0.1), at=(0, 0, 0.05), unit_weight=20e3),
     ]
-    live = lb.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
+    live = lb.loads.force("stone", (0, blocks[1].weight, 0), at=(lever, 0, 0))
     return lb.bounds(
         lb.Model(blocks, ["base"], lb.find_interfaces(blocks, joint), lb.self_weight(), live)
     ).lower
@@ -81,7 +81,7 @@ def picture(folder, levers, found):
     right.semilogx(ratio, np.hypot(ratio, 1) / rectangle_torsion_constant(ratio, 1))
     for known in (1, 4):
         excess = torsion(JOINTS["point contacts"], known) / torsion(JOINTS["Orduña & Lourenço"], known)
-        right.plot(known, excess, "o", color="tab:red")
+        right.plot(known, excess, "o", color="#D55E00")
         right.annotate(f"{excess:.2f}", (known, excess), xytext=(8, -10), textcoords="offset points")
     right.set(xlabel="aspect ratio $l_1/l_2$", ylabel="torsion strength, points / uniform pressure")
     right.set(ylim=(1.8, 2.02), title="Point contacts overestimate torsion")

@@ -30,7 +30,7 @@ def main(folder="output"):
     for ratio, found in zip(RATIOS, swept.load_factors, strict=True):
         print(f"b/h = {ratio:.1f}: load factor {found:.4f}, min(mu, b/h) = {min(FRICTION, ratio):.4f}")
     column = lb.bounds(lb.structures.column(JOINT, count=5, width=0.5, height=0.4)).lower
-    angle = np.degrees(lb.Tilting.angle(lb.bounds(on_tilting_plane(0.4)).lower))
+    angle = np.degrees(lb.loads.Tilting.angle(lb.bounds(on_tilting_plane(0.4)).lower))
     print(f"five blocks of b/h = 1.25: {column:.4f}; b/h = 0.4 rocks on a plane of {angle:.2f} deg")
     picture(Path(folder), swept.load_factors)
     return {"load factors": swept.load_factors, "column of five": column, "angle": angle}
@@ -43,7 +43,7 @@ def stone(ratio):
 
 def on_tilting_plane(ratio):
     """The same block under the loads of a plane that tilts towards X."""
-    model, loads = stone(ratio), lb.tilting((1, 0, 0))
+    model, loads = stone(ratio), lb.loads.tilting((1, 0, 0))
     return lb.Model(model.blocks, model.supports, model.interfaces, loads.dead, loads.live)
 
 
@@ -53,10 +53,10 @@ def picture(folder, load_factors):
     figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained", width_ratios=(1.4, 1, 1))
     ratio = np.linspace(0, 1.2, 200)
     axes[0].plot(ratio, np.minimum(FRICTION, ratio), color="0.6", label="min(mu, b/h)")
-    axes[0].plot(RATIOS, load_factors, "o", color="tab:red", label="found")
+    axes[0].plot(RATIOS, load_factors, "o", color="#D55E00", label="found")
     axes[0].set(xlabel="b/h", ylabel="load factor", ylim=(0, 0.7), title="A block with friction 0.6")
-    axes[0].annotate("rocks", (0.2, 0.33), color="tab:blue")
-    axes[0].annotate("slides", (0.85, 0.63), color="tab:blue")
+    axes[0].annotate("rocks", (0.2, 0.33), color="#0072B2")
+    axes[0].annotate("slides", (0.85, 0.63), color="#0072B2")
     axes[0].legend(frameon=False, loc="lower right")
     for ax, ratio, word in zip(axes[1:], (0.3, 1.0), ("rocks", "slides"), strict=True):
         lb.plots.mechanism(stone(ratio), lb.nonassociated(stone(ratio)), ax=ax)

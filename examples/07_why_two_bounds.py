@@ -111,10 +111,10 @@ def picture(folder, arch, lower, upper, bounds):
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.4), layout="constrained", width_ratios=(1.1, 1, 1))
-    axes[0].plot(SHARES, lower, "o-", color="tab:blue", label="it stands: thrust within the middle share")
+    axes[0].plot(SHARES, lower, "o-", color="#0072B2", label="it stands: thrust within the middle share")
     shown = upper[upper < 3 * bounds.upper]
     axes[0].plot(
-        np.linspace(1, 1 / 3, len(shown)), shown, ".", color="tab:red", label="it falls: four hinges, sorted"
+        np.linspace(1, 1 / 3, len(shown)), shown, ".", color="#D55E00", label="it falls: four hinges, sorted"
     )
     axes[0].axhline(bounds.upper, color="0.6", linestyle=":")
     axes[0].set(xlabel="share of the joints used", ylabel="load factor", ylim=(0, None))

@@ -20,9 +20,10 @@ program with complementarity constraints, Int. J. Mech. Sci. 43, 209-224; equati
 from pathlib import Path
 
 import limitblocks as lb
+from limitblocks.structures.cases import FERRIS_TIN_LOI, FERRIS_TIN_LOI_NONASSOCIATED
 
-ASSOCIATED = {1: 0.64286, 2: 0.58000, 3: 0.40369, 4: 0.33195}
-NONASSOCIATED = {1: 0.640, 2: 0.563, 3: 0.356, 4: 0.264}
+ASSOCIATED = {number: one.value for number, one in FERRIS_TIN_LOI.items()}
+NONASSOCIATED = {number: one.value for number, one in FERRIS_TIN_LOI_NONASSOCIATED.items()}
 
 
 def main(folder="output"):

@@ -33,7 +33,7 @@ import limitblocks as lb
 
 PRINTED = {0.395832: 0.107426, 0.309215: 0.200637}  # friction: t/R
 FRICTIONS = (0.31, 0.33, 0.35, 0.37, 0.39, 0.45, 0.6)
-VOUSSOIRS = 51
+VOUSSOIRS = 35
 
 
 def main(folder="output"):
@@ -64,9 +64,9 @@ def arch(friction, thickness):
     joint = lb.PointContact(friction)
     model = lb.structures.arch(joint, radius=1.0, thickness=thickness, voussoirs=VOUSSOIRS)
     angles = (np.arange(VOUSSOIRS) + 0.5) * np.pi / VOUSSOIRS - np.pi / 2
-    dead = lb.Load()
+    dead = lb.loads.Load()
     for block, angle in zip(model.free_blocks, angles, strict=True):
-        dead += lb.force(block.name, (0, 0, -block.weight), at=(np.sin(angle), 0, np.cos(angle)))
+        dead += lb.loads.force(block.name, (0, 0, -block.weight), at=(np.sin(angle), 0, np.cos(angle)))
     return replace(model, dead=dead)
 
 
@@ -95,7 +95,7 @@ def picture(folder, found):
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.4), layout="constrained", width_ratios=(1.2, 1, 1))
     friction = np.r_[np.linspace(0.309215, 0.3958, 40), 0.395832, 0.62]
     axes[0].plot(friction, [continuous(mu) for mu in friction], color="0.6", label="equations")
-    axes[0].plot(FRICTIONS, found, "o", color="tab:red", label=f"{VOUSSOIRS} voussoirs")
+    axes[0].plot(FRICTIONS, found, "o", color="#D55E00", label=f"{VOUSSOIRS} voussoirs")
     axes[0].plot(PRINTED.keys(), PRINTED.values(), "k*", markersize=12, label="Cocchetti & Rizzi (2020)")
     axes[0].axvspan(0.24, 0.309215, color="0.92")
     axes[0].annotate("no thickness\nstands", (0.245, 0.125), color="0.35", fontsize="small")

@@ -58,7 +58,7 @@ def picture(folder, found, limit):
     model = lunes(found[-1] * 1.001, COUNTS[-1])  # just standing
     lb.plots.thrust_line(model, lb.bounds(model, tolerance=1e-5), ax=second)
     second.set_title(f"Line of thrust, t/R = {found[-1]:.4f}")
-    third.plot(1 / np.square(COUNTS), found, "o-", color="tab:red", label="found")
+    third.plot(1 / np.square(COUNTS), found, "o-", color="#D55E00", label="found")
     third.axhline(0.0428, color="0.6", linestyle=":", label="0.0428, as thrust lines")
     third.axhline(0.042, color="0.6", label="Heyman (1967), 0.042")
     third.plot(0, limit, "k*", markersize=12, label="many voussoirs")

@@ -83,7 +83,7 @@ def claim(model, press):
     slides = [
         (0.0,) * 6 if block.name in model.supports else (1 / weight, 0, 0, 0, 0, 0) for block in model.blocks
     ]
-    return lb.Claim(FRICTION * (1 + 2 * press), resultants(model, forces), np.array(slides))
+    return lb.results.Claim(FRICTION * (1 + 2 * press), resultants(model, forces), np.array(slides))
 
 
 def at_rest(model, press):
@@ -117,7 +117,7 @@ def picture(folder, model, claims, started):
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained", width_ratios=(1.1, 1, 1))
     press = np.linspace(0, 2, 50)
     axes[0].plot(press, FRICTION * (1 + 2 * press), color="0.6", label="mu (1 + 2 P/W): all are solutions")
-    axes[0].plot(PRESSES, [one.load_factor for one in claims], "o", color="tab:red", label="claimed by hand")
+    axes[0].plot(PRESSES, [one.load_factor for one in claims], "o", color="#D55E00", label="claimed by hand")
     ends = [(pressing(model, found), found.load_factor) for found in started]
     axes[0].plot(*zip(*ends, strict=True), "kx", markersize=10, label="found, started from P = 0 and P = W")
     axes[0].set(xlabel="force of the ceiling over weight, P/W", ylabel="load factor", ylim=(0, 1.6))

@@ -31,13 +31,10 @@ from pathlib import Path
 import numpy as np
 
 import limitblocks as lb
-from limitblocks.geometry.polygon import areas
-from limitblocks.joints.queries import Queries
-from limitblocks.joints.torsion import torsion_constants
 
 
 @dataclass(frozen=True)
-class Mortar(Queries):
+class Mortar(lb.joints.Queries):
     """Friction and cohesion (Pa) within the exact surface; rocking with a tensile strength (Pa).
 
     The analyses need `friction` and `yield_rows`. Queries adds questions to one joint, such as strength(...).
@@ -49,21 +46,21 @@ class Mortar(Queries):
 
     def yield_rows(self, polygons, stress_unit=1.0):
         m, n, _ = polygons.shape
-        area = areas(polygons)[:, None] / stress_unit
+        area = lb.joints.areas(polygons)[:, None] / stress_unit
         edge = np.roll(polygons, -1, axis=1) - polygons
         normal = np.stack([edge[..., 1], -edge[..., 0]], axis=2) / np.linalg.norm(edge, axis=2)[..., None]
         distance = (normal * polygons).sum(axis=2)
         signs = np.array(list(product((1.0, -1.0), repeat=3)))
         F = np.zeros((m, 8 + n, 6))
         F[:, :8, [0, 1, 5]] = -signs
-        F[:, :8, 5] /= torsion_constants(polygons)[:, None]
+        F[:, :8, 5] /= lb.joints.torsion_constants(polygons)[:, None]
         F[:, :8, 2] = -self.friction
         F[:, 8:, 2] = -1.0
         F[:, 8:, 3], F[:, 8:, 4] = -normal[..., 1] / distance, normal[..., 0] / distance
         G = F.copy()
         G[:, :8, 2] = 0.0
         g = np.repeat(area * [[self.cohesion, self.tensile_strength]], [8, n], axis=1)
-        return lb.YieldRows(
+        return lb.joints.YieldRows(
             F=F,
             g=g,
             G=G,
@@ -109,7 +106,7 @@ def twisted(joint):
         model.supports,
         model.interfaces,
         model.dead,
-        lb.force(stone.name, (stone.weight, 0, 0), at=at),
+        lb.loads.force(stone.name, (stone.weight, 0, 0), at=at),
     )
 
 
@@ -117,7 +114,7 @@ def picture(folder):
     import matplotlib.pyplot as plt
 
     figure, axes = plt.subplots(1, 3, figsize=(14, 4.8), layout="constrained", width_ratios=(1, 1.2, 0.7))
-    square = lb.interface([(0.25, -0.25), (0.25, 0.25), (-0.25, 0.25), (-0.25, -0.25)], None)
+    square = lb.joints.interface([(0.25, -0.25), (0.25, 0.25), (-0.25, 0.25), (-0.25, -0.25)], None)
     for ax, (x, y) in zip(axes, (("V1", "V2"), ("V1", "T")), strict=False):
         lb.plots.interaction(Mortar(0.6), square, x, y, exact=True, label="your joint, dry", ax=ax)
         lb.plots.interaction(lb.OrdunaLourenco(0.6), square, x, y, label="Orduña & Lourenço", ax=ax)

@@ -95,14 +95,14 @@ def picture(folder, model, checks):
     names = list(next(iter(checks.values())).residuals.to_dict())
     values = np.array([list(check.residuals.to_dict().values()) for check in checks.values()])
     drawn = np.clip(values, 1e-9, 1)
-    right.imshow(drawn, norm=LogNorm(1e-9, 1), cmap="RdYlGn_r", aspect="auto", alpha=0.75)
+    right.imshow(drawn, norm=LogNorm(1e-9, 1), cmap="YlOrBr", aspect="auto", alpha=0.75)
     for (row, column), value in np.ndenumerate(values):
         text = "0" if value < 1e-12 else f"{value:.1e}"
         right.text(
             column, row, text, ha="center", va="center", fontweight="bold" if value > TOLERANCE else None
         )
     verdicts = [f"{word}: {'passed' if check.passed else 'FAILED'}" for word, check in checks.items()]
-    right.set_xticks(range(len(names)), names)
+    right.set_xticks(range(len(names)), names, fontsize=8)
     right.set_yticks(range(len(checks)), verdicts)
     right.set_title("Residuals of five claims; bold: above the tolerance of 1e-8")
     figure.savefig(folder / "17_check_somebody_elses_answer.png", dpi=120)

@@ -32,7 +32,7 @@ import numpy as np
 import limitblocks as lb
 
 FRICTION = 0.6
-DEGREES = (20, 30, 45, 60, 80)
+DEGREES = (20, 45, 70)
 JOINTS = {
     "circle": lb.OrdunaLourenco(FRICTION),
     "octagon": lb.OrdunaLourenco(FRICTION, slip="paper"),
@@ -51,7 +51,7 @@ def main(folder="output"):
         assert least - 1e-4 <= alpha["octagon"][k] <= most + 1e-4
     lifted = lb.bounds(groove(JOINTS["circle"], 45)).lower
     print(f"w = 45 deg, associated: {lifted:.4f}")
-    picture(Path(folder), alpha, {name: shear(groove(JOINTS[name], 45), found[name][2]) for name in JOINTS})
+    picture(Path(folder), alpha, {name: shear(groove(JOINTS[name], 45), found[name][1]) for name in JOINTS})
     ratio = np.array([expected(w) for w in DEGREES])
     return {
         "circle over mu / sin w": alpha["circle"] / ratio,
@@ -88,17 +88,17 @@ def picture(folder, alpha, shears):
         degrees,
         expected(degrees, LOCKED),
         np.minimum(expected(degrees, -LOCKED), 5),
-        color="tab:red",
+        color="#D55E00",
         alpha=0.2,
         label="octagon: all of these",
     )
-    axes[0].plot(degrees, expected(degrees), color="tab:blue", label="circle: mu / sin w")
+    axes[0].plot(degrees, expected(degrees), color="#0072B2", label="circle: mu / sin w")
     angle = np.linspace(0, 2 * np.pi, 200)
-    axes[1].plot(np.cos(angle), np.sin(angle), color="tab:blue")
+    axes[1].plot(np.cos(angle), np.sin(angle), color="#0072B2")
     corner = np.pi / 8 + np.pi / 4 * np.arange(9)
-    axes[1].plot(*np.array([np.cos(corner), np.sin(corner)]) / np.cos(np.pi / 8), color="tab:red")
+    axes[1].plot(*np.array([np.cos(corner), np.sin(corner)]) / np.cos(np.pi / 8), color="#D55E00")
     for (name, values), mark, colour in zip(
-        alpha.items(), ("o", "s", "x"), ("tab:blue", "tab:red", "black"), strict=True
+        alpha.items(), ("o", "s", "x"), ("#0072B2", "#D55E00", "black"), strict=True
     ):
         axes[0].plot(DEGREES, values, mark, color=colour, label=f"found, {name}")
         axes[1].plot(*shears[name], mark, color=colour, label=name)

@@ -33,7 +33,7 @@ FRICTION = 0.6
 DEGREES = (-40, -20, 0, 20, 40)
 SLOPES = (0.5, 0.55, 0.7)
 UNIT_WEIGHT = 20e3
-COLOURS = {"STANDS": "tab:green", "SELF_STRESS": "tab:orange", "FALLS": "tab:red"}
+COLOURS = {"STANDS": "#009E73", "SELF_STRESS": "#E69F00", "FALLS": "#D55E00"}
 
 
 def main(folder="output"):
@@ -42,14 +42,14 @@ def main(folder="output"):
     for w, answer in found.items():
         print(f"walls at {w} deg: {answer}")
         exists = -np.tan(np.radians(w)) < FRICTION
-        assert (answer.kind is not lb.Standing.FALLS) == exists
+        assert (answer.kind is not lb.results.Standing.FALLS) == exists
         assert answer.stands == (w > 0)
     slopes = [lb.stability(on_a_slope(tangent)) for tangent in SLOPES]
     for tangent, answer in zip(SLOPES, slopes, strict=True):
         print(f"slope of {tangent}: {answer}")
     picture(Path(folder), wedges, found)
     return {
-        "answers": [list(lb.Standing).index(answer.kind) for answer in found.values()],
+        "answers": [list(lb.results.Standing).index(answer.kind) for answer in found.values()],
         "vertical force over weight": [lift(wedges[w], found[w]) for w in DEGREES if w > 0],
         "margin on the slope": [answer.margin for answer in slopes],
     }

@@ -78,7 +78,7 @@ def plug_in_its_seat():
     ]
     found = lb.find_interfaces(blocks, SEAT)
     interfaces = [replace(i, joint=JACK) if i.name == "plug|jack" else i for i in found]
-    push = lb.force("jack", (0, 0, 1), at=(0, DEPTH / 2, -0.05))
+    push = lb.loads.force("jack", (0, 0, 1), at=(0, DEPTH / 2, -0.05))
     return lb.Model(blocks, ["floor", "left", "right"], interfaces, lb.self_weight(), push)
 
 
@@ -123,10 +123,10 @@ def picture(file, model, path):
     axes[0].set_title("the plug leaves its seat")
     lb.plots.load_path(path, model, block="jack", component="Z", ax=axes[1])
     length, _, load_factor = path.trace.T
-    axes[2].plot(length, load_factor, ".-", color="tab:blue", linewidth=1)
+    axes[2].plot(length, load_factor, ".-", color="#0072B2", linewidth=1)
     for one, mark in ((path.snaps[0].before, "v"), (path.snaps[0].after, "^")):
         near = np.abs(load_factor - one.load_factor).argmin()
-        axes[2].plot(length[near], load_factor[near], mark, color="tab:red", markersize=8)
+        axes[2].plot(length[near], load_factor[near], mark, color="#D55E00", markersize=8)
     axes[2].set(xlabel="arclength (–)", ylabel="load factor (–)", title="every point of the increments")
     file.parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(file, dpi=120)

@@ -77,7 +77,7 @@ def picture(folder, found, expected):
 
     figure, ax = plt.subplots(figsize=(9, 3.6), layout="constrained")
     ax.axvspan(*expected, color="0.9", label="every solution, by hand")
-    levels = {lb.Origin.SEARCHED: 1, lb.Origin.REACHED: 2, lb.Origin.LOAD_PATH: 3}
+    levels = {lb.results.Origin.SEARCHED: 1, lb.results.Origin.REACHED: 2, lb.results.Origin.LOAD_PATH: 3}
     for origin, level in levels.items():
         values = [one.load_factor for one in found.answers if one.origin is origin]
         ax.plot(values, [level] * len(values), "o", markersize=9, label=origin.value)

@@ -1,183 +1,122 @@
-"""Limit analysis of structures made of rigid blocks, with evidence for every answer."""
+"""Limit analysis of structures made of rigid blocks, with evidence for every answer.
+
+What most models need is here; the rest is in `loads`, `joints`, `structures`, `studies`, `plots`, `files`,
+`results`, `settings`, `errors` and `units`. Everything is loaded when it is first used.
+"""
 
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from limitblocks import structures, studies, units
-from limitblocks.analysis.bounds import bounds
-from limitblocks.analysis.diagnosis import Diagnosis, diagnose
-from limitblocks.analysis.load_factor_range.run import load_factor_range
-from limitblocks.analysis.nonassociated.load_path import load_path
-from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.analysis.nonassociated.means import Means
-from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.stability import stability
-from limitblocks.errors import (
-    CheckFailed,
-    GeometryError,
-    LimitBlocksError,
-    MissingDependency,
-    ModelError,
-    NoEquilibrium,
-    NoSolution,
-    NotConverged,
-    SolveError,
-    SolverFailure,
-    UnlimitedLoad,
-)
-from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.backward_error import BackwardError
-from limitblocks.evidence.check import Check, check_mcp
-from limitblocks.evidence.claim import Claim
-from limitblocks.evidence.ending import Status
-from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.load_path_result import LoadPath, PathStep, Snap
-from limitblocks.evidence.range_answer import Origin, RangeAnswer
-from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.results import Iteration, Nonassociated
-from limitblocks.evidence.stability_result import Stability, Standing
-from limitblocks.geometry import (
-    Block,
-    Contacts,
-    Healed,
-    Interface,
-    Tolerances,
-    find_contacts,
-    find_interfaces,
-    heal,
-)
-from limitblocks.io import (
-    ImportedBlocks,
-    model_schema,
-    read,
-    read_blocks,
-    read_drawing,
-    read_result,
-    write_animation,
-    write_blocks,
-    write_result,
-    write_vtu,
-)
-from limitblocks.joints import (
-    ExactTorsion,
-    Joint,
-    OrdunaLourenco,
-    PointContact,
-    YieldRows,
-    effective_strength,
-    interface,
-)
-from limitblocks.mechanics import (
-    Load,
-    Tilting,
-    added_mass,
-    compass,
-    fill,
-    force,
-    line_load,
-    mass_proportional,
-    moment,
-    pressure,
-    self_weight,
-    tilting,
-    top_force,
-)
-from limitblocks.model import Model
-from limitblocks.reports import Report, report, report_schema
+if TYPE_CHECKING:
+    from limitblocks import (
+        errors,
+        files,
+        joints,
+        loads,
+        plots,
+        results,
+        settings,
+        structures,
+        studies,
+        units,
+    )
+    from limitblocks.analysis.bounds import bounds
+    from limitblocks.analysis.diagnosis import diagnose
+    from limitblocks.analysis.load_factor_range.run import load_factor_range
+    from limitblocks.analysis.nonassociated.load_path import load_path
+    from limitblocks.analysis.nonassociated.loop import nonassociated
+    from limitblocks.analysis.stability import stability
+    from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError
+    from limitblocks.evidence.check import check_mcp
+    from limitblocks.evidence.interface_states import interface_states
+    from limitblocks.geometry import Block, Interface, find_contacts, find_interfaces, heal
+    from limitblocks.io import read, read_result
+    from limitblocks.joints import OrdunaLourenco, PointContact
+    from limitblocks.loads import mass_proportional, self_weight
+    from limitblocks.model import Model
+    from limitblocks.reports.report import report
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "BackwardError",
-    "Barrier",
     "Block",
-    "Bounds",
-    "Check",
-    "CheckFailed",
-    "Claim",
-    "Contacts",
-    "Diagnosis",
-    "ExactTorsion",
-    "GeometryError",
-    "Healed",
-    "ImportedBlocks",
     "Interface",
-    "InterfaceStates",
-    "Iteration",
-    "Joint",
     "LimitBlocksError",
-    "Load",
-    "LoadFactorRange",
-    "LoadPath",
-    "Means",
-    "MissingDependency",
     "Model",
     "ModelError",
-    "NoEquilibrium",
-    "NoSolution",
-    "Nonassociated",
     "NotConverged",
     "OrdunaLourenco",
-    "Origin",
-    "PathStep",
     "PointContact",
-    "RangeAnswer",
-    "Report",
-    "Settings",
-    "Snap",
     "SolveError",
-    "SolverFailure",
-    "Stability",
-    "Standing",
-    "Status",
-    "Tilting",
-    "Tolerances",
-    "UnlimitedLoad",
-    "YieldRows",
-    "added_mass",
     "bounds",
     "check_mcp",
-    "compass",
     "diagnose",
-    "effective_strength",
-    "fill",
+    "errors",
+    "files",
     "find_contacts",
     "find_interfaces",
-    "force",
     "heal",
-    "interface",
     "interface_states",
-    "line_load",
+    "joints",
     "load_factor_range",
     "load_path",
+    "loads",
     "mass_proportional",
-    "model_schema",
-    "moment",
     "nonassociated",
-    "pressure",
+    "plots",
     "read",
-    "read_blocks",
-    "read_drawing",
     "read_result",
     "report",
-    "report_schema",
+    "results",
     "self_weight",
+    "settings",
     "stability",
     "structures",
     "studies",
-    "tilting",
-    "top_force",
     "units",
-    "write_animation",
-    "write_blocks",
-    "write_result",
-    "write_vtu",
 ]
 
+# where a name is that is no module of its own; the imports above say the same to type checkers
+_HOMES = {
+    "Block": "geometry",
+    "Interface": "geometry",
+    "LimitBlocksError": "errors",
+    "Model": "model",
+    "ModelError": "errors",
+    "NotConverged": "errors",
+    "OrdunaLourenco": "joints",
+    "PointContact": "joints",
+    "SolveError": "errors",
+    "bounds": "analysis.bounds",
+    "check_mcp": "evidence.check",
+    "diagnose": "analysis.diagnosis",
+    "find_contacts": "geometry",
+    "find_interfaces": "geometry",
+    "heal": "geometry",
+    "interface_states": "evidence.interface_states",
+    "load_factor_range": "analysis.load_factor_range.run",
+    "load_path": "analysis.nonassociated.load_path",
+    "mass_proportional": "loads",
+    "nonassociated": "analysis.nonassociated.loop",
+    "read": "io",
+    "read_result": "io",
+    "report": "reports.report",
+    "self_weight": "loads",
+    "stability": "analysis.stability",
+}
 
-def __getattr__(name: str) -> Any:
-    """Import `limitblocks.plots` when it is first asked for: it needs matplotlib."""
-    if name == "plots":
-        return import_module("limitblocks.plots")
-    raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # a type checker would take it for leave to use any name
+
+    def __getattr__(name: str) -> Any:
+        """Import a public name when it is first asked for."""
+        if name not in __all__:
+            raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")
+        if name not in _HOMES:
+            return import_module(f"limitblocks.{name}")
+        value = globals()[name] = getattr(import_module(f"limitblocks.{_HOMES[name]}"), name)
+        return value

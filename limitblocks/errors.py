@@ -19,7 +19,32 @@ Every message is one line: what is wrong, the name and value, what would be righ
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
 from typing import Any
+
+__all__ = [
+    "CheckFailed",
+    "GeometryError",
+    "LimitBlocksError",
+    "MissingDependency",
+    "ModelError",
+    "NoEquilibrium",
+    "NoSolution",
+    "NotConverged",
+    "SolveError",
+    "SolverFailure",
+    "UnlimitedLoad",
+]
+
+#: Faults that are listed; who mends these reads the file again.
+MOST_PROBLEMS = 20
+
+
+def bounded(lines: Sequence[str]) -> tuple[str, ...]:
+    """Return the first 20 lines, and how many more there are where there are."""
+    more = len(lines) - MOST_PROBLEMS
+    return (*lines[:MOST_PROBLEMS], f"and {more} more faults") if more > 1 else tuple(lines)
 
 
 class LimitBlocksError(Exception):
@@ -27,11 +52,11 @@ class LimitBlocksError(Exception):
 
 
 class ModelError(LimitBlocksError):
-    """The model is wrong; `problems` lists every fault found, one line each."""
+    """The model is wrong; `problems` lists the first 20 faults found, one line each, and how many more."""
 
     def __init__(self, *problems: str) -> None:
-        self.problems = problems
-        super().__init__("; ".join(problems))
+        self.problems = bounded(problems)
+        super().__init__("; ".join(self.problems))
 
 
 class GeometryError(ModelError):
@@ -80,3 +105,14 @@ class CheckFailed(LimitBlocksError):
 
 class MissingDependency(LimitBlocksError):
     """An optional package is needed; the message names it and how to install it."""
+
+
+def near(name: str, known: Iterable[str]) -> str:
+    """Return '; did you mean ...?', or nothing where no known name is like `name`."""
+    letters = {one.casefold(): one for one in known}
+    names = get_close_matches(name.casefold(), letters, 1)
+    return f"; did you mean {letters[names[0]]!r}?" if names else ""
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -105,6 +105,7 @@ class Model:
                     "vertices": block.vertices.tolist(),
                     "faces": [list(face) for face in block.faces],
                     "unit_weight": block.unit_weight,
+                    **{key: word for key in ("layer", "material") if (word := getattr(block, key))},
                 }
                 for block in self.blocks
             ],

@@ -1,5 +1,6 @@
 import ast
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
@@ -39,11 +40,6 @@ def test_dependency_has_a_lower_bound(requirement):
     assert ">=" in requirement or requirement.startswith("limitblocks[")
 
 
-def test_import_leaves_matplotlib_alone():
-    code = "import sys, limitblocks; sys.exit('matplotlib' in sys.modules)"
-    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
-
-
 def test_no_file_names_a_folder_of_one_machine():
     listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:
@@ -53,3 +49,33 @@ def test_no_file_names_a_folder_of_one_machine():
     machine_path = re.compile(rb"(?<![\w.:/-])/(home|root|Users|work|opt|mnt)/\w|[A-Z]:\\Users\\")
     files = [ROOT / name for name in listed.split("\0") if name and (ROOT / name).is_file()]
     assert [file.name for file in files if machine_path.search(file.read_bytes())] == []
+
+
+def test_workflow_files_are_valid():
+    pytest.importorskip("check_jsonschema", reason="the package check-jsonschema is not installed")
+    files = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+    command = [sys.executable, "-m", "check_jsonschema", "--builtin-schema", "vendor.github-workflows"]
+    checked = subprocess.run([*command, *files], capture_output=True, text=True, check=False)
+    assert (checked.returncode, len(files)) == (0, 1), checked.stdout
+
+
+def test_picture_of_the_house_has_every_package():
+    house = runpy.run_path(str(ROOT / "scripts" / "house"))
+    drawn = re.findall(
+        r'font-weight="bold">(\w+)<', (ROOT / "docs" / "house.svg").read_text(encoding="utf-8")
+    )
+    assert drawn == [name for floor in house["floors"]() for name in floor], "run scripts/house"
+
+
+def test_what_contributors_are_sent_to_is_there():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    places = re.findall(r"`((?:limitblocks|tests|examples|scripts|docs)/[\w./-]*)`", text)
+    assert len(places) > 12
+    missing = [place for place in places if "NN_" not in place and not (ROOT / place).exists()]
+    assert missing == []
+
+
+def test_lowest_versions_are_the_lower_bounds():
+    lowest = runpy.run_path(str(ROOT / "scripts" / "lowest"))["lowest"]()
+    assert "numpy==" in " ".join(lowest)
+    assert all(re.fullmatch(r"[\w-]+==[\d.]+", one) for one in lowest)

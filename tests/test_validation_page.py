@@ -36,8 +36,8 @@ def test_page_has_a_row_for_every_case_and_each_is_met(validation, cases):
     for case, row in zip(cases, rows, strict=True):
         expected = validation.cells(case, case.published, True)
         cells = row.strip("| ").split(" | ")
-        assert cells[:4] == [cell.replace("|N|", "abs(N)") for cell in expected[:4]]
-        assert cells[6:] == expected[6:]
+        assert cells[:5] == [cell.replace("|N|", "abs(N)") for cell in expected[:5]]
+        assert cells[7:] == expected[7:]
     assert f"**{len(cases)} of {len(cases)} within" in page
 
 

@@ -19,9 +19,9 @@ OLD = b"old"
 MODEL = structures.column(lb.PointContact(0.7), count=1, width=0.5, height=1.0)
 WRITERS = {
     "model.json": lambda path: MODEL.save(path, overwrite=True),
-    "result.json": lambda path: lb.write_result(lb.bounds(MODEL), path, overwrite=True),
+    "result.json": lambda path: lb.files.write_result(lb.bounds(MODEL), path, overwrite=True),
     "report.html": lambda path: lb.report(MODEL, lb.bounds(MODEL)).save(path, overwrite=True),
-    "blocks.obj": lambda path: lb.write_blocks(MODEL.blocks, path, overwrite=True),
+    "blocks.obj": lambda path: lb.files.write_blocks(MODEL.blocks, path, overwrite=True),
     "table.csv": lambda path: studies.directions(MODEL, 1).write_csv(path, overwrite=True),
 }
 

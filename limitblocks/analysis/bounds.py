@@ -13,6 +13,7 @@ import numpy as np
 
 from limitblocks.analysis.certified import certified
 from limitblocks.analysis.forms import form_of
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
@@ -133,14 +134,17 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     if dead is None:
         return None
     tell("load factor")
-    form = form_of(scaled(problem))
+    plane = in_plane(problem)
+    form = form_of(scaled(problem if plane is None else plane.problem))
     state = form.limit_state(solved(form.limit(), DIRECT))
     if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
         return None
     tell("proof")
-    state = form.problem.in_problem(state)
+    state, name = form.problem.in_problem(state), DIRECT.name
+    if plane is not None:
+        state, name = plane.lifted(state), f"{name} in the plane"
     state, proof = certified(problem, state, dead, patience=form.patience)
-    pair = _Pair(problem, state, DIRECT.name)
+    pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     return (dead, pair, proof) if good else None
 
@@ -167,7 +171,7 @@ def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
 def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
-    for pair in _pairs(problem, dead, tolerance, said):
+    for pair in _all_pairs(problem, dead, tolerance, said):
         worst = pair.residuals.worst
         if worst.value <= tolerance:
             return pair
@@ -176,9 +180,20 @@ def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pai
     raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
 
 
-def _pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:
+def _all_pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:
+    """Pairs of the problem in its plane, to be judged in the whole one, and then of the whole."""
+    plane = in_plane(problem)
+    if plane is not None:
+        for pair in _pairs(plane.problem, plane.stresses_of(dead), tolerance, said, explained=True):
+            yield _Pair(problem, plane.lifted(pair.state), f"{pair.solver} in the plane")
+    yield from _pairs(problem, dead, tolerance, said)
+
+
+def _pairs(
+    problem: LimitProblem, dead: Array, tolerance: float, said: list[str], explained: bool = False
+) -> Iterator[_Pair]:
     """Pairs of solutions by one solver after the other: as they are, repaired, polished, in better units."""
-    flow, explained = Flow(problem, ASSOCIATED), False
+    flow = Flow(problem, ASSOCIATED)
     resting = scaled(problem).measured(unmoved(problem, 0.0, dead))  # units where a solver finds nothing
     for solver in solvers(bool(problem.cones.second_order)):
         measured: Scaled | None = scaled(problem)

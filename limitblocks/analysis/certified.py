@@ -10,8 +10,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy import sparse
 
 from limitblocks.analysis.forms import form_of
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import NEARLY, solved, solvers
 from limitblocks.analysis.scales import Projection, Scaled, compatible, scaled
@@ -55,12 +57,11 @@ def certified(
     given, p = own.dimensionless(problem.in_si(state)), scaled(own)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units)
-        flow = Flow(own, ASSOCIATED)
         if patience is not None:
-            given = polish(flow, given, until=POLISHED, patience=patience)
+            given = _polished(problem, own, given, patience)
         found, proof = mixture.proven(given)
         if patience is None and not proof.width <= CLOSE:
-            closer, better = mixture.proven(polish(flow, given, until=POLISHED))
+            closer, better = mixture.proven(_polished(problem, own, given))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
 
@@ -129,20 +130,44 @@ class _Mixture:
         """
         p, lack = self.p, _lack(reach)
         most = float(lack.max(initial=0.0))
-        nothing = np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         if not most < np.inf:
-            return np.inf, *nothing
-        least = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else np.ones_like(lack)
+            return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         amount = np.zeros(p.F.shape[0])
-        amount[p.cones.heads] = least
-        u, y = opening(p, amount * p.row / p.load_factor)
-        gain = float((p.cones.margin(y) / least).min())
-        return (most / gain, u, y) if gain > 0.0 else (np.inf, *nothing)
+        amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
+        u, y = _opened(self.problem, p, amount)
+        room = p.cones.margin(y)
+        return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
 
 
 def _lack(reach: Reach) -> Array:
     """What each linear row and each cone lacks of the room that is needed."""
     return np.asarray(np.nan_to_num(np.maximum(NEEDED * reach.need - reach.room, 0.0), nan=np.inf))
+
+
+def _opened(problem: LimitProblem, p: Scaled, amount: Array) -> tuple[Array, Array]:
+    """A mechanism that opens every joint by about `amount` (R,); in the plane if there is one.
+
+    Where one exists, one does in the plane.
+    """
+    plane = in_plane(problem, every_row=True)
+    if plane is None:
+        return opening(p, amount * p.row / p.load_factor)
+    plane = plane.measured(p.problem)
+    flat = scaled(plane.problem)
+    least = sparse.csr_array(abs(plane.multipliers).multiply(amount[:, None])).max(axis=0).toarray().ravel()
+    u, y = opening(flat, least * flat.cones.identity * flat.row / flat.load_factor)
+    found = plane.lifted(State(0.0, np.zeros(plane.problem.C.shape[0]), u, y))
+    return found.u, following(p, found.u, found.y)
+
+
+def _polished(problem: LimitProblem, own: LimitProblem, state: State, patience: int | None = None) -> State:
+    """The state polished, in the plane if there is one."""
+    plane = in_plane(problem)
+    if plane is None:
+        return polish(Flow(own, ASSOCIATED), state, until=POLISHED, patience=patience)
+    plane = plane.measured(own)
+    flow = Flow(plane.problem, ASSOCIATED)
+    return plane.lifted(polish(flow, plane.averaged(state), until=POLISHED, patience=patience))
 
 
 def following(p: Scaled, u: Array, y: Array) -> Array:

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.analysis.forms import form_of
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.known import known
 from limitblocks.analysis.programs import ROUGH, solved
-from limitblocks.analysis.scales import balanced, scaled, unmoved
+from limitblocks.analysis.scales import balanced, scaled
 from limitblocks.arrays import Array, read_only
 from limitblocks.problem import LimitProblem
 
@@ -22,11 +23,13 @@ def carried(problem: LimitProblem) -> Array | None:
 
 
 def _carried(problem: LimitProblem) -> Array | None:
-    form = form_of(scaled(problem))
+    plane = in_plane(problem, every_row=True)
+    form = form_of(scaled(problem if plane is None else plane.problem))
     p = form.problem
     x = form.stresses(solved(form.carrying(), ROUGH))
     if not np.isfinite(x).all():
         return None
-    x = p.in_problem(unmoved(problem, 0.0, balanced(p, p.dead, x))).x
+    x = p.stress * balanced(p, p.dead, x)
+    x = x if plane is None else np.asarray(plane.stresses @ x)
     inside = problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0
     return read_only(x) if inside else None

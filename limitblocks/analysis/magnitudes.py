@@ -16,7 +16,7 @@ _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
 #: Unit weights, N/m3, below which they may be in kN/m3, or densities in kg/m3: cork has 1200, pumice 5000.
 _KILO, _DENSITY = 5e2, 5e3
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
-_LARGE, _SMALL = 1e3, 5e-2
+_LARGE, _SMALL = 3e2, 5e-2
 
 
 def questions(model: Model) -> list[str]:
@@ -26,12 +26,16 @@ def questions(model: Model) -> list[str]:
     for weight in sorted({block.unit_weight for block in model.free_blocks if block.unit_weight}):
         asked += _of_weight(weight)
     corners = np.concatenate([block.vertices for block in model.blocks])
-    size = float(np.ptp(corners, axis=0).max())
+    return asked + of_size(float(np.ptp(corners, axis=0).max()))
+
+
+def of_size(size: float) -> list[str]:
+    """Return the question for the largest dimension of a structure, m."""
     if size > _LARGE:
-        asked.append(f"the structure is {size:.4g} m large: millimetres? then {size / 1e3:.4g} m; see units")
+        return [f"the structure is {size:.4g} m large: millimetres? then {size / 1e3:.4g} m; see units"]
     if size < _SMALL:
-        asked.append(f"the structure is {size:.4g} m large: is it in metres? see units")
-    return asked
+        return [f"the structure is {size:.4g} m large: is it in metres? see units"]
+    return []
 
 
 def _of_joint(joint: Any) -> Iterator[str]:

@@ -11,6 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.known import known
 from limitblocks.analysis.programs import (
@@ -141,7 +142,7 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """
     problem = model.problem
     said = []
-    for x, worst in _states(problem, load_factor * problem.units.live):
+    for x, worst in _all_states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
             return min(MOST, _margin(problem, x))
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
@@ -165,7 +166,7 @@ def dead_load_state(problem: LimitProblem) -> Array:
 
 def _dead_load_state(problem: LimitProblem) -> Array:
     said = []
-    for x, worst in _states(problem, 0.0):
+    for x, worst in _all_states(problem, 0.0):
         if worst.value <= TOLERANCE:
             return read_only(x)
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
@@ -173,6 +174,16 @@ def _dead_load_state(problem: LimitProblem) -> Array:
     if fallen:
         raise NoEquilibrium(fallen)
     raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))
+
+
+def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
+    """States of largest margin found in the plane, judged in the whole problem, and then of the whole."""
+    plane = in_plane(problem, every_row=True)
+    if plane is not None:
+        for own, _ in _states(plane.problem, load_factor):
+            x = plane.stresses @ own
+            yield x, Residuals(static_residuals(problem, load_factor, x)).worst
+    yield from _states(problem, load_factor)
 
 
 def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:

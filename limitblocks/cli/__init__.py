@@ -11,7 +11,8 @@ import typer
 from limitblocks.cli import documents, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
-from limitblocks.cli.new import new
+from limitblocks.cli.later import Later
+from limitblocks.cli.looking import look
 from limitblocks.cli.options import Version
 from limitblocks.cli.studies import studies
 from limitblocks.cli.vectors import Command
@@ -24,7 +25,13 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-for _name, _group in {"study": studies, "new": new, "examples": examples}.items():
+_new = typer.Typer(
+    cls=Later.of("limitblocks.cli.new", "new"),
+    help="Write the model file of a parametric structure.",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
+for _name, _group in {"study": studies, "new": _new, "examples": examples}.items():
     app.add_typer(_group, name=_name)
 
 
@@ -50,5 +57,6 @@ app.command("range")(verbs.load_factor_range)
 app.command()(verbs.check)
 app.command()(documents.info)
 app.command()(documents.report)
+app.command()(look)
 app.command("import", cls=Command)(import_blocks)
 app.command()(documents.schema)

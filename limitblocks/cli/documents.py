@@ -7,6 +7,7 @@ from typing import Any
 
 import typer
 
+from limitblocks.choices import Turning
 from limitblocks.cli import analyses
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import (
@@ -27,7 +28,6 @@ from limitblocks.cli.options import (
     WithNonassociated,
     WithPath,
 )
-from limitblocks.problem import Turning
 
 _SUFFIX = ".html"
 

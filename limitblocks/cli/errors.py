@@ -10,7 +10,6 @@ import typer
 
 from limitblocks.errors import CheckFailed, LimitBlocksError, ModelError, SolveError
 
-_MOST_FAULTS = 20
 INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
 
 
@@ -21,10 +20,8 @@ def clean_errors() -> Iterator[None]:
         yield
     except LimitBlocksError as error:
         faults = error.problems if isinstance(error, ModelError) else (str(error),)
-        for fault in faults[:_MOST_FAULTS]:
+        for fault in faults:
             typer.echo(f"error: {' '.join(fault.split())}", err=True)
-        if len(faults) > _MOST_FAULTS:
-            typer.echo(f"error: and {len(faults) - _MOST_FAULTS} more faults", err=True)
         raise typer.Exit(exit_code(error)) from None
     except KeyboardInterrupt:
         typer.echo("interrupted, with nothing to write yet", err=True)

@@ -13,8 +13,6 @@ import typer
 
 from limitblocks.cli.errors import clean_errors
 from limitblocks.errors import LimitBlocksError
-from limitblocks.io.faults import near
-from limitblocks.io.packages import missing
 
 examples = typer.Typer(
     help="Teaching examples: list them, run one, read one.", no_args_is_help=True, rich_markup_mode=None
@@ -52,6 +50,8 @@ def find(name: str) -> Path:
     numbered = {stem.split("_")[0].lstrip("0"): stem for stem in known}
     stem = stem if stem in known else numbered.get(stem.lstrip("0"), stem)
     if stem not in known:
+        from limitblocks.io.faults import near
+
         raise LimitBlocksError(f"no example {name!r}{near(name, known)}; see limitblocks examples list")
     return known[stem]
 
@@ -75,6 +75,8 @@ def run(name: Name) -> None:
         try:
             runpy.run_path(str(file), run_name="__main__")
         except ModuleNotFoundError as error:
+            from limitblocks.io.packages import missing
+
             raise missing(str(error.name), file.stem) from None
         finally:
             sys.path.remove(str(file.parent))

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.joints import DEFAULT, Friction, JointName, Slip, Strength, make_joint
-from limitblocks.cli.options import BlocksFile, Force, Live, Supports, Units, UnitWeights
+from limitblocks.cli.joints import DEFAULT, JointName, MaybeFriction, Slip, Strength, make_joint
+from limitblocks.cli.options import BlocksFile, Force, Live, MaterialsFile, Supports, Units, UnitWeights, Up
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
+    from limitblocks.geometry.twisted import Twisted
     from limitblocks.io.imported import ImportedBlocks
+    from limitblocks.joints import Joint, Materials
+    from limitblocks.model import Model
 
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="MODEL", help="Model file [default: beside FILE].")
@@ -24,7 +28,6 @@ Output = Annotated[
 Thickness = Annotated[
     float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
 ]
-Up = Annotated[str | None, typer.Option(help="Axis of FILE that points up: y or z.")]
 Gap = Annotated[
     float | None,
     typer.Option(
@@ -39,6 +42,18 @@ Heal = Annotated[
     bool,
     typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
 ]
+TwistedFaces = Annotated[
+    str | None,
+    typer.Option(
+        "--twisted",
+        metavar="HOW",
+        help="Faces whose corners lie in no plane: triangulate, fit or refuse [default: triangles within the "
+        "accuracy of FILE, else refused].",
+    ),
+]
+SkipBad = Annotated[
+    bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")
+]
 Width = Annotated[
     float | None, typer.Option(help="Least width of an interface, in block lengths [default: the gap].")
 ]
@@ -46,10 +61,11 @@ Width = Annotated[
 
 def import_blocks(
     file: BlocksFile,
-    friction: Friction,
     live: Live,
-    unit_weight: UnitWeights,
-    supports: Supports = [],  # noqa: B006 # typer wants a list, and nothing changes it
+    friction: MaybeFriction = None,
+    unit_weight: UnitWeights = [],  # noqa: B006 # typer wants a list, and nothing changes it
+    materials: MaterialsFile = None,
+    supports: Supports = [],  # noqa: B006 # as above
     joint: JointName = DEFAULT,
     slip: Slip = None,
     compressive_strength: Strength = None,
@@ -60,10 +76,12 @@ def import_blocks(
     angle: Angle = None,
     width: Width = None,
     heal: Heal = False,
+    twisted: TwistedFaces = None,
+    skip_bad: SkipBad = False,
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; see docs/files.md."""
+    """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; `look` at FILE first."""
     with clean_errors():
         from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.blocks import read_blocks
@@ -73,19 +91,31 @@ def import_blocks(
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
-        law = make_joint(joint, friction, slip=slip, compressive_strength=compressive_strength)
+        strength = {"slip": slip, "compressive_strength": compressive_strength}
+        law, table = _joints(joint, friction, strength, materials)
         load = mass_proportional(live)
-        weight = _unit_weight(unit_weight)
+        weight = _unit_weight(unit_weight, table)
         if thickness is None:
-            imported = read_blocks(file, units=units, unit_weight=weight, up=up)
+            imported = read_blocks(
+                file,
+                units=units,
+                unit_weight=weight,
+                up=up,
+                twisted=cast("Twisted", twisted),
+                skip_bad=skip_bad,
+            )
         else:
-            imported = read_drawing(file, thickness=thickness, units=units, unit_weight=weight)
+            imported = read_drawing(
+                file, thickness=thickness, units=units, unit_weight=weight, skip_bad=skip_bad
+            )
+        _refuse_no_supports(file, imported, supports)
         used: Tolerances | None = None
         if heal:
             imported, used = _healed(imported)
-        model, contacts = model_of(
+        model, contacts, vain = model_of(
             imported,
             joint=law,
+            materials=table,
             supports=supports,
             live=load,
             gap=used.gap if used and gap is None else gap,
@@ -93,8 +123,11 @@ def import_blocks(
             width=used.width if used and width is None else width,
             name=file.stem,
         )
-        notes = (*imported.notes, contacts.accuracy, *contacts.nothing)
-        for word, lines in (("note", notes), ("warning", contacts.warnings + questions(model))):
+        notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
+        for word, lines in (
+            ("note", notes),
+            ("warning", (*imported.guesses, *vain, *contacts.warnings, *questions(model))),
+        ):
             for line in lines:
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
@@ -109,8 +142,55 @@ def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
     return replace(imported, blocks=mended.blocks, notes=notes), mended.tolerances
 
 
-def _unit_weight(texts: list[str]) -> float | Mapping[str, float]:
-    """Return one unit weight, or one by layer."""
+def _joints(
+    name: str, friction: float | None, strength: dict[str, Any], file: Path | None
+) -> tuple[Joint | None, Materials | None]:
+    """Return the joint of all interfaces, or the table of materials that has them."""
+    from limitblocks.io.materials import read_materials
+
+    if file is None:
+        if friction is None:
+            raise ModelError("give --friction, the same for every interface, or --materials with a table")
+        return make_joint(name, friction, **strength), None
+    said = {"friction": friction} | strength
+    given = [f"--{word.replace('_', '-')}" for word, value in said.items() if value is not None]
+    if given:
+        raise ModelError(f"{', '.join(given)} and --materials: the table has the joints; give one of both")
+    return None, read_materials(file)
+
+
+def _refuse_no_supports(file: Path, imported: ImportedBlocks, supports: list[str]) -> None:
+    """Say what could be chosen, in words of the shell."""
+    from limitblocks.geometry.selection import listed
+    from limitblocks.io.supports import likely_supports
+
+    if supports or imported.supports:
+        return
+    likely = likely_supports(imported.blocks)
+    such = f", perhaps {' '.join(f'--supports {shlex.quote(one)}' for one in likely[0].chosen_by)}" * bool(
+        likely
+    )
+    raise ModelError(
+        f"{file}: which blocks do not move? give --supports{such}; there are {listed(imported.blocks)}; "
+        f"limitblocks look {shlex.quote(str(file))} shows more"
+    )
+
+
+def _joint_words(model: Model, table: Materials | None) -> list[str]:
+    """Return where the joints between the materials of a model come from."""
+    if table is None:
+        return []
+    material = {block.name: block.material for block in model.blocks}
+    pairs = {tuple(sorted((material[i.block_i], material[i.block_j]))) for i in model.interfaces}
+    return [f"joint {table.words(*pair)}" for pair in sorted(pairs)]
+
+
+def _unit_weight(texts: list[str], table: Materials | None) -> float | Mapping[str, float] | None:
+    """Return one unit weight, or one by layer; None where the materials have it."""
+    if not texts and table is not None:
+        return None
+    if not texts:
+        raise ModelError("give --unit-weight in N/m3, for all blocks or LAYER=NUMBER, or --materials")
     pairs = [text.rpartition("=") for text in texts]
     try:
         weights = {layer: float(number) for layer, _, number in pairs}

@@ -4,24 +4,34 @@ from __future__ import annotations
 
 import inspect
 import re
-from typing import Annotated, Any, Literal
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
 from limitblocks.errors import ModelError
-from limitblocks.io.registry import JOINTS as CLASSES
-from limitblocks.joints import Joint
 
-JOINTS = {re.sub(r"(?<=[a-z])(?=[A-Z])", "-", name).lower(): kind for name, kind in CLASSES.items()}
+if TYPE_CHECKING:
+    from limitblocks.joints import Joint
+
+NAMES = ("exact-torsion", "orduna-lourenco", "point-contact")  # here so that --help need not load them
 DEFAULT = "orduna-lourenco"
 
 
+@cache
+def joints() -> dict[str, Any]:
+    """Return the class of every joint by its name on the command line."""
+    from limitblocks.io.registry import JOINTS
+
+    return {re.sub(r"(?<=[a-z])(?=[A-Z])", "-", name).lower(): kind for name, kind in JOINTS.items()}
+
+
 def joint_name(text: str) -> str:
-    """Return the name that `text` means: a key of JOINTS, or the class name as in a model file."""
-    plain = {name.replace("-", ""): name for name in JOINTS}
+    """Return the name that `text` means: one of NAMES, or the class name as in a model file."""
+    plain = {name.replace("-", ""): name for name in NAMES}
     name = plain.get(text.lower().replace("-", ""))
     if name is None:
-        raise typer.BadParameter(f"{text!r} is no joint; expected one of {', '.join(JOINTS)}")
+        raise typer.BadParameter(f"{text!r} is no joint; expected one of {', '.join(NAMES)}")
     return name
 
 
@@ -33,10 +43,10 @@ def make_joint(name: str, friction: float, **options: Any) -> Joint:
     ModelError
         An option is given that the joint does not have, or a value is wrong.
     """
-    kind: Any = JOINTS[name]
+    kind: Any = joints()[name]
     given = {option: value for option, value in options.items() if value is not None}
     for option in given.keys() - inspect.signature(kind).parameters:
-        fit = [other for other, cls in JOINTS.items() if option in inspect.signature(cls).parameters]
+        fit = [other for other, cls in joints().items() if option in inspect.signature(cls).parameters]
         raise ModelError(
             f"--{option.replace('_', '-')} is {given[option]!r}, but --joint {name} has no "
             f"{option.replace('_', ' ')}; leave it out or choose --joint {' or '.join(fit)}"
@@ -46,10 +56,13 @@ def make_joint(name: str, friction: float, **options: Any) -> Joint:
 
 JointName = Annotated[
     Any,
-    typer.Option("--joint", parser=joint_name, metavar="|".join(JOINTS), help="What an interface can carry."),
+    typer.Option("--joint", parser=joint_name, metavar="|".join(NAMES), help="What an interface can carry."),
 ]
 Friction = Annotated[
     float, typer.Option(help="Coefficient of friction of every interface.", show_default=False)
+]
+MaybeFriction = Annotated[
+    float | None, typer.Option("--friction", help="Coefficient of friction of every interface.")
 ]
 Slip = Annotated[
     Literal["exact", "paper", "inner", "outer"] | None,

@@ -5,9 +5,8 @@ from typing import Annotated, Any
 
 import typer
 
+from limitblocks.choices import Method, Turning
 from limitblocks.cli.vectors import vector
-from limitblocks.evidence.ending import Method
-from limitblocks.problem import Turning
 
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
@@ -62,8 +61,18 @@ Supports = Annotated[
     list[str],
     typer.Option(
         "--supports",
-        metavar="NAME",
-        help="A block or layer that does not move; repeat. [default: those that FILE marks]",
+        metavar="WHICH",
+        help="Blocks that do not move: a block or layer, layer:LAYER, a pattern such as 'ground*', "
+        "or 'z<0.05'; repeat. [default: those that FILE marks]",
+        show_default=False,
+    ),
+]
+MaterialsFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--materials",
+        metavar="TOML",
+        help="Table of unit weights and joints by layer or name, instead of --friction; see docs/files.md.",
         show_default=False,
     ),
 ]
@@ -73,7 +82,13 @@ UnitWeights = Annotated[
     list[str],
     typer.Option("--unit-weight", metavar="[LAYER=]N/M3", help="Of all blocks, or of a layer; repeat."),
 ]
-Units = Annotated[str | None, typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft.")]
+Units = Annotated[
+    str | None,
+    typer.Option(help="Unit of length of FILE: m, cm, mm, in or ft [default: as FILE says, or m]."),
+]
+Up = Annotated[
+    str | None, typer.Option(help="Axis of FILE that points up: y or z [default: as FILE says, or z].")
+]
 Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
 Workers = Annotated[
     int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)

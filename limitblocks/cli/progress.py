@@ -7,14 +7,14 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
-from rich.progress import Progress as ProgressBar
 
-from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.evidence.results import Iteration
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from limitblocks.evidence.results import Iteration
 
 EVERY = 10.0  # s between lines
 Tell = Callable[[str, float | None], None]
@@ -43,12 +43,16 @@ def of_a_count(verb: str) -> Iterator[Callable[[int, int], None]]:
 
 def _share(one: Iteration) -> float | None:
     """Decades of theta, or of the largest residual, on the way down to the tolerance."""
+    from limitblocks.evidence.residuals import TOLERANCE
+
     left = max(one.residuals.values(), default=math.nan)
     return min(1.0, math.log10(min(left, 1.0)) / math.log10(TOLERANCE)) if left > 0.0 else None
 
 
 @contextmanager
 def _told(verb: str) -> Iterator[Tell]:
+    from rich.console import Console
+
     console = Console(stderr=True)
     with _bar(verb, console) if console.is_terminal else _lines(verb) as tell:
         yield tell
@@ -56,6 +60,9 @@ def _told(verb: str) -> Iterator[Tell]:
 
 @contextmanager
 def _bar(verb: str, console: Console) -> Iterator[Tell]:
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as ProgressBar
+
     columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
     with ProgressBar(*columns, console=console, transient=True) as bar:
         task = bar.add_task(verb, total=None)

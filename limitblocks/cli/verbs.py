@@ -6,6 +6,7 @@ from typing import Any
 
 import typer
 
+from limitblocks.choices import Method, Turning
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer, show
 from limitblocks.cli.errors import clean_errors
@@ -27,8 +28,6 @@ from limitblocks.cli.options import (
     Turns,
     Way,
 )
-from limitblocks.evidence.ending import Method
-from limitblocks.problem import Turning
 
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
 

@@ -1,26 +1,8 @@
-"""How the non-associated analysis goes and ends."""
+"""How the non-associated analysis ends."""
 
 from __future__ import annotations
 
 from enum import Enum
-
-from limitblocks.errors import ModelError
-
-
-class Method(Enum):
-    """How the non-associated analysis looks for a solution: one tracked path, or the outer loop alone."""
-
-    PATH = "path"
-    FIXED_POINT = "fixed point"
-
-
-def method_of(word: Method | str) -> Method:
-    """Return the method that `word` names, or raise ModelError."""
-    try:
-        return Method(word)
-    except ValueError:
-        choices = " or ".join(repr(method.value) for method in Method)
-        raise ModelError(f"method is {word!r}, expected {choices}") from None
 
 
 class Status(Enum):

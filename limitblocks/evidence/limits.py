@@ -1,4 +1,4 @@
-"""How far each row of a state is from its limit, as a relative change of what the row can carry; and places.
+"""How far each row of a state is from its limit, as a relative change of what the row can carry.
 
 A row F x + g = strength - demand. Its strength is what scales with friction, the part of F that the flow
 drops, F - G; of a row that flows along its gradient (hinging, opening) it is the normal force, which scales
@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array
 from limitblocks.problem import LimitProblem
 
 ROUNDING = 4 * np.finfo(float).eps  # of the terms of a row: no change of strength makes up for it
@@ -106,17 +106,3 @@ class Limits:
         by = change[p.cones.member]
         F = sparse.csr_array(p.F + sparse.diags_array(by) @ self.strength)
         return replace(p, F=F, g=np.asarray(p.g + by * self.constant))
-
-
-def places(problem: LimitProblem) -> tuple[Indices, Indices]:
-    """Number the places where forces act: interfaces, or points of them.
-
-    Returns the place of each linear row and cone (degree,) and of each stress (s,) that it acts on.
-    """
-    cones = problem.cones
-    rows = np.arange(cones.height)
-    acts = sparse.coo_array((np.ones(len(rows)), (cones.member, rows))).tocsr() @ abs(problem.F)
-    graph = sparse.block_array([[None, acts], [acts.T, None]])
-    _, label = sparse.csgraph.connected_components(graph, directed=False)
-    numbers = np.asarray(label, dtype=np.int64)
-    return numbers[: cones.degree], numbers[cones.degree :]

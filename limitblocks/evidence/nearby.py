@@ -10,10 +10,11 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.limits import Flags, Limits, places
+from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
+from limitblocks.problem.places import places
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
 ACROSS = 0.01  # of a change along the ray of a cone: as large a change across it, which turns the flow

@@ -29,7 +29,7 @@ class RangeAnswer:
     Attributes
     ----------
     solution : Nonassociated
-        The solution of Eqs (54)-(59); :func:`limitblocks.write_result` saves it.
+        The solution of Eqs (54)-(59); :func:`limitblocks.files.write_result` saves it.
     check : Check
         Its residuals, recomputed.
     origin : Origin

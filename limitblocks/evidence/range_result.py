@@ -104,7 +104,7 @@ class LoadFactorRange:
         Whether every load factor above an answer is one, too: stresses that balance the live load alone can
         be added to it.
     frictionless, associated : float
-        The bracket, as in :class:`limitblocks.Nonassociated`.
+        The bracket, as in :class:`limitblocks.results.Nonassociated`.
     wedging : Wedging
         Whether it can be wedged.
     least : Extreme, optional
@@ -118,7 +118,7 @@ class LoadFactorRange:
     remarks : tuple of str
         What a reader should know.
     dilatancy, turning, tolerance, digest
-        As in :class:`limitblocks.Nonassociated`.
+        As in :class:`limitblocks.results.Nonassociated`.
     """
 
     load_path: RangeAnswer | None

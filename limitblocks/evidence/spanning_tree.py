@@ -45,7 +45,7 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     order = np.argsort(length, kind="stable")
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
     best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
-    i, j = pairs[best].T
+    i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
     graph = sparse.coo_array((length[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
     distances, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
     distance, before = distances[0], ways[0]

@@ -6,6 +6,7 @@ from limitblocks.geometry.contact import find_contacts, find_interfaces
 from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.heal import Healed, heal
 from limitblocks.geometry.interface import Interface
+from limitblocks.geometry.selection import Selection, select
 
 __all__ = [
     "Block",
@@ -14,10 +15,12 @@ __all__ = [
     "Interface",
     "NearMiss",
     "Overlap",
+    "Selection",
     "Sliver",
     "Through",
     "Tolerances",
     "find_contacts",
     "find_interfaces",
     "heal",
+    "select",
 ]

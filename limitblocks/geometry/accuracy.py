@@ -13,6 +13,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.faces import all_faces, opposed
+from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.patches import patches
 
 #: Tolerances of blocks drawn exactly: gap and width in block lengths, angle in rad.
@@ -28,6 +29,8 @@ COARSEST = 2e-3
 _FACETS, _SMOOTH = 3, 1e-5
 #: Gap in block lengths and angle in rad within which faces are compared; beyond the tolerances of COARSEST.
 _REACH, _TURN = 2.0 * GAPS * COARSEST, 0.2
+#: Distance of blocks that may touch, in block lengths.
+_NEAR = 1e-2
 #: Share of the smaller face that a joint covers, fewest joints that tell noise from a wedge, most looked at.
 _COVERED, _FEWEST, _MOST = 0.2, 8, 2000
 
@@ -82,6 +85,15 @@ class Accuracy(NamedTuple):
 
     size: float | None = None
     angle: float = 0.0
+
+    @classmethod
+    def shown(cls, blocks: Sequence[Block]) -> Accuracy:
+        """Return the accuracy of blocks as the faces show it that touch, or nearly."""
+        if len(blocks) < 2:
+            return cls()
+        centre = np.mean([block.vertices.mean(axis=0) for block in blocks], axis=0)
+        points = [block.vertices - centre for block in blocks]
+        return cls.of(blocks, points, neighbours(points, _NEAR * block_length(blocks)))
 
     @classmethod
     def of(cls, blocks: Sequence[Block], points: Sequence[Array], pairs: Indices) -> Accuracy:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import operator
 import reprlib
 from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NoReturn
@@ -37,11 +38,14 @@ class Block:
         A planar face with a hole is given as several faces in one plane.
     unit_weight : float or None
         Weight per volume, N/m3; None when it is not given, as for supports.
+    layer, material : str
+        Where the block is in a drawing, and what it is made of; empty if nothing is known. Only words: the
+        numbers of a material are the unit weight and the joints.
 
     Raises
     ------
     ModelError
-        The name is empty or the unit weight is not a finite number >= 0.
+        The name is empty, a word is no text, or the unit weight is not a finite number >= 0.
     GeometryError
         The faces are not the closed surface of one piece with planar faces. A vertex may lie out of the
         plane of a face by 1e-3 of the block's size.
@@ -51,9 +55,12 @@ class Block:
     vertices: Array
     faces: Faces
     unit_weight: float | None = None
+    layer: str = ""
+    material: str = ""
 
     def __post_init__(self) -> None:
         _require_name(self.name)
+        _require_words(self.name, self.layer, self.material)
         object.__setattr__(self, "unit_weight", _unit_weight(self.name, self.unit_weight))
         object.__setattr__(self, "vertices", _numbers(self.name, "vertices", self.vertices, (None, 3)))
         object.__setattr__(self, "faces", _faces(self.name, self.faces))
@@ -164,6 +171,20 @@ class Block:
         shift = _numbers(self.name, "translation", translation, (3,))
         return replace(self, vertices=self.vertices @ turn.T + shift)
 
+    def labelled(self, *, unit_weight: float | None, layer: str, material: str) -> Block:
+        """Return the same body with another unit weight, N/m3, layer and material.
+
+        Raises
+        ------
+        ModelError
+            A word is no text, or the unit weight is not a finite number >= 0.
+        """
+        _require_words(self.name, layer, material)
+        block = copy(self)  # with what was computed of its shape
+        words = {"unit_weight": _unit_weight(self.name, unit_weight), "layer": layer, "material": material}
+        block.__dict__.update(words)
+        return block
+
     @cached_property
     def _origin(self) -> Array:
         return np.asarray(self.vertices.mean(axis=0))
@@ -205,6 +226,12 @@ def _numbers(name: str, what: str, values: Any, shape: tuple[int | None, ...]) -
         indices = ", ".join(map(str, place))
         _wrong(name, f"{what}[{indices}] is {array[place]}; a finite number up to {_LARGEST:g} is needed")
     return array
+
+
+def _require_words(name: str, layer: Any, material: Any) -> None:
+    for word, value in (("layer", layer), ("material", material)):
+        if not isinstance(value, str):
+            raise ModelError(f"block {name!r}: {word} is {value!r}; text is needed, empty for none")
 
 
 def _faces(name: str, faces: Sequence[Sequence[int]]) -> Faces:

@@ -72,7 +72,8 @@ def find_interfaces(
     ----------
     blocks : sequence of Block
     joint : object
-        Given to every interface; a joint of :mod:`limitblocks.joints`.
+        Given to every interface, a joint of :mod:`limitblocks.joints`; or a function that gives the joint of
+        two blocks, such as :meth:`limitblocks.joints.Materials.between`.
     gap : float, optional
         Tolerance on gaps and on interpenetration, in block lengths.
     angle : float, optional
@@ -139,7 +140,7 @@ def find_contacts(
     ends = np.column_stack([faces.block[seen.meant.a], faces.block[seen.meant.b]])
     tied = set(ends.ravel().tolist())
     return Contacts(
-        _interfaces(names, centre, faces, pieces, joint),
+        _interfaces(blocks, centre, faces, pieces, joint),
         _near_misses(names, faces, seen.apart, overlaps),
         overlaps,
         tuple(name for k, name in enumerate(names) if k not in tied),
@@ -184,7 +185,7 @@ def _through(names: Sequence[str], faces: FaceTable, patches: Patches, third: In
 
 
 def _interfaces(
-    names: Sequence[str], centre: Array, faces: FaceTable, patches: Patches, joint: object
+    blocks: Sequence[Block], centre: Array, faces: FaceTable, patches: Patches, joint: object
 ) -> tuple[Interface, ...]:
     """Return an interface for each convex patch, in their order."""
     rings = shapely.get_exterior_ring(patches.shape)
@@ -201,7 +202,9 @@ def _interfaces(
         arrays = _local(stack, centre + patches.origin[group], patches.frame[group])
         ends = faces.block[patches.a[group]], faces.block[patches.b[group]]
         for k, i, j, c, t, p in zip(group.tolist(), *ends, *arrays, strict=True):
-            made.append((k, Interface(names[i], names[j], c, t, p, joint)))
+            a, b = blocks[i], blocks[j]
+            law = joint(a, b) if callable(joint) else joint
+            made.append((k, Interface(a.name, b.name, c, t, p, law)))
     return tuple(interface for _, interface in sorted(made, key=itemgetter(0)))
 
 

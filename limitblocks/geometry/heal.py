@@ -106,7 +106,7 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     """
     centre = np.mean([block.vertices.mean(axis=0) for block in blocks], axis=0) if blocks else np.zeros(3)
     length = block_length(blocks) if blocks else 1.0
-    shown = _shown(blocks, centre, length)
+    shown = Accuracy.shown(blocks)
     size = shown.size * length if accuracy is None and shown.size is not None else accuracy
     if size is None or not 0.0 <= size < np.inf:
         raise ModelError(
@@ -125,15 +125,15 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
         shift += GAPS * size if block is not old else 0.0
         new = _rebuilt(block, there + centre) if shift <= _MOST * size else None
         shifts[old.name] = shift if new else 0.0
-        made.append(new or old)
+        made.append(_as(old, new) if new else old)
         if new is None:
             notes.append(f"block {old.name!r} is left as it was: its faces are not plane within {size:.2g} m")
     return Healed(tuple(made), MappingProxyType(shifts), _MOST * size, size, used, tuple(notes))
 
 
-def _shown(blocks: Sequence[Block], centre: Array, length: float) -> Accuracy:
-    points = [block.vertices - centre for block in blocks]
-    return Accuracy.of(blocks, points, neighbours(points, 1e-2 * length)) if len(blocks) > 1 else Accuracy()
+def _as(old: Block, new: Block) -> Block:
+    """Return the new body with what was known of the old one."""
+    return new.labelled(unit_weight=old.unit_weight, layer=old.layer, material=old.material)
 
 
 def _coarse(block: Block, tolerance: float) -> Block:

@@ -17,6 +17,7 @@ from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
 from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
+from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
 
 #: Distance, relative to the block's size, below which two vertices are one.
 WELD = 1e-6
@@ -32,6 +33,7 @@ def mended(
     vertices: npt.ArrayLike,
     faces: Iterable[Sequence[int]],
     unit_weight: float | None = None,
+    twisted: Twisted = "refuse",
 ) -> tuple[Block, tuple[str, ...]]:
     """Return the block enclosed by the polygons of one solid, and what had to be mended, a line each.
 
@@ -50,9 +52,14 @@ def mended(
         Vertex indices around each face, in either sense.
     unit_weight : float, optional
         N/m3.
+    twisted : {"refuse", "triangulate", "fit"}
+        What becomes of faces whose corners lie in no plane, within 1e-3 of the block's size: an error;
+        triangles; or planes that fit the corners best, into which the vertices go.
 
     Raises
     ------
+    TwistedFaces
+        Faces lie in no plane, and are to be refused or cannot be fitted.
     GeometryError
         The polygons do not enclose one solid, or it is no block; names the block and the place.
     """
@@ -71,15 +78,20 @@ def mended(
         _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
     if warp > WELD * size:
         notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
+    points, loops = _untwisted(name, points, loops, size, twisted, notes)
     used, places = np.unique(np.concatenate([np.asarray(loop) for loop in loops]), return_inverse=True)
     ends = np.cumsum([len(loop) for loop in loops])[:-1]
     rings = tuple(tuple(part.tolist()) for part in np.split(places, ends))
-    try:
-        block = Block(name, points[used], rings, unit_weight)
-    except GeometryError:  # its numbers of faces and vertices say nothing to whoever drew the solid
-        _refuse_warped(name, points, loops, PLANE_TOLERANCE * size)
-        raise
+    block = Block(name, points[used], rings, unit_weight)
     return block, tuple(f"block {name!r}: {note}" for note in notes)
+
+
+class TwistedFaces(GeometryError):
+    """Faces of a block lie in no plane; `distance` is how far a corner is out of its plane at most, m."""
+
+    def __init__(self, problem: str, distance: float) -> None:
+        super().__init__(problem)
+        self.distance = distance
 
 
 def _wrong(name: str, fault: str) -> NoReturn:
@@ -168,16 +180,32 @@ def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> Non
             )
 
 
-def _refuse_warped(name: str, points: Array, loops: Faces, limit: float) -> None:
-    for loop in loops:
-        off = coplanar.warp_of(points, loop, loop)
-        if off > limit:
-            corners = ", ".join(_place(points[vertex]) for vertex in loop[:8]) + ", ..." * (len(loop) > 8)
-            _wrong(
-                name,
-                f"the face {corners} is not planar: a corner lies {off:.3g} m out of its plane; at most "
-                f"{limit:.3g} m is allowed, split it into triangles",
-            )
+def _untwisted(
+    name: str, points: Array, loops: Faces, size: float, twisted: Twisted, notes: list[str]
+) -> tuple[Array, Faces]:
+    """Return vertices and faces, all plane; notes what was done to those that were not."""
+    off = warps(points, loops)
+    which = np.flatnonzero(off > PLANE_TOLERANCE * size)
+    if not len(which):
+        return points, loops
+    said = f"{len(which)} twisted faces, whose corners lie up to {off.max():.3g} m out of their planes"
+    if twisted == "triangulate":
+        notes.append(f"{said}, divided into triangles")
+        return points, triangulated(points, loops, which)
+    placed = fitted(points, loops, PLANE_TOLERANCE * size) if twisted == "fit" else None
+    if placed is not None:
+        moved = np.linalg.norm(placed - points, axis=1).max()
+        notes.append(f"{said}, made plane: vertices moved by up to {moved:.3g} m")
+        return placed, loops
+    why = (
+        "; no planes fit, " if twisted == "fit" else f"; at most {PLANE_TOLERANCE * size:.3g} m is allowed, "
+    )
+    places = ", ".join(_place(points[vertex]) for vertex in loops[int(off.argmax())][:4])
+    remedy = "triangulate" if twisted == "fit" else "triangulate or fit"
+    raise TwistedFaces(
+        f"block {name!r}: {said}, the worst is {places}, ...{why}ask for --twisted {remedy} (twisted=...)",
+        float(off.max()),
+    )
 
 
 def _place(point: Array) -> str:

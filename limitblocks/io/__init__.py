@@ -5,16 +5,21 @@ from limitblocks.io.formats.dxf.outlines import read_drawing
 from limitblocks.io.formats.gltf.writer import write_animation
 from limitblocks.io.formats.vtu import write_vtu
 from limitblocks.io.imported import ImportedBlocks
+from limitblocks.io.look import Look, look
+from limitblocks.io.materials import read_materials
 from limitblocks.io.model_file import model_schema
 from limitblocks.io.result_file import read_result, write_result
 from limitblocks.io.structure_file import read
 
 __all__ = [
     "ImportedBlocks",
+    "Look",
+    "look",
     "model_schema",
     "read",
     "read_blocks",
     "read_drawing",
+    "read_materials",
     "read_result",
     "write_animation",
     "write_blocks",

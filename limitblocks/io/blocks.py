@@ -7,14 +7,21 @@ from pathlib import Path
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats
-from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported, read_bytes
+from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported, labels, read_bytes
 from limitblocks.model import Model
 from limitblocks.written import write
 
 
 def read_blocks(
-    file: str | Path, *, units: str | None = None, unit_weight: UnitWeight = None, up: str | None = None
+    file: str | Path,
+    *,
+    units: str | None = None,
+    unit_weight: UnitWeight = None,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the blocks in `file`, of any format in docs/files.md but the model file.
 
@@ -27,23 +34,31 @@ def read_blocks(
         metres where it says nothing.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer; blocks of other layers get none, as supports may.
-
     up : str, optional
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+    twisted : {"refuse", "triangulate", "fit"}, optional
+        What becomes of faces whose corners lie in no plane, within 1e-3 of the block's size: an error;
+        triangles; or planes that fit the corners best, into which the vertices go. Left out: triangles where
+        the corners are off no more than four times the accuracy that faces show which touch, or than the
+        digits of the coordinates tell; else an error.
+    skip_bad : bool
+        Leave out solids that are no blocks, with a note each, instead of refusing the file.
 
     Raises
     ------
     ModelError
-        The file cannot be read, or solids in it are no blocks; `problems` has a line per fault.
+        The file cannot be read, or solids in it are no blocks; `problems` has the first 20
+        faults, a line each.
     MissingDependency
         The format needs a package that is not installed.
     """
     path = Path(file)
     with faults.named(path):
-        return imported(_contents(path), units, unit_weight, up)
+        return imported(contents_of(path), units, unit_weight, up, twisted, skip_bad)
 
 
-def _contents(path: Path) -> Contents:
+def contents_of(path: Path) -> Contents:
+    """Return what the reader of its format finds in the file at `path`."""
     suffix = path.suffix.lower()
     if suffix not in formats.READ:
         known = ", ".join(sorted(formats.READ))
@@ -59,10 +74,10 @@ def write_blocks(
 
     The suffix says the format. OBJ keeps faces, names and every digit; STL (text) names and every digit,
     with triangles; PLY (binary) faces and every digit, no names; GLB names, with triangles in single
-    precision about each block's centroid, and Y up as the format wants it. OBJ and GLB get the materials
-    "support" and "block" where a model is given, layers where blocks are that were read with them. So do DXF
-    and 3dm (Rhino) as layers, with names and every digit. JSON is COMPAS JSON: an assembly with names,
-    supports and every digit.
+    precision about each block's centroid, and Y up as the format wants it. DXF and 3dm (Rhino) keep names,
+    layers and every digit; JSON is COMPAS JSON, an assembly with names, supports and every digit. A block
+    of a model without a layer gets "support" or "block" as its layer. Materials are kept by all but STL and
+    PLY; OBJ and GLB without a material have the layer as one.
 
     Raises
     ------
@@ -81,17 +96,9 @@ def write_blocks(
         raise ModelError(
             f"{path}: suffix {path.suffix!r} is unknown; expected one of {', '.join(formats.WRITTEN)}"
         )
-    return write(path, formats.module(path.suffix).encoded(bodies, layers_of(blocks)), overwrite)
-
-
-def layers_of(blocks: Model | ImportedBlocks | Sequence[Block]) -> dict[str, str]:
-    """Return the layer of each block by its name: support or block in a model; none if nothing is known."""
-    if isinstance(blocks, ImportedBlocks):
-        return dict(blocks.layers) | dict.fromkeys(blocks.supports, "support")
-    if isinstance(blocks, Model):
-        supports = set(blocks.supports)
-        return {block.name: "support" if block.name in supports else "block" for block in blocks.blocks}
-    return {}
+    supports = set(blocks.supports) if isinstance(blocks, Model | ImportedBlocks) else set[str]()
+    layers = labels(bodies, supports or None)
+    return write(path, formats.module(path.suffix).encoded(bodies, layers, supports), overwrite)
 
 
 def is_model_file(path: Path) -> bool:

@@ -48,6 +48,10 @@ class BlockDocument(Document):
     """Name, unique in the model."""
     unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
     """Weight per volume, N/m3; may be left out for supports."""
+    layer: str = ""
+    """Layer or group that it is on."""
+    material: str = ""
+    """What it is made of; a name in `materials` where the file has them."""
     vertices: list[Vector] | None = None
     """Vertices in global axes, m."""
     faces: list[list[int]] | None = None
@@ -83,8 +87,8 @@ class InterfaceDocument(Document):
 class FindSettings(Document):
     """Settings of contact detection, as for limitblocks.find_interfaces."""
 
-    joint: str
-    """The name in `joints` that every interface gets."""
+    joint: str | None
+    """The name in `joints` that every interface gets; null for the joints of `materials`."""
     gap: Number | None = None
     """Distance that counts as touching, in block lengths; left out, chosen by the accuracy of the faces."""
     angle: Number | None = None
@@ -144,13 +148,24 @@ else:  # built from the classes that exist, which a type checker cannot follow
     TermDocument = _one_of((SelfWeight, *(_derived(cls, factor=(Number, 1.0)) for cls in TERMS.values())))
 
 
-def _form(interfaces: Any) -> str:
-    return "find" if isinstance(interfaces, dict | Find) else "list"
+class MaterialDocument(Document):
+    """What blocks are made of."""
+
+    blocks: list[str] = []
+    """Names, patterns, "layer:PATTERN"; left out, blocks whose layer or material has this name."""
+    unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
+    """Weight per volume, N/m3; left out for blocks that have one, and for supports."""
+    joint: JointDocument | None = None
+    """What an interface between two such blocks can carry; left out, that of the other material."""
 
 
-Interfaces = Annotated[
-    Annotated[list[InterfaceDocument], Tag("list")] | Annotated[Find, Tag("find")], Discriminator(_form)
-]
+class PairDocument(Document):
+    """The joint between two materials."""
+
+    between: tuple[str, str]
+    """Two names in `materials`."""
+    joint: JointDocument
+    """What the interface can carry."""
 
 
 class UnitsDocument(Document):
@@ -160,6 +175,26 @@ class UnitsDocument(Document):
     """Unit of lengths."""
     force: Force = "N"
     """Unit of forces."""
+
+
+class MaterialsDocument(Document):
+    """A table of materials."""
+
+    units: UnitsDocument = UnitsDocument()
+    """Units of all numbers of the file; m and N if left out."""
+    materials: dict[str, MaterialDocument]
+    """The materials by name; a block is of the first that picks it."""
+    pairs: list[PairDocument] = []
+    """Joints between two materials; other pairs get the weaker joint of both."""
+
+
+def _form(interfaces: Any) -> str:
+    return "find" if isinstance(interfaces, dict | Find) else "list"
+
+
+Interfaces = Annotated[
+    Annotated[list[InterfaceDocument], Tag("list")] | Annotated[Find, Tag("find")], Discriminator(_form)
+]
 
 
 class ModelDocument(Document):
@@ -179,8 +214,12 @@ class ModelDocument(Document):
     """All blocks, those of the supports included."""
     supports: list[str]
     """Names of the blocks that do not move."""
+    materials: dict[str, MaterialDocument] = {}
+    """Unit weights and joints of the blocks, by the name of a material."""
+    pairs: list[PairDocument] = []
+    """Joints between two materials; other pairs get the weaker joint of both."""
     joints: dict[str, JointDocument]
-    """What interfaces can carry, by name."""
+    """What interfaces can carry, by name; empty where `materials` say it."""
     interfaces: Interfaces
     """The interfaces, or how to find them."""
     tolerances: TolerancesDocument | None = None

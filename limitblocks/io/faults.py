@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from reprlib import repr as _value
@@ -13,12 +13,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, near
 
 if TYPE_CHECKING:
     from limitblocks.io.documents import Document
 
+__all__ = ["Faults", "named", "near", "validated"]
+
 _LONGEST_LINE = 500
+_MORE = re.compile(r"and \d+ more faults")
 D = TypeVar("D", bound="Document")
 
 
@@ -29,8 +32,12 @@ def named(path: Path) -> Iterator[None]:
         with np.errstate(all="ignore"):  # numbers out of all proportion end as a fault, not as a warning
             yield
     except ModelError as error:
-        lines = (shorten(f"{path}: {fault}", _LONGEST_LINE, placeholder=" ...") for fault in error.problems)
-        raise ModelError(*lines) from None
+        raise ModelError(*(_at(path, fault) for fault in error.problems)) from None
+
+
+def _at(path: Path, fault: str) -> str:
+    said = fault if _MORE.fullmatch(fault) else f"{path}: {fault}"
+    return shorten(said, _LONGEST_LINE, placeholder=" ...")
 
 
 def validated(form: type[D], text: str, data: Any) -> D:
@@ -63,12 +70,6 @@ class Faults(list[str]):
     def all_made(self, key: str, make: Callable[..., Any], parts: Iterable[Any], *more: Any) -> list[Any]:
         """Return what `make` gives for each part."""
         return [self.made(f"{key}[{k}]", make, part, *more) for k, part in enumerate(parts)]
-
-
-def near(name: str, known: Any) -> str:
-    """Return '; did you mean ...?', or nothing where no known name is like `name`."""
-    names = get_close_matches(name, known, 1)
-    return f"; did you mean {names[0]!r}?" if names else ""
 
 
 def _place(steps: tuple[int | str, ...], data: Any) -> str:

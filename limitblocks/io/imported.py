@@ -5,10 +5,11 @@ from __future__ import annotations
 import logging
 import warnings
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,8 +17,10 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
-from limitblocks.geometry.mend import mended
-from limitblocks.io import faults, strict_json
+from limitblocks.geometry.twisted import Twisted
+from limitblocks.io import faults, guesses, strict_json
+from limitblocks.io.guesses import Boxes
+from limitblocks.io.made import Made, left_out, made, refused
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -40,19 +43,27 @@ class ImportedBlocks:
     ----------
     blocks : tuple of Block
         In the order of the file; names are unique.
-    layers : mapping of str to str
-        Layer, group or material of each block, by block name; empty text where the file has none.
     notes : tuple of str
         What was mended and renamed, a line each.
     supports : tuple of str
         Names of the blocks that the file says do not move: COMPAS marks them, in other formats they are on a
         layer named "support" or "supports".
+    guesses : tuple of str
+        What was guessed, or may not be meant: the unit of length, the axis up; a line each.
+    left_out : tuple of str
+        Names of solids that are no blocks and were left out as asked; the notes say why.
     """
 
     blocks: tuple[Block, ...]
-    layers: Mapping[str, str]
-    notes: tuple[str, ...]
+    notes: tuple[str, ...] = ()
     supports: tuple[str, ...] = ()
+    guesses: tuple[str, ...] = ()
+    left_out: tuple[str, ...] = ()
+
+    @property
+    def layers(self) -> dict[str, str]:
+        """Layer, group or material of each block, by block name; empty text where the file has none."""
+        return {block.name: block.layer for block in self.blocks}
 
 
 class Solid(NamedTuple):
@@ -66,15 +77,28 @@ class Solid(NamedTuple):
     vertices: Any
     faces: Sequence[Sequence[int]]
     support: bool | None = None
+    material: str = ""
 
 
 class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit where it says so, notes, the axis up."""
+    """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes.
+
+    `wrong` says of parts of the file, by name, why they are no solids.
+    """
 
     solids: Sequence[Solid]
     metres: float | None = None
     notes: Sequence[str] = ()
-    up: str = "z"
+    up: str | None = None
+    wrong: Mapping[str, Sequence[str]] = MappingProxyType({})
+
+
+class Frame(NamedTuple):
+    """Metres per unit of a file, its axis up, and what of these was guessed."""
+
+    metres: float
+    up: str
+    warnings: tuple[str, ...]
 
 
 def read_bytes(path: Path) -> bytes:
@@ -135,7 +159,12 @@ def metres(units: str | None, stated: float | None = None) -> float:
 
 
 def imported(
-    contents: Contents, units: str | None, unit_weight: UnitWeight, up: str | None = None
+    contents: Contents,
+    units: str | None,
+    unit_weight: UnitWeight,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the solids of a file as blocks with unique names, in metres, with Z up.
 
@@ -144,28 +173,62 @@ def imported(
     ModelError
         With all faults: solids that are no blocks, no solid, an unknown unit, axis or layer.
     """
-    solids, placement = contents.solids, metres(units, contents.metres) * _upright(up or contents.up)
+    solids = contents.solids
     refuse_many(len(solids), sum(len(solid.faces) for solid in solids))
+    if not solids and contents.wrong:
+        raise refused(contents.wrong, 0)
     if not solids:
         raise ModelError("holds no solid; expected at least one block")
-    names, notes = unique_names([solid.name for solid in solids])
-    layers = {name: solid.layer for name, solid in zip(names, solids, strict=True)}
-    weights = _weights(layers, unit_weight)
-    wrong: list[str] = []
-    blocks, notes = [], [*contents.notes, *notes]
-    for name, solid in zip(names, solids, strict=True):
-        try:
-            vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
-            block, said = mended(name, vertices, solid.faces, weights[name])
-        except ModelError as error:
-            wrong += error.problems
-        else:
-            blocks.append(block)
-            notes += said
-    if wrong:
-        raise ModelError(*wrong)
-    supports = tuple(name for name, solid in zip(names, solids, strict=True) if _is_support(solid))
-    return ImportedBlocks(tuple(blocks), layers, tuple(notes), supports)
+    where = frame(contents, units, up)
+    found = blocks_of(contents, where, twisted)
+    if found.wrong and (not skip_bad or not found.blocks):
+        raise refused(found.wrong, len(found.blocks))
+    weights = _weights({block.name: block.layer for block in found.blocks}, unit_weight)
+    blocks = tuple(
+        block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
+        for block in found.blocks
+    )
+    notes = (*contents.notes, *found.notes, *left_out(found.wrong))
+    return ImportedBlocks(blocks, notes, found.supports, where.warnings, tuple(found.wrong))
+
+
+def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) -> Made:
+    """Return the solids of a file as blocks with unique names, in metres, with Z up."""
+    names, renamed = unique_names([solid.name for solid in contents.solids])
+    named = dict(zip(names, contents.solids, strict=True))
+    found = made(named, where.metres * _upright(where.up), twisted)
+    supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
+    wrong = {**contents.wrong, **found.wrong}
+    return Made(found.blocks, (*renamed, *found.notes), wrong, supports)
+
+
+def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
+    """Return unit and axis up of a file: as given, else as the file says, else m and Z or what is likelier.
+
+    Raises
+    ------
+    ModelError
+        An unknown unit or axis.
+    """
+    per_unit, axis = metres(units, contents.metres), up or contents.up or "z"
+    warnings = []
+    _upright(axis)
+    points = [np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3) for solid in contents.solids]
+    sound = [k for k, one in enumerate(points) if len(one) and np.abs(one).max() < 1e30]
+    words = [(contents.solids[k].name, contents.solids[k].layer) for k in sound]
+    boxes = Boxes.of([points[k] for k in sound], words) if sound else None
+    unit = guesses.unit(boxes) if boxes and units is None and contents.metres is None else None
+    if unit:
+        per_unit = UNITS[unit[0]]
+        warnings.append(unit[1])
+    why = guesses.tilted(boxes, axis) if boxes and up is None else ""
+    if why and contents.up is None:
+        axis = "y"
+        warnings.append(f"does not say which axis points up; taken as Y: {why}; say up='y' or 'z' (--up)")
+    elif why:
+        other = "z" if axis == "y" else "y"
+        warnings.append(f"seems to lie on its side: {why}; if so, say up={other!r} (--up {other})")
+    return Frame(per_unit, axis, tuple(warnings))
 
 
 def _is_support(solid: Solid) -> bool:
@@ -200,6 +263,15 @@ def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
     return unique, [
         f"{times[name]} blocks are named {name!r}; all but the first got a number" for name in shared
     ]
+
+
+def labels(blocks: Iterable[Block], supports: Container[str] | None) -> dict[str, str]:
+    """Return the layer of each block by its name; for one without, support or block where this is known."""
+    return {
+        block.name: block.layer
+        or ("" if supports is None else "support" if block.name in supports else "block")
+        for block in blocks
+    }
 
 
 def _weights(layers: Mapping[str, str], unit_weight: UnitWeight) -> dict[str, float | None]:

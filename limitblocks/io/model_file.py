@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
@@ -14,9 +16,10 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
 from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
-from limitblocks.io.registry import JOINTS, TERMS
+from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
+from limitblocks.io.registry import TERMS
 from limitblocks.io.units import in_si
-from limitblocks.joints import Joint
+from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load, self_weight
 from limitblocks.mechanics.loads import unit_vector
 from limitblocks.model import Model
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
         ModelDocument,
         TermDocument,
     )
+
+_log = logging.getLogger("limitblocks")
 
 
 def read(file: str | Path) -> Model:
@@ -66,7 +71,10 @@ def _model(document: ModelDocument) -> Model:
     """The model of a document of the right form; raises ModelError with all its faults."""
     wrong = faults.Faults(_unknown_names(document))
     blocks = wrong.all_made("blocks", _block, document.blocks)
-    joints = {name: wrong.made(f"joints.{name}", _joint, joint) for name, joint in document.joints.items()}
+    joints = {name: wrong.made(f"joints.{name}", joint_of, joint) for name, joint in document.joints.items()}
+    table = materials_of(document, wrong) if document.materials else None
+    if table and not wrong:
+        blocks = wrong.made("materials", _assigned, table, blocks) or blocks
     dead = wrong.all_made("dead", _load, document.dead)
     live = wrong.all_made("live", _load, document.live)
     tolerances = Tolerances(**document.tolerances.model_dump()) if document.tolerances else None
@@ -74,19 +82,30 @@ def _model(document: ModelDocument) -> Model:
         interfaces = wrong.all_made("interfaces", _interface, document.interfaces, joints)
     elif not wrong:
         settings = document.interfaces.find
-        contacts = wrong.made("interfaces.find", partial(_contacts, blocks, joints, settings))
+        law = joints[settings.joint] if settings.joint else table.between if table else None
+        contacts = wrong.made("interfaces.find", partial(_contacts, blocks, law, settings))
         if contacts:
             interfaces, tolerances = contacts.interfaces, contacts.tolerances
     if wrong:
         raise ModelError(*wrong)
     loads = sum(dead, Load()), sum(live, Load())
-    return Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    refuse_jointless(model)
+    return model
 
 
-def _contacts(blocks: list[Block], joints: dict[str, Joint], settings: FindSettings) -> Contacts:
+def _assigned(table: Materials, blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Return the blocks with their materials; patterns in vain are logged."""
+    assigned, warnings = table.on(blocks)
+    for line in warnings:
+        _log.warning("%s", line)
+    return assigned
+
+
+def _contacts(blocks: Sequence[Block], joint: Any, settings: FindSettings) -> Contacts:
     """Return the contacts found as the settings of a file say; raises GeometryError where they do not do."""
     asked = {"gap": settings.gap, "angle": settings.angle, "width": settings.width}
-    contacts = find_contacts(blocks, joints[settings.joint], **asked)
+    contacts = find_contacts(blocks, joint, **asked)
     contacts.require()
     return contacts
 
@@ -107,9 +126,13 @@ def _unknown_names(document: ModelDocument) -> list[str]:
             used.append((f"interfaces[{k}].block_i", one.block_i, blocks, "block"))
             used.append((f"interfaces[{k}].block_j", one.block_j, blocks, "block"))
             used.append((f"interfaces[{k}].joint", one.joint, joints, "joint"))
-    else:
+    elif document.interfaces.find.joint is not None:
         used.append(("interfaces.find.joint", document.interfaces.find.joint, joints, "joint"))
     wrong = []
+    if not isinstance(document.interfaces, list) and not (
+        document.interfaces.find.joint or document.materials
+    ):
+        wrong.append("interfaces.find.joint is null, and there are no materials that have joints")
     for place, name, known, word in used:
         if name not in known:
             wrong.append(f"{place}: {name!r} is not a {word} of the model{faults.near(name, known)}")
@@ -118,13 +141,10 @@ def _unknown_names(document: ModelDocument) -> list[str]:
 
 def _block(document: BlockDocument) -> Block:
     if document.box is not None:
-        return Block.box(document.name, document.box.size, document.box.at, document.unit_weight)
-    return Block(document.name, document.vertices, document.faces, document.unit_weight)  # type: ignore[arg-type]
-
-
-def _joint(document: Any) -> Joint:
-    joint: Joint = JOINTS[document.type](**document.model_dump(exclude={"type"}))
-    return joint
+        block = Block.box(document.name, document.box.size, document.box.at)
+    else:
+        block = Block(document.name, document.vertices, document.faces)  # type: ignore[arg-type]
+    return block.labelled(unit_weight=document.unit_weight, layer=document.layer, material=document.material)
 
 
 def _load(document: TermDocument) -> Load:

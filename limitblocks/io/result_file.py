@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from limitblocks.io.result_documents import BoundsDocument, ResultDocument
 
 RESULT_SCHEMA_VERSION = 1
-_STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel", "osqp")
+_STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
     "range": "holds a range of load factors; expected the result of bounds, nonassociated or path, or one of "

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
-from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.geometry import Contacts, Selection, find_contacts, select
+from limitblocks.geometry.selection import listed
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
-from limitblocks.joints import Joint
+from limitblocks.io.materials import read_materials, refuse_jointless
+from limitblocks.io.open_joints import open_joints
+from limitblocks.io.supports import likely_supports
+from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load, self_weight
 from limitblocks.model import Model
-
-Supports = str | Iterable[str] | Callable[[Block], bool]
-
-#: Gaps, in block lengths, that are tried where blocks have no interface.
-_WIDER = (0.01, 0.02, 0.05, 0.1)
 
 _log = logging.getLogger("limitblocks")
 
@@ -28,10 +27,13 @@ def read(
     file: str | Path,
     *,
     joint: Joint | None = None,
-    supports: Supports | None = None,
+    materials: Materials | str | Path | None = None,
+    supports: Selection | None = None,
     unit_weight: UnitWeight = None,
     units: str | None = None,
     up: str | None = None,
+    twisted: Twisted | None = None,
+    skip_bad: bool = False,
     dead: Load | None = None,
     live: Load | None = None,
     gap: float | None = None,
@@ -43,7 +45,8 @@ def read(
     A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
     bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
     :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
-    warnings, a line each; :func:`limitblocks.read_blocks` and :func:`limitblocks.find_contacts` return them.
+    warnings, a line each; :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return
+    them.
 
     Parameters
     ----------
@@ -51,16 +54,22 @@ def read(
         The suffix of its name says the format.
     joint : Joint, optional
         What every interface can carry.
+    materials : Materials, str or Path, optional
+        Instead of a joint: a table of materials, or the TOML file that holds it.
     supports : str, iterable of str, or function of a Block, optional
-        Names of blocks or of layers, or what is true for a block that does not move; left out, the supports
-        that the file marks: :attr:`ImportedBlocks.supports`.
+        Blocks that do not move, as for :func:`limitblocks.files.select`: names of blocks or layers,
+        "layer:BASE*", "z<0.05", or a function; left out, those that the file marks:
+        :attr:`ImportedBlocks.supports`.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer.
     units : str, optional
         Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
-        metres where it says nothing.
+        metres where it says nothing, or with a warning mm or cm where it would be larger than 300 m.
     up : str, optional
-        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z.
+        Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z, or with
+        a warning Y where the structure would lie on its side.
+    twisted, skip_bad
+        As for :func:`limitblocks.read_blocks`.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
     gap, angle, width : float, optional
@@ -78,21 +87,28 @@ def read(
     path = Path(file)
     given: dict[str, object] = {
         "joint": joint,
+        "materials": materials,
         "supports": supports,
         "unit_weight": unit_weight,
         "units": units,
         "up": up,
+        "twisted": twisted,
+        "skip_bad": skip_bad or None,
     }
     said = [key for key, value in given.items() if value is not None]
     if is_model_file(path) and said:
         raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
     if is_model_file(path):
         return model_file.read(path)
-    imported = read_blocks(path, units=units, unit_weight=unit_weight, up=up)
+    imported = read_blocks(
+        path, units=units, unit_weight=unit_weight, up=up, twisted=twisted, skip_bad=skip_bad
+    )
+    table = read_materials(materials) if isinstance(materials, str | Path) else materials
     with faults.named(path):
-        model, contacts = model_of(
+        model, contacts, vain = model_of(
             imported,
             joint=joint,
+            materials=table,
             supports=supports,
             live=live,
             dead=dead,
@@ -101,7 +117,7 @@ def read(
             width=width,
             name=path.stem,
         )
-    for line in (*imported.notes, *contacts.warnings, *questions(model)):
+    for line in (*imported.notes, *imported.guesses, *vain, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model
@@ -111,68 +127,70 @@ def model_of(
     imported: ImportedBlocks,
     *,
     joint: Joint | None,
-    supports: Supports | None,
+    supports: Selection | None,
     live: Load | None,
+    materials: Materials | None = None,
     dead: Load | None = None,
     gap: float | None = None,
     angle: float | None = None,
     width: float | None = None,
     name: str = "",
-) -> tuple[Model, Contacts]:
-    """Return the model of blocks that were read, and what was seen in their contacts.
+) -> tuple[Model, Contacts, tuple[str, ...]]:
+    """Return the model of blocks that were read, what was seen in their contacts, and warnings on materials.
 
     Raises
     ------
     ModelError
         An argument is missing, a support is unknown, or the model is wrong.
     """
-    supports = supports or imported.supports or None
-    if joint is None or supports is None or live is None:
-        given = {"joint": joint, "supports": supports, "live": live}
-        missing = (key for key, value in given.items() if value is None)
-        raise ModelError(
-            *(f"the format holds blocks only; give {key}=... to read a model" for key in missing)
-        )
-    names = supports_of(imported, supports)
-    contacts = find_contacts(imported.blocks, joint, gap=gap, angle=angle, width=width)
+    wanted = supports or imported.supports or None
+    _refuse_missing(imported, joint, materials, wanted, live)
+    blocks, vain = (imported.blocks, ()) if materials is None else materials.on(imported.blocks)
+    names = select(blocks, wanted, "support")  # type: ignore[arg-type] # not missing
+    law = joint if materials is None else materials.between
+    contacts = find_contacts(blocks, law, gap=gap, angle=angle, width=width)
     contacts.require()
     loads = self_weight() if dead is None else dead
     try:
-        model = Model(imported.blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)
+        model = Model(blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)  # type: ignore[arg-type]
     except ModelError as error:
-        raise ModelError(*error.problems, *_open_joints(contacts, imported.blocks)) from None
-    return model, contacts
+        raise ModelError(*error.problems, *open_joints(contacts, blocks), *_missing(imported)) from None
+    refuse_jointless(model)
+    return model, contacts, vain
 
 
-def _open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
-    """Return the line that says which gap lets blocks touch that have no interface; none where none does."""
-    for gap in _WIDER * bool(contacts.isolated):
-        wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
-        tied = len(contacts.isolated) - len(wide.isolated)
-        if tied > 0:
-            return [
-                f"{tied} blocks without any interface would touch with gap={gap:g} (block lengths, "
-                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open?"
-            ]
-    return []
+def _missing(imported: ImportedBlocks) -> list[str]:
+    """Return the line that says which parts of the file are missing in the model; none where none is."""
+    gone = imported.left_out
+    if not gone:
+        return []
+    shown = ", ".join(map(repr, gone[:8])) + (f" and {len(gone) - 8} more" if len(gone) > 8 else "")
+    return [
+        f"{len(gone)} parts of the file are no blocks and were left out: {shown}; are they what is missing?"
+    ]
 
 
-def supports_of(imported: ImportedBlocks, supports: Supports) -> tuple[str, ...]:
-    """Return the names of the supports: blocks named, of named layers, or that a function picks.
-
-    Raises
-    ------
-    ModelError
-        A name is neither that of a block nor that of a layer.
-    """
-    if callable(supports):
-        return tuple(block.name for block in imported.blocks if supports(block))
-    wanted = {supports} if isinstance(supports, str) else set(supports)
-    names, layers = set(imported.layers), set(imported.layers.values()) - {""}
-    unknown = sorted(wanted - names - layers)
-    if unknown:
-        raise ModelError(
-            *(f"support {name!r} is neither a block nor a layer{faults.near(name, names | layers)}"
-              for name in unknown)
-        )  # fmt: skip
-    return tuple(name for name, layer in imported.layers.items() if name in wanted or layer in wanted)
+def _refuse_missing(
+    imported: ImportedBlocks,
+    joint: Joint | None,
+    materials: Materials | None,
+    supports: Selection | None,
+    live: Load | None,
+) -> None:
+    """Raise ModelError for what the format does not hold and was not given."""
+    wrong = []
+    if joint is None and materials is None:
+        wrong.append("the format holds blocks only; give joint=... (or materials=...) to read a model")
+    if joint is not None and materials is not None:
+        wrong.append("joint and materials are both given; the materials have the joints, leave joint out")
+    if supports is None:
+        likely = likely_supports(imported.blocks)
+        such = f", such as {' '.join(map(repr, likely[0].chosen_by))}" if likely else ""
+        wrong.append(
+            f"the format holds blocks only; give supports=... to read a model{such}; "
+            f"there are {listed(imported.blocks)}"
+        )
+    if live is None:
+        wrong.append("the format holds blocks only; give live=... to read a model")
+    if wrong:
+        raise ModelError(*wrong)

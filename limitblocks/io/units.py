@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
-    from limitblocks.io.documents import ModelDocument
+    from limitblocks.io.documents import MaterialsDocument, ModelDocument
+
+D = TypeVar("D", "ModelDocument", "MaterialsDocument")
 
 Length = Literal["m", "cm", "mm", "in", "ft"]
 Force = Literal["N", "kN", "MN", "kgf", "lbf", "kip"]
@@ -47,7 +49,7 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
 }
 
 
-def in_si(document: ModelDocument) -> ModelDocument:
+def in_si(document: D) -> D:
     """Return the document with all its numbers in m and N.
 
     Raises
@@ -58,7 +60,7 @@ def in_si(document: ModelDocument) -> ModelDocument:
     units = document.units
     if (units.length, units.force) == ("m", "N"):
         return document
-    converted: ModelDocument = _part(document, METRES[units.length], NEWTONS[units.force])
+    converted: D = _part(document, METRES[units.length], NEWTONS[units.force])
     return converted
 
 

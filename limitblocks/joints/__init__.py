@@ -1,18 +1,35 @@
-"""What an interface can carry: one yield model a file, each as conic rows (F, g, G, K)."""
+"""What an interface can carry: one yield model a file, each as conic rows (F, g, G, K).
 
+For a joint of your own: `YieldRows` is what it returns, `Queries` asks one joint, `areas` and
+`torsion_constants` measure polygons; examples/16_write_your_own_joint.py is one.
+"""
+
+from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import Joint, YieldRows
 from limitblocks.joints.exact_torsion import ExactTorsion
 from limitblocks.joints.interaction import effective_strength
+from limitblocks.joints.materials import Material, Materials, weaker
 from limitblocks.joints.orduna_lourenco import OrdunaLourenco
 from limitblocks.joints.point_contact import PointContact
-from limitblocks.joints.queries import interface
+from limitblocks.joints.queries import Queries, interface
+from limitblocks.joints.torsion import torsion_constants
 
 __all__ = [
     "ExactTorsion",
     "Joint",
+    "Material",
+    "Materials",
     "OrdunaLourenco",
     "PointContact",
+    "Queries",
     "YieldRows",
+    "areas",
     "effective_strength",
     "interface",
+    "torsion_constants",
+    "weaker",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

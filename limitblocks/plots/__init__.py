@@ -30,3 +30,7 @@ __all__ = [
     "structure",
     "thrust_line",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import Enum
 from functools import cached_property
 
 import numpy as np
@@ -11,31 +10,12 @@ import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array
+from limitblocks.choices import Turning
 from limitblocks.errors import ModelError
 from limitblocks.problem.limit_problem import LimitProblem
 
 FARTHEST = 1.5  # of the half sides: states within the yield set stay below 1, iterates may stray
 ASSOCIATED = np.inf  # a dilatancy: at least the friction of every interface
-
-
-class Turning(Enum):
-    """What an interface twists about when bending limits its torsion, Eq. (30).
-
-    The gradient of Eq. (30) at fixed N, M1, M2 is a twist about the centroid: it never does negative work.
-    The paper's Table 5 turns about the point where N acts, (e1, e2) = (-M2/N, M1/N), and can.
-    """
-
-    CENTROID = "centroid"
-    PRESSURE = "centre of pressure"
-
-
-def turning_of(word: Turning | str) -> Turning:
-    """Return the turning that `word` names, or raise ModelError."""
-    try:
-        return Turning(word)
-    except ValueError:
-        choices = " or ".join(repr(turning.value) for turning in Turning)
-        raise ModelError(f"turning is {word!r}, expected {choices}") from None
 
 
 def checked_dilatancy(problem: LimitProblem, dilatancy: float) -> float:

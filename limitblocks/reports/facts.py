@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from inspect import getdoc
 from typing import Any
@@ -35,7 +35,9 @@ def facts(model: Model) -> dict[str, Any]:
         "volume": sum(block.volume for block in free),
         "interface_area": float(sum(areas(interface.polygon) for interface in model.interfaces)),
         "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
-        "joints": _counted(repr(interface.joint) for interface in model.interfaces),
+        "joints": _counted(_joint_words(model)),
+        "layers": _counted(block.layer for block in model.blocks if block.layer),
+        "materials": _materials(model),
         "block_types": _counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
         "interface_types": _counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
@@ -50,9 +52,14 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return the facts as rows to read: quantity and value with its unit."""
     low, high = known["bounding_box"]
     size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
+    labels = [
+        ("Layers", _times(known["layers"])),
+        ("Materials", "; ".join(map(_made_of, known["materials"]))),
+    ]
     return (
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
         ("Supports", _some(known["supports"])),
+        *(row for row in labels if row[1]),
         ("Block types", _times(known["block_types"])),
         ("Interfaces", f"{known['interfaces']} ({_times(known['interface_types'])})"),
         ("Interface area", f"{known['interface_area']:.4g} m²"),
@@ -64,6 +71,36 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Dead load", _some(known["dead"]) or "none"),
         ("Live load", _some(known["live"])),
     )
+
+
+def _joint_words(model: Model) -> Iterator[str]:
+    """Yield the joint of each interface, after the materials that it joins where they are known."""
+    material = {block.name: block.material for block in model.blocks}
+    for one in model.interfaces:
+        pair = "|".join(sorted((material[one.block_i], material[one.block_j])))
+        yield f"{pair}: {one.joint!r}" if pair != "|" else repr(one.joint)
+
+
+def _materials(model: Model) -> list[dict[str, Any]]:
+    """Return the number of blocks, volume (m3) and unit weights (N/m3) of each material."""
+    names = _counted(block.material for block in model.blocks if block.material)
+    made = {name: [block for block in model.blocks if block.material == name] for name in names}
+    return [
+        {
+            "material": name,
+            "blocks": len(blocks),
+            "volume": sum(block.volume for block in blocks),
+            "unit_weights": sorted({b.unit_weight for b in blocks if b.unit_weight is not None}),
+        }
+        for name, blocks in made.items()
+    ]
+
+
+def _made_of(one: dict[str, Any]) -> str:
+    weights = (
+        " and ".join(f"{weight / 1e3:g} kN/m³" for weight in one["unit_weights"][:3]) or "no unit weight"
+    )
+    return f"{one['blocks']} × {one['material']}, {one['volume']:.4g} m³, {weights}"
 
 
 def load_words(load: Load) -> list[str]:

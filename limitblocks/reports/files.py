@@ -44,7 +44,7 @@ def suffix(file: str | Path) -> str:
 
 
 def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) -> Path:
-    """Write `report` to `file` in the format of suffix `kind`; see :meth:`limitblocks.Report.save`."""
+    """Write `report` to `file` in the format of suffix `kind`; see :meth:`results.Report.save`."""
     path = Path(file)
     data = _bytes(report, kind)
     if overwrite is None and path.is_file():

@@ -151,7 +151,7 @@ def report(
     model : Model
         The structure.
     *results
-        What the analyses of this model returned, such as :class:`limitblocks.Bounds`.
+        What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`.
     title : str
         Title; by default the name of the model.
     author, project, notes : str

@@ -119,6 +119,8 @@ def _blocks(model: Model) -> dict[str, Any]:
             "centroid": short([block.centroid for block in model.blocks], 1e-9),
             "weight": short([_weight(block.unit_weight, block.volume) for block in model.blocks]),
             "volume": short([block.volume for block in model.blocks]),
+            "layer": [block.layer for block in model.blocks],
+            "material": [block.material for block in model.blocks],
             "support": [k for k, block in enumerate(model.blocks) if block.name in model.supports],
         },
     }

@@ -144,4 +144,4 @@ def _turned(block: Block, angle: float) -> Block:
     """The block turned about the Z axis, anticlockwise seen from above."""
     c, s = np.cos(angle), np.sin(angle)
     turned = block.vertices @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]])
-    return Block(block.name, turned, block.faces, block.unit_weight)
+    return replace(block, vertices=turned)

@@ -16,3 +16,7 @@ __all__ = [
     "moving_load",
     "sweep",
 ]
+
+
+def __dir__() -> list[str]:
+    return __all__

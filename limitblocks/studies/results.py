@@ -57,7 +57,7 @@ class Study:
         return [self._key(k) | _answer(*answer, self.analysis) for k, answer in enumerate(answers)]
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as plain numbers, lists and text; :func:`limitblocks.write_result` writes it."""
+        """Return the study as plain numbers, lists and text; `files.write_result` writes it."""
         return {"analysis": "study", "study": type(self).__name__, "of": self.analysis, "rows": self.rows()}
 
     def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:

@@ -35,7 +35,8 @@ def directions(
     model : Model
         The structure; its live load is turned into each direction.
     directions : int or array_like, shape (n, 3)
-        Number of directions equally spaced in plan (:func:`limitblocks.compass`), or vectors of any length.
+        Number of directions equally spaced in plan (:func:`limitblocks.loads.compass`), or vectors of any
+        length.
     live : callable, optional
         Gives the live load of a direction (a unit vector); needed where the model's live load is not
         mass-proportional.
@@ -81,7 +82,8 @@ def moving_load(
         The structure; its live load is replaced by the moving one.
     load : sequence of float or callable
         Force (N, global axes) on top of the highest free block at the place, see
-        :func:`limitblocks.top_force`; or a function of the place that gives the load, such as several axles.
+        :func:`limitblocks.loads.top_force`; or a function of the place that gives the load, such as several
+        axles.
     positions : array_like, shape (n, 2)
         Places (x, y) in plan, m. At a place without a free block below, the row has an error.
     analysis, workers, progress, **settings

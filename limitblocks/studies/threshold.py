@@ -77,7 +77,7 @@ class Threshold:
         return in_columns(self.rows())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain numbers, lists and text; :func:`limitblocks.write_result` writes it."""
+        """Return the result as plain numbers, lists and text; `files.write_result` writes it."""
         return {
             "analysis": "study",
             "study": type(self).__name__,

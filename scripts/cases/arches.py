@@ -6,8 +6,9 @@ from functools import cache, partial
 import numpy as np
 
 import limitblocks as lb
-from cases.case import JOINTS, Case, associated
+from cases.case import JOINTS, Case, associated, of_print
 from limitblocks import structures
+from limitblocks.structures.cases import COCCHETTI_RIZZI, HEYMAN, MILANKOVITCH, OPPENHEIM, Comparison
 
 
 def semicircle(kind, friction, voussoirs, ratio):
@@ -21,7 +22,9 @@ def lumped(model):
     weight = np.mean([part.weight for part in model.free_blocks])
     points = np.column_stack([np.sin(angles), np.zeros(n), np.cos(angles)])
     at = zip(model.free_blocks, points, strict=True)
-    return replace(model, dead=sum((lb.force(b.name, (0, 0, -weight), at=p) for b, p in at), lb.Load()))
+    return replace(
+        model, dead=sum((lb.loads.force(b.name, (0, 0, -weight), at=p) for b, p in at), lb.loads.Load())
+    )
 
 
 def least_ratio(build, low, high):
@@ -36,7 +39,7 @@ def least_lumped(friction, expected):
 def stands(friction, ratio):
     try:
         lb.bounds(lumped(semicircle(lb.PointContact, friction, 201, ratio)))
-    except lb.NoEquilibrium:
+    except lb.errors.NoEquilibrium:
         return 0.0
     return 1.0
 
@@ -47,7 +50,7 @@ def thinnest():
     model = lumped(semicircle(lb.PointContact, 0.7, 201, 0.10743))
     keystone = model.free_blocks[100]
     weight = sum(part.weight for part in model.free_blocks)
-    push = lb.force(keystone.name, (0, 0, -0.02 * weight), at=keystone.centroid)
+    push = lb.loads.force(keystone.name, (0, 0, -0.02 * weight), at=keystone.centroid)
     return model, weight / np.pi, lb.bounds(replace(model, dead=model.dead + (-1.0) * push, live=push))
 
 
@@ -76,27 +79,30 @@ def lunes(ratio):
 
 
 def arches():
-    group, cocchetti = "Arches and domes", "Cocchetti & Rizzi (2020), Table 3"
+    group, continuous = "Arches and domes", COCCHETTI_RIZZI["t/R"]
     centreline = "semicircle, weights on the centreline, 201 voussoirs"
-    for friction, value in ((0.7, 0.107426), (0.309215, 0.200637)):
-        yield Case(group, f"{centreline}, friction {friction}", "least t/R", cocchetti, value, 2e-4 * value,
-                   partial(least_lumped, friction, value))  # fmt: skip
-    yield Case(group, f"{centreline}, friction 0.397", "least t/R", f"{cocchetti}: as above 0.395832",
-               0.107426, 2e-5, partial(least_lumped, 0.397, 0.107426))  # fmt: skip
+    for friction, known in continuous.items():
+        yield of_print(group, f"{centreline}, friction {friction}", "least t/R", known,
+                       partial(least_lumped, friction, known.value))  # fmt: skip
+    source, value = continuous[0.7].source, continuous[0.7].value
+    yield Case(group, f"{centreline}, friction 0.397", "least t/R", f"{source}: as above 0.395832",
+               value, 2e-5, partial(least_lumped, 0.397, value), comparison=Comparison.IDEALISED)  # fmt: skip
     for ratio in (0.3, 0.5):
         yield Case(group, f"{centreline}, friction 0.3085, t/R {ratio}", "stands (1) or falls (0)",
-                   f"{cocchetti}: none stands", 0.0, 0.0, partial(stands, 0.3085, ratio))  # fmt: skip
-    yield Case(group, centreline, "thrust / (gamma t d R)", cocchetti, 0.621772, 2e-3 * 0.621772, thrust)
-    yield Case(group, centreline, "haunch hinge, degrees from the crown", cocchetti, 54.50, 180 / 201, haunch)
-    yield Case(group, "semicircle, 201 voussoirs", "least t/R", "Milankovitch (1907)", 0.1075, 5e-5,
-               lambda: least_ratio(partial(semicircle, lb.PointContact, 0.7, 201), 0.104, 0.11))  # fmt: skip
+                   f"{source}: none stands", 0.0, 0.0, partial(stands, 0.3085, ratio),
+                   comparison=Comparison.IDEALISED)  # fmt: skip
+    yield of_print(group, centreline, "thrust / (gamma t d R)", COCCHETTI_RIZZI["thrust"], thrust)
+    haunches = "haunch hinge, degrees from the crown"
+    yield of_print(group, centreline, haunches, COCCHETTI_RIZZI["haunch"], haunch)
+    ring = partial(semicircle, lb.PointContact, 0.7, 201)
+    yield of_print(group, "semicircle, 201 voussoirs", "least t/R", MILANKOVITCH,
+                   lambda: least_ratio(ring, 0.104, 0.11))  # fmt: skip
     for name, kind in JOINTS.items():
         yield Case(group, f"semicircle, 27 voussoirs, friction 0.5, {name}", "least t/R",
                    "0.1067 to 0.1068, no single source", 0.10675, 5e-5,
-                   partial(least_ratio, partial(semicircle, kind, 0.5, 27), 0.104, 0.11))  # fmt: skip
-        yield Case(group, f"R = 10 m, t/R = 0.15, 157.5 degrees, 7 voussoirs, {name}", "associated",
-                   "Oppenheim (1992)", 0.37, 0.005, partial(associated, oppenheim, kind(0.7)),
-                   quick=True)  # fmt: skip
-    yield Case(group, "hemisphere of two opposite lunes, 101 voussoirs", "least t/R",
-               "two-lune solution; Heyman (1967) has 0.042", 0.0428, 1e-4,
-               lambda: least_ratio(lunes, 0.041, 0.0445))  # fmt: skip
+                   partial(least_ratio, partial(semicircle, kind, 0.5, 27), 0.104, 0.11),
+                   comparison=Comparison.INDICATIVE)  # fmt: skip
+        yield of_print(group, f"R = 10 m, t/R = 0.15, 157.5 degrees, 7 voussoirs, {name}", "associated",
+                       OPPENHEIM, partial(associated, oppenheim, kind(0.7)), quick=True)  # fmt: skip
+    yield of_print(group, "hemisphere of two opposite lunes, 101 voussoirs", "least t/R", HEYMAN,
+                   lambda: least_ratio(lunes, 0.041, 0.0445))  # fmt: skip

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import limitblocks as lb
+from limitblocks.structures.cases import Comparison
 
 JOINTS = {"OrdunaLourenco": lb.OrdunaLourenco, "PointContact": lb.PointContact}
 FLOWS = ("associated", "non-associated")
@@ -23,6 +24,7 @@ class Case:
     run: Callable[[], float]
     quick: bool = False
     at_least: bool = False  # every value from the published one upwards is right
+    comparison: Comparison = Comparison.SAME
 
     def met(self, computed):
         if self.at_least:
@@ -30,11 +32,19 @@ class Case:
         return computed == self.published or abs(computed - self.published) <= self.tolerance
 
 
+def of_print(group, structure, quantity, published, run, **options):
+    """The case of a value in the registry of `limitblocks.structures.cases`."""
+    value, tolerance = published.value, published.tolerance
+    options.setdefault("source", published.source)
+    return Case(group, structure, quantity, options.pop("source"), value, tolerance, run,
+                comparison=published.comparison, **options)  # fmt: skip
+
+
 def associated(build, joint):
     """The static bound; `lb.bounds` raises unless the kinematic one agrees and all residuals are small."""
     try:
         return lb.bounds(build(joint)).lower
-    except lb.UnlimitedLoad:
+    except lb.errors.UnlimitedLoad:
         return math.inf
 
 

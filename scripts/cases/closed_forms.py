@@ -36,7 +36,7 @@ def leaves(joint):
 def pushed_at(z, joint):
     model = structures.block(joint, width=0.5, height=1.0)
     weight = model.free_blocks[0].weight
-    return replace(model, live=lb.force("block 1", (weight, 0, 0), at=(0, 0, z)))
+    return replace(model, live=lb.loads.force("block 1", (weight, 0, 0), at=(0, 0, z)))
 
 
 def block(width, height, joint, **options):

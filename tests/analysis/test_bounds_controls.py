@@ -111,7 +111,7 @@ def test_no_equilibrium_names_exactly_the_blocks_that_fall(joint):
     ]
     interfaces = lb.find_interfaces(blocks, joint)
     model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((-1, 0, 0)))
-    with pytest.raises(lb.NoEquilibrium) as caught_error:
+    with pytest.raises(lb.errors.NoEquilibrium) as caught_error:
         lb.bounds(model)
     assert caught_error.value.blocks == ("right 3",)
 
@@ -120,7 +120,7 @@ def test_no_equilibrium_names_exactly_the_blocks_that_fall(joint):
 def test_a_stack_that_leans_too_far_falls_whatever_the_live_load(direction):
     """The harmonic stack just beyond its limit, standing on a stack that stands."""
     model = structures.overhang(lb.PointContact(0.6), count=4, length=1.0, height=0.2, fraction=1.01)
-    with pytest.raises(lb.NoEquilibrium, match="block 4"):
+    with pytest.raises(lb.errors.NoEquilibrium, match="block 4"):
         lb.bounds(replace(model, live=lb.mass_proportional(direction)))
 
 
@@ -138,7 +138,7 @@ def frictionless_slope(direction):
 
 @pytest.mark.parametrize("direction", [(1, 0, 0), (0, 1, 0), (-1, 0, 0)])
 def test_a_block_on_a_frictionless_slope_has_no_equilibrium(direction):
-    with pytest.raises(lb.NoEquilibrium) as caught_error:
+    with pytest.raises(lb.errors.NoEquilibrium) as caught_error:
         lb.bounds(frictionless_slope(direction))
     assert caught_error.value.blocks == ("block",)
 
@@ -174,7 +174,7 @@ def test_a_wrong_answer_of_every_solver_is_refused_or_mended(monkeypatch, module
     monkeypatch.setattr(f"limitblocks.analysis.{module}.solved", wrong(change))
     try:
         found = lb.bounds(model)
-    except lb.SolverFailure as error:
+    except lb.errors.SolverFailure as error:
         assert "residual" in str(error) or "CLARABEL optimal" in str(error)  # noqa: PT017
     else:
         assert (found.lower, found.upper) == pytest.approx((truth.lower, truth.upper), rel=1e-6)
@@ -202,10 +202,10 @@ def small_load_factor():
 
     def load(direction):
         forces = [
-            lb.force(b.name, weight * np.array(direction), at=p)
+            lb.loads.force(b.name, weight * np.array(direction), at=p)
             for b, p in zip(model.free_blocks, points, strict=True)
         ]
-        return sum(forces, lb.Load())
+        return sum(forces, lb.loads.Load())
 
     return replace(model, dead=load((0.0, 0.0, -1.0)), live=load((1.0, 0.0, 0.0)))
 
@@ -237,13 +237,13 @@ def test_an_exception_of_the_solvers_does_not_reach_the_user(monkeypatch):
         raise cp.SolverError("numbers that no user understands")
 
     monkeypatch.setattr(cp.Problem, "solve", fail)
-    with pytest.raises(lb.SolverFailure) as caught_error:
+    with pytest.raises(lb.errors.SolverFailure) as caught_error:
         lb.bounds(structures.block(lb.PointContact(0.6), width=0.5, height=1.0))
     assert caught_error.value.__cause__ is None
 
 
 def test_tolerance_is_obeyed():
-    with pytest.raises(lb.SolverFailure):
+    with pytest.raises(lb.errors.SolverFailure):
         lb.bounds(structures.wall(lb.PointContact(0.6), length=0.8, courses=3), tolerance=1e-18)
 
 
@@ -254,3 +254,11 @@ def test_numbers_far_apart_and_singular_are_factorised():
     right = matrix @ np.arange(6.0)
     solution = scales._factors(sparse.csr_array(matrix)).solve(right)
     assert np.abs(matrix @ solution - right) == pytest.approx(0.0, abs=1e-6 * np.abs(right).max())
+
+
+def test_progress_is_told_of_every_stage():
+    model, said = lb.structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), []
+    lb.bounds(model, progress=said.append)
+    assert said == ["dead loads", "load factor", "proof"]
+    lb.bounds(model, progress=said.append)  # known
+    assert len(said) == 3

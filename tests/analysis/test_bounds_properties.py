@@ -37,7 +37,9 @@ def rebuilt(model, blocks, turn=STILL):
     """`model` with other blocks: interfaces are found again and the loads turned."""
 
     def turned(load):
-        return lb.Load(tuple((k, MassProportional(tuple(turn @ term.direction))) for k, term in load.terms))
+        return lb.loads.Load(
+            tuple((k, MassProportional(tuple(turn @ term.direction))) for k, term in load.terms)
+        )
 
     interfaces = lb.find_interfaces(blocks, model.interfaces[0].joint)
     return lb.Model(blocks, model.supports, interfaces, turned(model.dead), turned(model.live))

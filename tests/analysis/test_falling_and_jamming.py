@@ -22,13 +22,13 @@ def arch(thickness, direction):
 @pytest.mark.parametrize("direction", [DOWN, UP])
 def test_what_cannot_stand_falls_though_some_load_factor_balances_it(analysis, direction):
     """At load factor -1 (down) or 1 (up) nothing weighs anything: a trivial solution, no collapse."""
-    with pytest.raises(lb.NoEquilibrium, match="cannot stand"):
+    with pytest.raises(lb.errors.NoEquilibrium, match="cannot stand"):
         analysis(arch(0.05, direction))
 
 
 def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
     model = arch(0.05, DOWN)
-    nothing = lb.Claim(
+    nothing = lb.results.Claim(
         -1.0,
         [[0.0] * 6 for _ in model.interfaces],
         generalised_stresses=[0.0] * model.problem.C.shape[0],
@@ -40,7 +40,7 @@ def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
 
 
 def test_more_weight_does_not_end_what_stands():
-    with pytest.raises(lb.UnlimitedLoad, match="without limit"):
+    with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
         lb.bounds(arch(0.25, DOWN))
 
 
@@ -48,7 +48,7 @@ def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monke
     """Normal forces alone carry it, so that no mechanism of any flow rule does positive work."""
     monkeypatch.setattr(loop, "first_to_solve", None)
     model = replace(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), live=lb.mass_proportional(DOWN))
-    with pytest.raises(lb.UnlimitedLoad, match="normal forces alone balance it"):
+    with pytest.raises(lb.errors.UnlimitedLoad, match="normal forces alone balance it"):
         lb.nonassociated(model)
 
 

@@ -7,7 +7,7 @@ import limitblocks as lb
 from limitblocks.evidence.interface_states import LOADED, interface_states
 
 CORNER = {"length": 1.6, "return_length": 1.2, "courses": 3}
-JOINTS = [lb.OrdunaLourenco, lb.PointContact, lb.ExactTorsion]
+JOINTS = [lb.OrdunaLourenco, lb.PointContact, lb.joints.ExactTorsion]
 GROUND = lb.Block.box("ground", size=(6, 6, 1), at=(0, 0, -0.5))
 
 
@@ -48,7 +48,7 @@ def test_low_block_slides_with_its_weight_off_the_middle(joint, analysis):
     block = stone(size=(2.0, 1.0, 0.5), at=(0, 0, 0.25))
     found, _ = states_of([GROUND, block], joint(friction=0.5), lb.mass_proportional((1, 0, 0)), analysis)
     # at a corner of a polytope of the limit surface the mechanism is not unique: it may twist, too
-    assert found.state == ("slide",) or (joint is lb.ExactTorsion and found.state == ("slide-twist",))
+    assert found.state == ("slide",) or (joint is lb.joints.ExactTorsion and found.state == ("slide-twist",))
     assert np.allclose(found.centre_of_pressure, [[0.5 * 0.25, 0, 0]], atol=1e-5)  # mu h / 2
     assert np.isclose(found.utilisation[0], 1.0, atol=1e-5)
     lift = 0.5 if analysis is lb.bounds else 0.0  # associated sliding lifts by mu
@@ -58,27 +58,27 @@ def test_low_block_slides_with_its_weight_off_the_middle(joint, analysis):
 @pytest.mark.parametrize("joint", JOINTS)
 def test_unmoved_joint_below_a_sliding_block_uses_half_its_friction(joint):
     blocks = [GROUND, stone("low", (3, 3, 0.2), (0, 0, 0.1)), stone("top", (3, 3, 0.2), (0, 0, 0.3))]
-    push = lb.force("top", (blocks[2].weight, 0, 0), at=(0, 0, 0.3))
+    push = lb.loads.force("top", (blocks[2].weight, 0, 0), at=(0, 0, 0.3))
     found, _ = states_of(blocks, joint(friction=0.5), push)
     states = dict(zip(found.names, found.state, strict=True))
     used = dict(zip(found.names, found.utilisation, strict=True))
     assert states == {"ground|low": "stick", "low|top": "slide"}
     assert np.isclose(used["ground|low"], 0.5, atol=1e-4)  # mu W / (mu 2 W)
     assert found.active_modes[found.names.index("ground|low")] == ()
-    slip = ("slip-twist",) if joint is lb.ExactTorsion else ("slip",)  # rows of the limit surface
+    slip = ("slip-twist",) if joint is lb.joints.ExactTorsion else ("slip",)  # rows of the limit surface
     assert found.active_modes[found.names.index("low|top")] == slip
 
 
 @pytest.mark.parametrize("joint", JOINTS)
 def test_torque_twists(joint):
-    found, _ = states_of([GROUND, stone()], joint(friction=0.5), lb.moment("stone", (0, 0, 1)))
+    found, _ = states_of([GROUND, stone()], joint(friction=0.5), lb.loads.moment("stone", (0, 0, 1)))
     assert found.state == ("twist",)
     assert np.isclose(abs(found.strain_rates[0, 5]), 1.0, rtol=1e-5)  # unit work of a unit moment
 
 
 @pytest.mark.parametrize("joint", JOINTS)
 def test_force_off_the_middle_slides_and_twists(joint):
-    live = lb.force("stone", (0, 20e3, 0), at=(0.15, 0, 0))
+    live = lb.loads.force("stone", (0, 20e3, 0), at=(0.15, 0, 0))
     found, _ = states_of([GROUND, stone()], joint(friction=0.3), live)
     assert found.state == ("slide-twist",)
 
@@ -88,8 +88,8 @@ def test_twist_about_an_eccentric_centre_of_pressure_does_not_slide():
     blocks = [GROUND, block]
     joint = lb.OrdunaLourenco(friction=0.5)
     # a load of the same weight at (0.7, 0.3) puts the centre of pressure half as far
-    dead = lb.self_weight() + lb.force("stone", (0, 0, -block.weight), at=(0.7, 0.3, 1.0))
-    live = lb.moment("stone", (0, 0, 1))
+    dead = lb.self_weight() + lb.loads.force("stone", (0, 0, -block.weight), at=(0.7, 0.3, 1.0))
+    live = lb.loads.moment("stone", (0, 0, 1))
     model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, joint), dead, live)
     found = interface_states(model, lb.nonassociated(model, turning="centre of pressure"))
     assert found.active_modes == (("moment-twist",),)
@@ -138,7 +138,7 @@ def test_weak_stone_crushes_where_a_hard_one_hinges():
 @pytest.mark.parametrize("joint", JOINTS)
 def test_head_joint_opens_when_one_block_is_pushed_away(joint):
     blocks = [GROUND, stone("left", at=(-0.5, 0, 0.5)), stone("right", at=(0.5, 0, 0.5))]
-    found, _ = states_of(blocks, joint(friction=0.3), lb.force("right", (1, 0, 0), at=(0.5, 0, 0)))
+    found, _ = states_of(blocks, joint(friction=0.3), lb.loads.force("right", (1, 0, 0), at=(0.5, 0, 0)))
     assert dict(zip(found.names, found.state, strict=True)) == {
         "ground|left": "stick",
         "ground|right": "slide",
@@ -149,10 +149,10 @@ def test_head_joint_opens_when_one_block_is_pushed_away(joint):
     assert found.utilisation[k] == 0.0
 
 
-@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.ExactTorsion])
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])
 @pytest.mark.parametrize("settings", [{}, {"cohesion": 2e3}])
 def test_utilisation_is_what_the_joint_answers(joint, settings):
-    if joint is lb.ExactTorsion and settings:
+    if joint is lb.joints.ExactTorsion and settings:
         settings = {"fineness": 2}
     model = lb.structures.corner(joint(friction=0.6, **settings), **CORNER)
     bounds = lb.bounds(model)
@@ -223,7 +223,7 @@ def test_result_of_another_model_is_refused():
     with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
         interface_states(other, lb.bounds(model))
     with pytest.raises(lb.LimitBlocksError, match="Claim has no mechanism"):
-        interface_states(model, lb.Claim(0.5, np.zeros((1, 6))))
+        interface_states(model, lb.results.Claim(0.5, np.zeros((1, 6))))
 
 
 def test_arrays_cannot_be_written_to():

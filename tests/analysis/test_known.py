@@ -104,10 +104,10 @@ def test_what_is_raised_is_not_kept():
 
     def fails():
         tries.append(1)
-        raise lb.SolverFailure("on purpose")
+        raise lb.errors.SolverFailure("on purpose")
 
     for _ in range(2):
-        with pytest.raises(lb.SolverFailure):
+        with pytest.raises(lb.errors.SolverFailure):
             known(model, "nothing", fails)
     assert len(tries) == 2
 

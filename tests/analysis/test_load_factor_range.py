@@ -84,7 +84,7 @@ def test_pushed_pair_has_an_interval(of_pushed):
 @pytest.mark.parametrize("answer", [0, -1])
 def test_an_answer_is_saved_and_checked_again(answer, pushed, of_pushed, tmp_path):
     model, one = pushed, of_pushed.answers[answer]
-    file = lb.write_result(one.solution, tmp_path / "answer.json")
+    file = lb.files.write_result(one.solution, tmp_path / "answer.json")
     assert lb.check_mcp(model, lb.read_result(file, model)).passed
     claim = replace(lb.read_result(file, model), load_factor=1.01 * one.load_factor)
     assert not lb.check_mcp(model, claim).passed
@@ -98,7 +98,7 @@ def test_values_between_two_answers_of_a_mechanism_are_answers(pushed):
         (getattr(low, name) + getattr(high, name)) / 2
         for name in ("load_factor", "stress_resultants", "generalised_stresses")
     ]
-    claim = lb.Claim(
+    claim = lb.results.Claim(
         mean[0], mean[1], high.displacement_rates, high.flow_multipliers, generalised_stresses=mean[2]
     )
     assert lb.check_mcp(pushed, claim).passed
@@ -131,7 +131,7 @@ def test_drawn_mechanisms_find_what_no_path_leads_to():
 def test_a_structure_that_can_be_wedged_may_have_one_load_factor():
     """The cube jams, and the block beside it, alone pushed, slides at mu."""
     beside = lb.Block.box("beside", (1.0, 1.0, 0.5), (4, 0, 0.25), 20e3)
-    push = lb.force("beside", (10e3, 0, 0), at=(4, 0, 0.25))
+    push = lb.loads.force("beside", (10e3, 0, 0), at=(4, 0, 0.25))
     found = lb.load_factor_range(jammed([beside], push), paths=1, mechanisms=3)
     assert found.wedging.wedged
     assert found.certified == pytest.approx((0.3, 0.3), rel=1e-6)
@@ -190,7 +190,7 @@ def test_a_report_tells_the_three_ranges_apart(pushed, of_pushed):
         assert part in text
     jsonschema = pytest.importorskip("jsonschema")
     document = json.loads(lb.report(pushed, of_pushed).json)
-    jsonschema.validate(document, lb.report_schema())
+    jsonschema.validate(document, lb.files.report_schema())
 
 
 def test_intervals_that_touch_are_one():

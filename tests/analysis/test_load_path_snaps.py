@@ -20,7 +20,7 @@ JAMMED = runpy.run_path(str(EXAMPLES / "15_two_right_answers.py"))
 def of_plug(**options):
     model = PLUG["plug_in_its_seat"]()
     stiffness = {PLUG["SEAT"]: (PLUG["STIFF"],) * 2, PLUG["JACK"]: (PLUG["SOFT"],) * 2}
-    options = {"settings": lb.Settings(growth=2.0)} | options
+    options = {"settings": lb.settings.Settings(growth=2.0)} | options
     return model, lb.load_path(model, start=PLUG["driven_in"](model).ravel(), stiffness=stiffness, **options)
 
 
@@ -51,7 +51,7 @@ def test_the_load_of_a_sliding_block_rises_to_friction_in_step_with_its_displace
     """Pushed through its contact: a = K d / W up to mu, and mu from there, K the shear stiffness."""
     model = replace(
         structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=0.5),
-        live=lb.force("block 1", (1, 0, 0), at=(0, 0, 0)),
+        live=lb.loads.force("block 1", (1, 0, 0), at=(0, 0, 0)),
     )
     path = lb.load_path(model, stiffness=(1e9, 1e9))
     weight = model.free_blocks[0].weight
@@ -115,7 +115,7 @@ def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
     """Else the path is lost where it goes back beyond the start of the increment."""
     whole = loading.increment
     monkeypatch.setattr(loading, "increment", lambda *args: replace(whole(*args), returned=False))
-    _, path = of_plug(throw=False, settings=lb.Settings(growth=2.0, budget=500))
+    _, path = of_plug(throw=False, settings=lb.settings.Settings(growth=2.0, budget=500))
     assert not path.collapse.converged
 
 

@@ -128,7 +128,7 @@ def test_a_block_on_elastic_joints_by_hand():
     """
     ks, kn, h = 2e8, 1e9, 0.2
     model = structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=h, depth=1.0)
-    path = lb.load_path(model, stiffness=(kn, ks), settings=lb.Settings(first=0.2, growth=1.2))
+    path = lb.load_path(model, stiffness=(kn, ks), settings=lb.settings.Settings(first=0.2, growth=1.2))
     step = path.steps[1]
     assert not step.active
     push = step.load_factor * model.free_blocks[0].weight

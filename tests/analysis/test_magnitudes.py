@@ -43,7 +43,7 @@ def test_plausible_models_raise_no_question(name):
 
 
 def test_questions_reach_whoever_imports_and_reports(tmp_path, caplog):
-    file = lb.write_blocks(block().blocks, tmp_path / "house.obj")
+    file = lb.files.write_blocks(block().blocks, tmp_path / "house.obj")
     said = "friction is 30: degrees? tan 30 deg = 0.577"
     options = ["--friction", "30", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
     result = CliRunner().invoke(app, ["import", str(file), *options])

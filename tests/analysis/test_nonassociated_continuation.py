@@ -58,7 +58,7 @@ def test_no_answer_can_be_continuous_at_zero_dilatancy_where_blocks_jam():
     live = lb.mass_proportional((1, 0, 0))
     model = lb.Model(stones, ["floor", "ceiling"], lb.find_interfaces(stones, joint), lb.self_weight(), live)
     assert np.isfinite(lb.nonassociated(model).load_factor)
-    with pytest.raises(lb.UnlimitedLoad):
+    with pytest.raises(lb.errors.UnlimitedLoad):
         lb.nonassociated(model, dilatancy=0.3)
     with pytest.raises(lb.NotConverged):
         lb.nonassociated(model, dilatancy=1e-3, means=[Means(Barrier(), 0, 60)])

@@ -125,7 +125,7 @@ def test_progress_and_history_have_every_residual(kind):
     seen = []
     found = lb.nonassociated(wall(kind), progress=seen.append)
     assert tuple(seen) == found.history
-    assert all(isinstance(iteration, lb.Iteration) for iteration in seen)
+    assert all(isinstance(iteration, lb.results.Iteration) for iteration in seen)
     *path, end = seen
     assert end.kind == "polish"
     assert list(end.residuals) == NAMES
@@ -141,7 +141,7 @@ def test_the_answer_says_which_path_it_was(reference):
 
 SHORT = {
     lb.nonassociated: {"means": (Means(Barrier(), 0, 1),)},
-    lb.load_path: {"settings": lb.Settings(budget=1)},
+    lb.load_path: {"settings": lb.settings.Settings(budget=1)},
 }
 
 
@@ -150,7 +150,7 @@ def test_a_short_budget_returns_the_best_state_and_says_so(reference, analysis):
     model, _ = reference
     found = analysis(model, throw=False, **SHORT[analysis])
     found = getattr(found, "collapse", found)
-    assert found.status is lb.Status.OUT_OF_STEPS
+    assert found.status is lb.results.Status.OUT_OF_STEPS
     assert not found.converged
     assert "not converged" in str(found)
     assert found.residuals.worst.value > 1e-6
@@ -163,7 +163,7 @@ def test_not_converged_carries_the_best_result(reference, analysis):
     with pytest.raises(lb.NotConverged, match=r"no solution within 1e-08: .* residual") as caught:
         analysis(model, **SHORT[analysis])
     result = caught.value.result
-    assert isinstance(result, lb.Nonassociated)
+    assert isinstance(result, lb.results.Nonassociated)
     assert result.residuals.worst.name in str(caught.value)
     assert result.residuals.worst.value > 1e-6
 
@@ -180,7 +180,7 @@ def test_further_means_are_tried_in_turn(reference, monkeypatch):
 
 def test_dead_loads_that_fall_are_refused(kind):
     falling = structures.overhang(kind(0.7), count=3, length=1.0, height=0.4, fraction=1.01)
-    with pytest.raises(lb.NoEquilibrium):
+    with pytest.raises(lb.errors.NoEquilibrium):
         lb.nonassociated(falling)
 
 

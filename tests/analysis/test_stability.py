@@ -55,7 +55,7 @@ def test_block_on_a_slope_stands_where_friction_exceeds_the_slope():
     for tangent in (0.4, 0.49, 0.499, 0.501, 0.51, 0.7):
         found = lb.stability(on_a_slope(lb.OrdunaLourenco(mu), tangent))
         assert found.stands is (tangent < mu)
-        assert found.kind is (lb.Standing.STANDS if tangent < mu else lb.Standing.FALLS)
+        assert found.kind is (lb.results.Standing.STANDS if tangent < mu else lb.results.Standing.FALLS)
         assert found.margin == pytest.approx((mu - tangent) / np.hypot(1, tangent), rel=1e-6)
         assert found.blocks == (() if tangent < mu else ("stone",))
         assert found.residuals.worst.value <= 1e-8
@@ -66,7 +66,7 @@ def test_block_between_vertical_walls_stands_only_where_it_is_wedged(joint):
     """2 V = W, V <= mu N holds for a large N, which nothing brings about: the walls are parallel."""
     for mu in (0.0, 0.05, 0.5, 3.0):
         found = lb.stability(between_walls(joint(mu), 0.0))
-        assert found.kind is (lb.Standing.SELF_STRESS if mu else lb.Standing.FALLS)
+        assert found.kind is (lb.results.Standing.SELF_STRESS if mu else lb.results.Standing.FALLS)
         assert not found.stands
         assert found.blocks == ("stone",)
         down = found.displacement_rates[2]
@@ -99,7 +99,7 @@ def test_wedge_that_narrows_upwards_never_stands_by_itself(joint, mu, degrees):
     """2 (V cos w - N sin w) = W and V <= mu N: stresses exist where tan w < mu, and do not arise."""
     found = lb.stability(between_walls(joint(mu), -degrees))
     wedged = np.tan(np.radians(degrees)) < mu
-    assert found.kind is (lb.Standing.SELF_STRESS if wedged else lb.Standing.FALLS)
+    assert found.kind is (lb.results.Standing.SELF_STRESS if wedged else lb.results.Standing.FALLS)
     assert (found.margin > 0.0) is bool(wedged)
     assert found.blocks == ("stone",)
     assert found.residuals.worst.value <= 1e-8
@@ -146,7 +146,7 @@ def test_what_hangs_from_nothing_falls():
     ceiling = lb.Block.box("ceiling", (4, 4, 1), (0, 0, 1.5))
     blocks = [ceiling, lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), GAMMA)]
     found = lb.stability(model(blocks, ["ceiling"], lb.OrdunaLourenco(0.6)))
-    assert (found.kind, found.blocks) == (lb.Standing.FALLS, ("stone",))
+    assert (found.kind, found.blocks) == (lb.results.Standing.FALLS, ("stone",))
     assert (found.stress_resultants, found.arising) == (None, None)
 
 
@@ -168,7 +168,7 @@ def test_light_stone_that_only_wedging_holds_is_named_beside_heavy_ones(light):
         lb.Block.box("light", (0.5, 0.5, 0.5), (5.25, 0, 1.0), GAMMA * light),
     ]
     found = lb.stability(model(blocks, ["ground", "wall 1", "wall 2"], lb.OrdunaLourenco(0.6)))
-    assert (found.kind, found.blocks) == (lb.Standing.SELF_STRESS, ("light",))
+    assert (found.kind, found.blocks) == (lb.results.Standing.SELF_STRESS, ("light",))
 
 
 FALSE = {

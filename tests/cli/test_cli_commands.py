@@ -128,9 +128,9 @@ def test_no_solution_is_code_3_and_one_line(file, change):
 
 
 def test_failed_check_is_code_1():
-    assert exit_code(lb.CheckFailed("no")) == 1
+    assert exit_code(lb.errors.CheckFailed("no")) == 1
     assert exit_code(lb.NotConverged("no", None)) == 3
-    assert exit_code(lb.MissingDependency("no")) == 2
+    assert exit_code(lb.errors.MissingDependency("no")) == 2
 
 
 @pytest.mark.parametrize(

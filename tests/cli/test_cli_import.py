@@ -19,7 +19,7 @@ def obj(tmp_path):
         lb.Block.box("base", (2e3, 1e3, 200), (0, 0, -100)),
         lb.Block.box("block", (500, 500, 1e3), (0, 0, 500)),
     ]
-    return lb.write_blocks(boxes, tmp_path / "two.obj")
+    return lb.files.write_blocks(boxes, tmp_path / "two.obj")
 
 
 def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
@@ -54,7 +54,7 @@ def test_notes_and_contact_warnings_go_to_stderr(tmp_path):
         lb.Block.box("stone", (0.5, 1, 1), (-0.5, 0, 0.5)),
         lb.Block.box("stone", (0.5, 1, 1), (0.004, 0, 0.5)),
     ]
-    result = run(lb.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
+    result = run(lb.files.write_blocks(boxes, tmp_path / "gap.stl"), *OPTIONS, "--supports", "base")
     note, used, warning = result.stderr.splitlines()
     assert note == "note: 2 blocks are named 'stone'; all but the first got a number"
     assert used.startswith("note: too few joints to tell how accurate the faces are; gap 0.79 mm, ")
@@ -69,7 +69,7 @@ def test_joints_drawn_open_are_told_with_the_option(tmp_path):
     """The distance, 10 mm, and the option that takes it; the advice works."""
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
     stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]
-    file = lb.write_blocks(stones, tmp_path / "open.obj")
+    file = lb.files.write_blocks(stones, tmp_path / "open.obj")
     refused = run(file, *OPTIONS, "--supports", "base")
     assert refused.exit_code == 2
     assert "4 blocks without any interface would touch with gap=0.05 (block lengths, " in refused.stderr
@@ -84,7 +84,7 @@ def test_noisy_meshes_are_refused_and_healed(tmp_path):
         lb.Block(b.name, b.vertices + rng.uniform(-3e-3, 3e-3, b.vertices.shape), b.triangles.tolist())
         for b in clean.blocks
     ]
-    file = lb.write_blocks(stones, tmp_path / "scan.obj")
+    file = lb.files.write_blocks(stones, tmp_path / "scan.obj")
     options = ["--friction", "0.6", "--live", "1,0,0", "--unit-weight", "20e3", "--supports", "base"]
     refused = run(file, *options)
     assert refused.exit_code == 2
@@ -139,7 +139,7 @@ def test_slip_of_the_joint(obj, tmp_path):
 
 def test_unit_weights_by_layer(tmp_path):
     arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.8, voussoirs=7)
-    path = lb.write_blocks(arch, tmp_path / "arch.glb")
+    path = lb.files.write_blocks(arch, tmp_path / "arch.glb")
     options = (
         "--friction",
         "0.6",

@@ -67,7 +67,7 @@ def test_the_file_is_the_model_that_python_makes():
         (("--slip", "paper"), lb.OrdunaLourenco(0.6, slip="paper")),
         (("--compressive-strength", 3e6), lb.OrdunaLourenco(0.6, compressive_strength=3e6)),
         (("--joint", "point-contact"), lb.PointContact(0.6)),
-        (("--joint", "exact-torsion"), lb.ExactTorsion(0.6)),
+        (("--joint", "exact-torsion"), lb.joints.ExactTorsion(0.6)),
     ],
 )
 def test_joints(options, joint):

@@ -9,8 +9,9 @@ import pytest
 from typer.testing import CliRunner
 
 import limitblocks as lb
+from limitblocks.choices import Method
 from limitblocks.cli import app, progress
-from limitblocks.evidence.ending import Method, Status
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
@@ -110,7 +111,7 @@ def file(tmp_path):
 
 @pytest.fixture
 def result(file, tmp_path):
-    return lb.write_result(solved(lb.read(file)), tmp_path / "result.json")
+    return lb.files.write_result(solved(lb.read(file)), tmp_path / "result.json")
 
 
 def changed(file, **changes):

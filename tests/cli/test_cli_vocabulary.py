@@ -8,7 +8,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
-from limitblocks.cli.joints import JOINTS, joint_name
+from limitblocks.cli.joints import NAMES, joint_name, joints
 from limitblocks.cli.vectors import Command
 
 BLOCK = ("new", "block", "--width", 1, "--height", 0.5, "--friction", 0.6, "--force")
@@ -72,13 +72,17 @@ def test_places_of_a_study_take_both_ways_too():
     assert "expected" not in done.stderr
 
 
-@pytest.mark.parametrize("name", JOINTS)
+def test_help_names_every_joint_of_the_model_file():
+    assert list(NAMES) == sorted(joints())
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_every_joint_has_one_name_in_all_commands(name):
     assert run(*BLOCK, "--joint", name).exit_code == 0
     made = lb.read("block.json")
     kind = type(made.interfaces[0].joint).__name__
     assert joint_name(kind) == joint_name(kind.lower()) == name  # the class of the model file means the same
-    lb.write_blocks(made, "block.obj")
+    lb.files.write_blocks(made, "block.obj")
     more = ("--live", 1, 0, 0, "--unit-weight", 20e3, "--supports", made.supports[0], "--force")
     assert run("import", "block.obj", "--friction", 0.6, "--joint", name, *more).exit_code == 0
     assert type(lb.read("block.json").interfaces[0].joint).__name__ == kind

@@ -16,7 +16,7 @@ def parted():
     """A load that draws the block of friction .3 away from its neighbour; no force between them."""
     model, _ = true("pushed")
     a = next(block for block in model.blocks if block.name == "a")
-    return replace(model, live=lb.force("a", (-a.weight, 0.0, 0.0), at=a.centroid))
+    return replace(model, live=lb.loads.force("a", (-a.weight, 0.0, 0.0), at=a.centroid))
 
 
 def separate(model, load_factor, toward):
@@ -53,7 +53,7 @@ def slides_into_a_stone_that_leans_on_a_wall(light):
     )
     stop = lb.Block.box("stop", (1.0, 4.0, 1.0), (2.0, 0.0, 0.5))
     found = [lb.find_interfaces([*pair], joint) for pair in ((FLOOR, a), (FLOOR, b), (a, b), (b, stop))]
-    live = lb.force("a", (a.weight, 0.0, 0.0), at=a.centroid)
+    live = lb.loads.force("a", (a.weight, 0.0, 0.0), at=a.centroid)
     blocks, supports = [FLOOR, stop, a, b], ["floor", "stop"]
     model = lb.Model(blocks, supports, [each for one in found for each in one], lb.self_weight(), live)
     return model, separate(model, 0.3, 1.0)

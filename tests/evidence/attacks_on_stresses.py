@@ -149,7 +149,7 @@ def the_top_of_the_tower_beside_would_have_slid():
     model, claim = true("tower")
     top = model.free_blocks[-1]
     pushed = replace(
-        model, live=model.live + lb.force(top.name, (2.0 * top.weight, 0.0, 0.0), at=top.centroid)
+        model, live=model.live + lb.loads.force(top.name, (2.0 * top.weight, 0.0, 0.0), at=top.centroid)
     )
     p, u = pushed.problem, state_of(model, claim).u
     u = u / (p.live @ u)

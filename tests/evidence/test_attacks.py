@@ -24,5 +24,5 @@ def test_true_claims_pass(name):
 def test_a_false_claim_is_refused_by_its_residuals(name):
     model, claim = ATTACKS[name].make()
     assert refused_by(model, claim) == ATTACKS[name].names
-    with pytest.raises(lb.CheckFailed, match=min(ATTACKS[name].names)):
+    with pytest.raises(lb.errors.CheckFailed, match=min(ATTACKS[name].names)):
         lb.check_mcp(model, claim).require()

@@ -239,7 +239,7 @@ def test_what_is_near_is_accepted_only_where_asked_for(monkeypatch):
     with pytest.raises(lb.NotConverged, match="backward error"):
         lb.nonassociated(model)
     found = lb.nonassociated(model, backward_error=1e-2)
-    assert found.status is lb.Status.NEARBY
+    assert found.status is lb.results.Status.NEARBY
     assert found.accepted
     assert not found.converged
     assert found.residuals["flow"] <= 1e-10  # the mechanism was put right
@@ -249,7 +249,7 @@ def test_what_is_near_is_accepted_only_where_asked_for(monkeypatch):
     assert not check.passed
     assert check.backward_error.value == pytest.approx(found.backward_error.value, rel=1e-6)
     assert "exact for a model within 0.01" in str(check)
-    with pytest.raises(lb.CheckFailed, match=r"above 1e-09"):
+    with pytest.raises(lb.errors.CheckFailed, match=r"above 1e-09"):
         lb.check_mcp(model, found, backward_error=1e-9).require()
 
 

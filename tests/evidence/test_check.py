@@ -119,7 +119,7 @@ def test_a_moving_support_is_an_error(model, claim):
 
 
 def test_a_failed_check_raises_and_names_every_residual(model, claim):
-    with pytest.raises(lb.CheckFailed, match="equilibrium"):
+    with pytest.raises(lb.errors.CheckFailed, match="equilibrium"):
         check_mcp(model, replace(claim, load_factor=0.0)).require()
 
 

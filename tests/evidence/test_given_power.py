@@ -22,11 +22,11 @@ def test_a_solution_that_gives_power_is_named_and_refused():
     with pytest.raises(lb.NotConverged, match="dissipation residual"):
         finished(model, state, bracket(model), (), flow, "by hand", TOLERANCE, throw=True)
     result = finished(model, state, bracket(model), (), flow, "by hand", TOLERANCE, throw=False)
-    assert result.status is lb.Status.GIVES_POWER
+    assert result.status is lb.results.Status.GIVES_POWER
     assert remark in result.remarks
     text = lb.report(model, result).markdown
     assert "interfaces give power" in text
-    assert lb.Status.GIVES_POWER.value.split(",")[0] in text
+    assert lb.results.Status.GIVES_POWER.value.split(",")[0] in text
 
 
 def test_a_solution_that_takes_up_power_has_no_remark():

@@ -129,7 +129,9 @@ def test_any_positive_number_is_a_tolerance(tolerance):
 
 
 @pytest.mark.parametrize(
-    "thing", [None, 1, "claim", {}, np.zeros(6), lb.bounds, lb.Claim], ids=lambda thing: type(thing).__name__
+    "thing",
+    [None, 1, "claim", {}, np.zeros(6), lb.bounds, lb.results.Claim],
+    ids=lambda thing: type(thing).__name__,
 )
 def test_what_is_no_result_is_refused(thing):
     model, _ = true("sliding, circle")

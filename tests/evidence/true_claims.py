@@ -20,7 +20,7 @@ def claimed(model, state, **others):
     """The claim of a dimensionless state."""
     problem, si = model.problem, model.problem.in_si(state)
     rates = dict(zip(problem.blocks, si.u.reshape(-1, 6), strict=True))
-    return lb.Claim(
+    return lb.results.Claim(
         si.load_factor,
         (problem.resultants @ state.x * problem.units.resultants).reshape(-1, 6),
         np.array([rates.get(block.name, np.zeros(6)) for block in model.blocks]),
@@ -119,7 +119,7 @@ def tower(joint=None):
     cubes = [lb.Block.box(f"t{k}", (1, 1, 1), (20.0, 0.0, k + 0.5), UNIT_WEIGHT) for k in range(80)]
     slider = lb.Block.box("slider", (B, DEPTH, H), (0.0, 0.0, H / 2), UNIT_WEIGHT)
     rest = lb.find_interfaces(cubes, joint)
-    live = lb.force("slider", (slider.weight, 0.0, 0.0), at=slider.centroid)
+    live = lb.loads.force("slider", (slider.weight, 0.0, 0.0), at=slider.centroid)
     found = [*rest]
     for foot in (slider, cubes[0]):
         found += lb.find_interfaces([FLOOR, foot], joint)
@@ -132,7 +132,7 @@ def pushed():
     a, b = (lb.Block.box(n, (1, 1, 0.5), (x, 0, 0.25), UNIT_WEIGHT) for n, x in (("a", 0.0), ("b", 1.0)))
     joints = [lb.OrdunaLourenco(0.3), lb.OrdunaLourenco(0.6)]
     between = lb.find_interfaces([a, b], lb.OrdunaLourenco(0.3))
-    model = on_floor([a, b], joints, lb.force("a", (a.weight, 0.0, 0.0), at=a.centroid), between)
+    model = on_floor([a, b], joints, lb.loads.force("a", (a.weight, 0.0, 0.0), at=a.centroid), between)
     return model, claim_of(model, lb.nonassociated(model))
 
 
@@ -155,7 +155,7 @@ def glued():
     """Without any dead load, cohesion c holds a block of height h up to c / (unit weight h)."""
     joint = lb.OrdunaLourenco(MU, cohesion=1e4, tensile_strength=1e4)
     model = lb.structures.block(joint, width=B, height=H, depth=DEPTH, unit_weight=UNIT_WEIGHT)
-    model = replace(model, dead=lb.Load())
+    model = replace(model, dead=lb.loads.Load())
     u = moving(model, block_1=np.array([1.0, 0, 0, 0, 0, 0]))
     return model, determinate(model, 1e4 / (UNIT_WEIGHT * H), u)
 
@@ -183,7 +183,7 @@ def drifting():
     """A block pushed on a floor of friction MU, and one that nothing pushes on a floor without friction."""
     slider, free = (lb.Block.box(n, (1, 1, 0.5), (x, 0, 0.25), UNIT_WEIGHT) for n, x in (("a", 0), ("b", 5)))
     joints = [lb.OrdunaLourenco(MU), lb.PointContact(0.0)]
-    model = on_floor([slider, free], joints, lb.force("a", (slider.weight, 0, 0), at=slider.centroid))
+    model = on_floor([slider, free], joints, lb.loads.force("a", (slider.weight, 0, 0), at=slider.centroid))
     p = model.problem
     x = np.linalg.lstsq(p.C.T.toarray(), p.dead + MU * p.units.live * p.live, rcond=None)[0]
     u = moving(model, a=np.array([1.0, 0, 0, 0, 0, 0]))
@@ -218,7 +218,7 @@ def twisted(turning, sides=(1.0, 1.0), against=False):
     load_factor = -1.0 if against and turning is Turning.PRESSURE else 1.0  # the load works in any case
     wrench = (p.C.T @ x - p.dead) / load_factor * p.units.loads
     block = model.free_blocks[0]
-    live = lb.force(block.name, wrench[:3], at=block.centroid) + lb.moment(block.name, wrench[3:])
+    live = lb.loads.force(block.name, wrench[:3], at=block.centroid) + lb.loads.moment(block.name, wrench[3:])
     model = replace(model, live=live)
     point = np.array([e1, e2]) * p.units.interface_length if turning is Turning.PRESSURE else np.zeros(2)
     face = model.interfaces[0]

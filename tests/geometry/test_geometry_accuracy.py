@@ -74,7 +74,9 @@ def test_noise_is_right_or_refused(name, noise, seed):
     clean = CLEAN[name]
     contacts = lb.find_contacts(noisy(clean.blocks, noise, seed), JOINT)
     if contacts.faults:
-        with pytest.raises(lb.GeometryError, match=r"good to about .* mm only; beyond .*limitblocks\.heal"):
+        with pytest.raises(
+            lb.errors.GeometryError, match=r"good to about .* mm only; beyond .*limitblocks\.heal"
+        ):
             contacts.require()
         assert noise > 1e-3 or name == "wall"
         assert contacts.warnings[0] == contacts.faults[0]
@@ -189,7 +191,9 @@ def test_rough_facets_are_refused_and_healed(name):
     assert exact.faults == ()
     assert ends(exact.interfaces) == ends(clean.interfaces)
     rough = noisy(blocks, 1e-3, 0)
-    with pytest.raises(lb.GeometryError, match=r"two blocks touch through \d+ facets, .*limitblocks\.heal"):
+    with pytest.raises(
+        lb.errors.GeometryError, match=r"two blocks touch through \d+ facets, .*limitblocks\.heal"
+    ):
         lb.find_interfaces(rough, JOINT)
     healed = lb.heal(rough)
     contacts = healed.contacts(JOINT)

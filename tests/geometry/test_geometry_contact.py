@@ -62,7 +62,8 @@ def arch(n, inner, outer, width):
 
 def moved(blocks, seed, shift=0.0):
     rng = np.random.default_rng(seed)
-    rotation, translation = Rotation.random(rng=rng).as_matrix(), rng.uniform(-10, 10, 3) + shift
+    rotation = Rotation.from_quat(rng.normal(size=4)).as_matrix()
+    translation = rng.uniform(-10, 10, 3) + shift
     return [block.moved(rotation, translation) for block in blocks], rotation, translation
 
 

@@ -80,7 +80,7 @@ def test_overlaps_are_listed_and_are_no_near_misses():
     assert contacts.near_misses == ()
     assert contacts.isolated == ("low", "high", "far")
     assert contacts.warnings[0].startswith("blocks 'low' and 'high' overlap by 0.005 m3, 0.005 m deep")
-    with pytest.raises(lb.GeometryError, match=r"blocks 'low' and 'high' overlap by 0.005 m3"):
+    with pytest.raises(lb.errors.GeometryError, match=r"blocks 'low' and 'high' overlap by 0.005 m3"):
         find_interfaces(blocks, None)
 
 

@@ -38,7 +38,7 @@ def written(path, document):
 
 def fault(path):
     with pytest.raises(lb.ModelError) as caught:
-        lb.read_blocks(path)
+        lb.files.read_blocks(path)
     assert all("\n" not in line and line.startswith(str(path)) for line in caught.value.problems)
     return str(caught.value)
 
@@ -53,20 +53,20 @@ def mesh_data(k=0, name=None, dtype="compas.datastructures/Mesh"):
 @pytest.mark.parametrize("name", STRUCTURES)
 def test_round_trip(tmp_path, name):
     model = STRUCTURES[name]
-    path = lb.write_blocks(model, tmp_path / "a.json")
-    imported = lb.read_blocks(path)
+    path = lb.files.write_blocks(model, tmp_path / "a.json")
+    imported = lb.files.read_blocks(path)
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes
     interfaces = lb.find_interfaces(imported.blocks, JOINT)
     assert len(interfaces) == len(model.interfaces)
     assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
-    assert lb.write_blocks(model, tmp_path / "b.json").read_bytes() == path.read_bytes()
+    assert lb.files.write_blocks(model, tmp_path / "b.json").read_bytes() == path.read_bytes()
 
 
 def test_read_makes_a_model_with_the_supports_of_the_file(tmp_path):
     model = STRUCTURES["arch"]
-    path = lb.write_blocks(model, tmp_path / "arch.json")
+    path = lb.files.write_blocks(model, tmp_path / "arch.json")
     again = lb.read(path, joint=JOINT, unit_weight=20e3, live=model.live)
     assert again.supports == model.supports
     assert lb.bounds(again).lower == pytest.approx(lb.bounds(model).lower, rel=1e-6)
@@ -77,7 +77,7 @@ def test_read_makes_a_model_with_the_supports_of_the_file(tmp_path):
 
 def test_compas_reads_what_is_written(tmp_path):
     model = STRUCTURES["arch"]
-    assembly = compas.json_load(str(lb.write_blocks(model, tmp_path / "a.json")))
+    assembly = compas.json_load(str(lb.files.write_blocks(model, tmp_path / "a.json")))
     assert isinstance(assembly, Assembly)
     assert [part.name for part in assembly.parts()] == [block.name for block in model.blocks]
     for node, block in zip(assembly.graph.nodes(), model.blocks, strict=True):
@@ -96,7 +96,7 @@ def test_what_compas_writes(tmp_path):
         graph.add_node(k, block=mesh, is_support=k == 0)
     polyhedron = Polyhedron(*CUBES[1].to_vertices_and_faces())
     for k, value in enumerate((meshes, CUBES, {"supports": meshes[:1], "stones": [polyhedron]}, graph)):
-        imported = lb.read_blocks(dumped(tmp_path / f"{k}.json", value))
+        imported = lb.files.read_blocks(dumped(tmp_path / f"{k}.json", value))
         assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
         assert [block.centroid[2] for block in imported.blocks] == pytest.approx([0.5, 1.5], rel=1e-12)
         assert len(imported.supports) == (k >= 2)
@@ -107,7 +107,7 @@ def test_assembly_of_parts_that_hold_their_shape(tmp_path):
     frame = Frame([3.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0])  # turned by 90 degrees about z
     box = Mesh.from_shape(Box(4.0, 1.0, 2.0))
     assembly.add_part(Part(name="beam", frame=frame, shape=box))
-    block = lb.read_blocks(dumped(tmp_path / "a.json", assembly)).blocks[0]
+    block = lb.files.read_blocks(dumped(tmp_path / "a.json", assembly)).blocks[0]
     assert block.name == "beam"
     assert np.ptp(block.vertices, axis=0) == pytest.approx([1.0, 4.0, 2.0])
     assert block.centroid == pytest.approx([3.0, 0.0, 0.0], abs=1e-12)
@@ -225,7 +225,7 @@ def network_document():
 
 @pytest.mark.parametrize("make", [assembly_document, old_model_document, compas_1_document, network_document])
 def test_layouts(tmp_path, make):
-    imported = lb.read_blocks(written(tmp_path / "a.json", make()))
+    imported = lb.files.read_blocks(written(tmp_path / "a.json", make()))
     assert [block.name for block in imported.blocks] == ["block 0", "block 1"]
     assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0], rel=1e-12)
     assert imported.supports == ("block 0",)
@@ -234,7 +234,9 @@ def test_layouts(tmp_path, make):
 
 
 def test_transformations_of_a_model(tmp_path):
-    imported = lb.read_blocks(written(tmp_path / "a.json", model_document()), unit_weight={"LIMESTONE": 22e3})
+    imported = lb.files.read_blocks(
+        written(tmp_path / "a.json", model_document()), unit_weight={"LIMESTONE": 22e3}
+    )
     assert imported.supports == ("block 0",)
     assert set(imported.layers.values()) == {"LIMESTONE"}
     # the model turns by 90 degrees what its group and the element itself moved by 10 each
@@ -245,7 +247,7 @@ def test_transformations_of_a_model(tmp_path):
 def test_box_in_a_frame(tmp_path):
     turn = Frame([1.0, 2.0, 3.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0])
     box = Box(2.0, 3.0, 4.0, turn)
-    block = lb.read_blocks(dumped(tmp_path / "a.json", box)).blocks[0]
+    block = lb.files.read_blocks(dumped(tmp_path / "a.json", box)).blocks[0]
     wanted = sorted(np.round([list(vertex) for vertex in box.to_vertices_and_faces()[0]], 9).tolist())
     assert sorted(np.round(block.vertices, 9).tolist()) == wanted
 
@@ -333,7 +335,7 @@ def test_damaged_documents_read_or_fail_cleanly(tmp_path):
             damage(document, chance)
         path = written(tmp_path / "a.json", document)
         try:
-            lb.read_blocks(path)
+            lb.files.read_blocks(path)
         except lb.ModelError as error:
             problems.append(error.problems)
     assert len(problems) > 30
@@ -347,7 +349,7 @@ def test_transformations_as_compas_makes_them(tmp_path):
     data = json.loads(compas.json_dumps(Transformation(matrix.matrix)))
     document["data"]["elements"]["e0"]["data"]["transformation"] = data
     document["data"]["transformation"] = None
-    block = lb.read_blocks(written(tmp_path / "a.json", document)).blocks[0]
+    block = lb.files.read_blocks(written(tmp_path / "a.json", document)).blocks[0]
     mesh = Mesh.from_shape(CUBES[0]).transformed(matrix)
     assert block.centroid == pytest.approx(list(mesh.centroid()), abs=1e-9)
     assert mesh.volume() == pytest.approx(block.volume, rel=1e-9)

@@ -1,6 +1,7 @@
 import io
 import random
 import sys
+from dataclasses import replace
 
 import ezdxf
 import numpy as np
@@ -54,7 +55,7 @@ def fault(read, path, **options):
 @pytest.mark.parametrize("name", STRUCTURES)
 def test_round_trip(tmp_path, name):
     model = STRUCTURES[name]
-    imported = lb.read_blocks(lb.write_blocks(model, tmp_path / "a.dxf"))
+    imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / "a.dxf"))
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes
@@ -66,7 +67,7 @@ def test_round_trip(tmp_path, name):
 def test_round_trip_bounds(tmp_path):
     model = STRUCTURES["wall"]
     again = lb.read(
-        lb.write_blocks(model, tmp_path / "wall.dxf"),
+        lb.files.write_blocks(model, tmp_path / "wall.dxf"),
         joint=JOINT,
         unit_weight={"block": 20e3},
         live=model.live,
@@ -75,7 +76,7 @@ def test_round_trip_bounds(tmp_path):
 
 
 def test_written_file_is_sound_and_in_metres(tmp_path):
-    drawing = ezdxf.readfile(lb.write_blocks(STRUCTURES["arch"], tmp_path / "a.dxf"))
+    drawing = ezdxf.readfile(lb.files.write_blocks(STRUCTURES["arch"], tmp_path / "a.dxf"))
     assert drawing.units == 6
     assert not drawing.audit().errors
     assert {mesh.dxf.layer for mesh in drawing.modelspace().query("MESH")} == {"support", "block"}
@@ -83,8 +84,8 @@ def test_written_file_is_sound_and_in_metres(tmp_path):
 
 def test_names_and_layers_that_dxf_does_not_allow(tmp_path):
     box = lb.Block.box("a\nb  Ä", (1, 1, 1), (0, 0, 0))
-    written = lb.ImportedBlocks((box,), {box.name: "x|y:z"}, ())
-    imported = lb.read_blocks(lb.write_blocks(written, tmp_path / "a.dxf"))
+    written = lb.files.ImportedBlocks((replace(box, layer="x|y:z"),))
+    imported = lb.files.read_blocks(lb.files.write_blocks(written, tmp_path / "a.dxf"))
     assert [block.name for block in imported.blocks] == ["a b Ä"]
     assert set(imported.layers.values()) == {"x_y_z"}
 
@@ -103,7 +104,7 @@ def test_every_kind_of_solid(tmp_path, version, binary):
     path = drawn(tmp_path / "a.dxf", everything, version=version)
     if binary:
         ezdxf.readfile(path).saveas(path, fmt="bin")
-    imported = lb.read_blocks(path)
+    imported = lb.files.read_blocks(path)
     assert len(imported.blocks) == 8
     assert [block.volume for block in imported.blocks] == pytest.approx([1.0] * 8, abs=1e-9)
     middles = sorted(np.round(block.centroid, 9).tolist() for block in imported.blocks)
@@ -112,16 +113,16 @@ def test_every_kind_of_solid(tmp_path, version, binary):
 
 def test_units(tmp_path):
     path = drawn(tmp_path / "mm.dxf", lambda space: cube().render_mesh(space), units=4)
-    assert lb.read_blocks(path).blocks[0].size == pytest.approx(1e-3, rel=1e-12)
-    assert lb.read_blocks(path, units="cm").blocks[0].size == pytest.approx(1e-2, rel=1e-12)
+    assert lb.files.read_blocks(path).blocks[0].size == pytest.approx(1e-3, rel=1e-12)
+    assert lb.files.read_blocks(path, units="cm").blocks[0].size == pytest.approx(1e-2, rel=1e-12)
     path = drawn(tmp_path / "none.dxf", lambda space: cube().render_mesh(space), units=0)
-    imported = lb.read_blocks(path)
+    imported = lb.files.read_blocks(path)
     assert imported.blocks[0].size == pytest.approx(1.0, rel=1e-12)
     assert any("states no unit" in note for note in imported.notes)
     drawing = ezdxf.readfile(path)
     drawing.header["$INSUNITS"] = 99
     drawing.saveas(path)
-    assert "$INSUNITS is 99" in fault(lb.read_blocks, path)
+    assert "$INSUNITS is 99" in fault(lb.files.read_blocks, path)
 
 
 def test_block_references_take_scale_rotation_mirror_and_layer(tmp_path):
@@ -140,7 +141,7 @@ def test_block_references_take_scale_rotation_mirror_and_layer(tmp_path):
     drawing.modelspace().add_blockref("stone", (0, 20, 0), grid)
     path = tmp_path / "a.dxf"
     drawing.saveas(path)
-    imported = lb.read_blocks(path)
+    imported = lb.files.read_blocks(path)
     assert sorted(imported.layers.values()) == ["grid"] * 6 + ["top", "wall"]
     low, top = (
         next(b for b in imported.blocks if imported.layers[b.name] == layer) for layer in ("wall", "top")
@@ -161,7 +162,7 @@ def test_hidden_is_left_out_with_a_note(tmp_path):
         space.doc.layers.add("frozen").freeze()
         space.add_line((0, 0), (1, 1))
 
-    imported = lb.read_blocks(drawn(tmp_path / "a.dxf", draw))
+    imported = lb.files.read_blocks(drawn(tmp_path / "a.dxf", draw))
     assert set(imported.layers.values()) == {"seen"}
     assert imported.notes == ("left out: 1 LINE, 2 hidden entities",)
 
@@ -171,7 +172,7 @@ def test_body_that_is_no_polyhedron_is_named(tmp_path):
         solid = cube().render_3dsolid(space, {"layer": "stone"})
         solid.sat = [line.replace("plane-surface", "cone-surface", 1) for line in solid.sat]
 
-    message = fault(lb.read_blocks, drawn(tmp_path / "a.dxf", draw, version="R2000"))
+    message = fault(lb.files.read_blocks, drawn(tmp_path / "a.dxf", draw, version="R2000"))
     assert "3DSOLID" in message
     assert "'stone'" in message
     assert "mesh" in message
@@ -230,7 +231,7 @@ def test_bad_drawings_are_one_clean_error(tmp_path, case):
     drawing.write(stream)
     path = tmp_path / "a.dxf"
     path.write_text(stream.getvalue(), encoding="utf-8")
-    assert expected in fault(lb.read_blocks, path)
+    assert expected in fault(lb.files.read_blocks, path)
 
 
 def test_bad_nesting_ends(tmp_path, monkeypatch):
@@ -238,11 +239,11 @@ def test_bad_nesting_ends(tmp_path, monkeypatch):
     drawing = ezdxf.new(units=6)
     many_by_nesting(drawing)
     drawing.saveas(tmp_path / "a.dxf")
-    assert "more than 1000 entities" in fault(lb.read_blocks, tmp_path / "a.dxf")
+    assert "more than 1000 entities" in fault(lb.files.read_blocks, tmp_path / "a.dxf")
 
 
 def test_files_that_are_no_dxf(tmp_path):
-    good = lb.write_blocks(STRUCTURES["wall"], tmp_path / "good.dxf").read_bytes()
+    good = lb.files.write_blocks(STRUCTURES["wall"], tmp_path / "good.dxf").read_bytes()
     for data, expected in (
         (b"", "is empty"),
         (b"AC1032\0\0\0", "DWG"),
@@ -253,16 +254,16 @@ def test_files_that_are_no_dxf(tmp_path):
     ):
         path = tmp_path / "a.dxf"
         path.write_bytes(data)
-        assert expected in fault(lb.read_blocks, path)
-        assert expected in fault(lb.read_drawing, path, thickness=0.2)
+        assert expected in fault(lb.files.read_blocks, path)
+        assert expected in fault(lb.files.read_drawing, path, thickness=0.2)
 
 
 def test_without_ezdxf(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(lb.MissingDependency, match="pip install 'ezdxf>=1"):
-        lb.write_blocks(STRUCTURES["wall"], tmp_path / "a.dxf")
-    with pytest.raises(lb.MissingDependency, match="pip install 'ezdxf>=1"):
-        lb.read_blocks(tmp_path / "a.dxf")
+    with pytest.raises(lb.errors.MissingDependency, match="pip install 'ezdxf>=1"):
+        lb.files.write_blocks(STRUCTURES["wall"], tmp_path / "a.dxf")
+    with pytest.raises(lb.errors.MissingDependency, match="pip install 'ezdxf>=1"):
+        lb.files.read_blocks(tmp_path / "a.dxf")
 
 
 @pytest.mark.parametrize(("name", "thickness"), [("arch", 0.5), ("wall", 0.2)])
@@ -276,7 +277,7 @@ def test_elevation_gives_the_interfaces_of_the_generator(tmp_path, name, thickne
             space.add_text(title, height=20).set_placement(corners.mean(axis=0))
 
     path = drawn(tmp_path / "a.dxf", draw, units=4)
-    imported = lb.read_drawing(path, thickness=thickness, unit_weight={"stone": 20e3})
+    imported = lb.files.read_drawing(path, thickness=thickness, unit_weight={"stone": 20e3})
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes
@@ -318,7 +319,7 @@ def test_elevation_drawn_by_hand(tmp_path):
                 [(x, y, 0.0) for x, y in loop] if k % 3 == 2 else [tuple(point) for point in loop]
             )
 
-    imported = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=0.5)
+    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=0.5)
     interfaces = lb.find_interfaces(imported.blocks, JOINT)
     assert len(interfaces) == len(model.interfaces)
     assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=0.01)
@@ -332,7 +333,7 @@ def test_arcs_become_chords_of_5_degrees(tmp_path, mirrored):
         if mirrored:
             space[0].dxf.extrusion = (0, 0, -1)
 
-    block = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=2.0).blocks[0]
+    block = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=2.0).blocks[0]
     chords = 36  # half a circle in chords of 5 degrees
     assert block.volume == pytest.approx(2.0 * chords / 2 * np.sin(np.pi / chords), rel=1e-12)
     radii = np.hypot(block.vertices[:, 0], block.vertices[:, 2])
@@ -349,7 +350,7 @@ def test_outlines_that_are_none(tmp_path):
         space.add_polyline3d([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 1)], close=True)
         space.add_circle((0, 0), 1)
 
-    imported = lb.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
+    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
     assert len(imported.blocks) == 1
     notes = "\n".join(imported.notes)
     for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
@@ -363,28 +364,28 @@ def test_drawing_layers(tmp_path):
             space.add_lwpolyline(square, close=True, dxfattribs={"layer": layer})
 
     path = drawn(tmp_path / "a.dxf", draw)
-    assert len(lb.read_drawing(path, thickness=1.0).blocks) == 2
-    assert set(lb.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
-    block = lb.read_drawing(path, thickness=0.5, units="mm").blocks[0]
+    assert len(lb.files.read_drawing(path, thickness=1.0).blocks) == 2
+    assert set(lb.files.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
+    block = lb.files.read_drawing(path, thickness=0.5, units="mm").blocks[0]
     assert block.volume == pytest.approx(1e-3 * 1e-3 * 0.5, rel=1e-12)  # the thickness is in m
-    assert "did you mean 'stone'" in fault(lb.read_drawing, path, thickness=1.0, layers="stones")
+    assert "did you mean 'stone'" in fault(lb.files.read_drawing, path, thickness=1.0, layers="stones")
 
 
 def test_wrong_drawings(tmp_path):
     bow = [(0, 0), (1, 1), (1, 0), (0, 1)]
     path = drawn(tmp_path / "a.dxf", lambda space: space.add_lwpolyline(bow, close=True))
-    assert "crosses or touches itself" in fault(lb.read_drawing, path, thickness=1.0)
-    assert "read_drawing" in fault(lb.read_blocks, path)
+    assert "crosses or touches itself" in fault(lb.files.read_drawing, path, thickness=1.0)
+    assert "read_drawing" in fault(lb.files.read_blocks, path)
     for thickness in (0.0, -1.0, np.nan, np.inf):
-        assert "thickness is" in fault(lb.read_drawing, path, thickness=thickness)
+        assert "thickness is" in fault(lb.files.read_drawing, path, thickness=thickness)
     path = drawn(tmp_path / "o.dxf", lambda space: space.add_lwpolyline([(0, 0), (1, 0), (1, 1)]))
-    assert "open by 1.41" in fault(lb.read_drawing, path, thickness=1.0)
+    assert "open by 1.41" in fault(lb.files.read_drawing, path, thickness=1.0)
     path = drawn(tmp_path / "b.dxf", lambda space: space.add_line((0, 0), (1, 0)))
-    assert "no closed outline but 1 LINE" in fault(lb.read_drawing, path, thickness=1.0)
+    assert "no closed outline but 1 LINE" in fault(lb.files.read_drawing, path, thickness=1.0)
     path = drawn(
         tmp_path / "c.dxf", lambda space: space.add_lwpolyline([(0, 0), (1e200, 0), (0, 1)], close=True)
     )
-    assert "finite numbers" in fault(lb.read_drawing, path, thickness=1.0)
+    assert "finite numbers" in fault(lb.files.read_drawing, path, thickness=1.0)
 
 
 WORDS = (b"nan", b"1e400", b"-1", b"99999999", b"0", b"", b"INSERT", b"1e308", b"\xff\xfe", b"x")
@@ -422,8 +423,36 @@ def test_damaged_drawings_read_or_fail_cleanly(tmp_path):
     for k in range(140):
         path.write_bytes(damaged(flat if k % 2 else solids, chance))
         try:
-            lb.read_drawing(path, thickness=0.2) if k % 2 else lb.read_blocks(path)
+            lb.files.read_drawing(path, thickness=0.2) if k % 2 else lb.files.read_blocks(path)
         except lb.ModelError as error:
             problems.append(error.problems)
     assert len(problems) > 30
     assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)
+
+
+def test_outlines_that_retrace_an_edge_are_counted_once(tmp_path):
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+    def draw(space):
+        space.add_lwpolyline([*square, (0, 0), (1, 0)])  # drawn on over its first side
+        space.add_lwpolyline([(2, 0), (3, 0), (3, 1), (3, 2), (3, 1), (2, 1)], close=True)  # out and back
+
+    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
+    assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0])
+    assert sum("retraces itself" in note for note in imported.notes) == 2
+
+
+def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
+    def draw(space):
+        space.add_lwpolyline([(0, 0), (1, 0), (1, 1), (0, 1)], close=True)
+        for x in (5, 8):
+            space.add_lwpolyline([(x, 0), (x + 1, 1), (x + 1, 0), (x, 1)], close=True)
+
+    file = drawn(tmp_path / "a.dxf", draw)
+    with pytest.raises(lb.ModelError) as raised:
+        lb.files.read_drawing(file, thickness=1.0)
+    assert "2 of 3 blocks are bad" in raised.value.problems[0]
+    assert sum("crosses or touches itself" in line for line in raised.value.problems) == 2
+    imported = lb.files.read_drawing(file, thickness=1.0, skip_bad=True)
+    assert (len(imported.blocks), len(imported.left_out)) == (1, 2)
+    assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2

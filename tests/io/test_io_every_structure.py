@@ -30,7 +30,7 @@ def through(model, file):
     def supported(block):
         return np.abs(held - block.centroid).max(axis=1).min() < 1e-4
 
-    lb.write_blocks(model, file)
+    lb.files.write_blocks(model, file)
     return lb.read(file, joint=JOINT, supports=supported, unit_weight=20e3, live=LIVE)
 
 

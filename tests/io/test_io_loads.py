@@ -12,17 +12,19 @@ import limitblocks as lb
 from limitblocks.mechanics.loads import LoadTerm
 
 THIRD = 1 / 3
-MASS = lb.added_mass("right", (1.0, THIRD, 2.0), mass=700)
+MASS = lb.loads.added_mass("right", (1.0, THIRD, 2.0), mass=700)
 TERMS = {
     "MassProportional": lb.self_weight(),
     "AddedMass": lb.mass_proportional((1, 2, 3), [MASS]),
-    "PointForce": lb.force("left", (1, 2, 3), (0, 0, 1)),
-    "Moment": lb.moment("left", (1, 2, THIRD)),
-    "Pressure": lb.pressure("left", 7, facing=(-1, 0, 0)) + lb.pressure("left", -THIRD, at=(-1.25, 0, 1)),
-    "Hydrostatic": lb.pressure(["left", "right"], facing=(-1, 0.1, 0), unit_weight=9810, level=1),
-    "Fill": lb.fill(18e3, 3, earth_pressure=THIRD) + lb.fill(18e3, 3 * THIRD + 2, blocks=["lintel"]),
-    "TopForce": lb.top_force((0, 0, -1), (0, THIRD)),
-    "LineLoad": lb.line_load((0, 0, -1), (-1, -THIRD), (1, THIRD)),
+    "PointForce": lb.loads.force("left", (1, 2, 3), (0, 0, 1)),
+    "Moment": lb.loads.moment("left", (1, 2, THIRD)),
+    "Pressure": lb.loads.pressure("left", 7, facing=(-1, 0, 0))
+    + lb.loads.pressure("left", -THIRD, at=(-1.25, 0, 1)),
+    "Hydrostatic": lb.loads.pressure(["left", "right"], facing=(-1, 0.1, 0), unit_weight=9810, level=1),
+    "Fill": lb.loads.fill(18e3, 3, earth_pressure=THIRD)
+    + lb.loads.fill(18e3, 3 * THIRD + 2, blocks=["lintel"]),
+    "TopForce": lb.loads.top_force((0, 0, -1), (0, THIRD)),
+    "LineLoad": lb.loads.line_load((0, 0, -1), (-1, -THIRD), (1, THIRD)),
 }
 
 
@@ -53,7 +55,7 @@ def test_what_is_written_is_read_bit_for_bit(load, tmp_path):
     assert again.digest == model.digest
     assert again.live.terms == model.live.terms
     assert again.live.on(again.free_blocks).tobytes() == model.live.on(model.free_blocks).tobytes()
-    jsonschema.Draft202012Validator(lb.model_schema()).validate(document(load))
+    jsonschema.Draft202012Validator(lb.files.model_schema()).validate(document(load))
 
 
 @pytest.mark.parametrize("load", TERMS.values(), ids=TERMS)
@@ -70,15 +72,15 @@ def test_defaults_may_be_left_out_and_directions_have_any_length(tmp_path):
     ]
     file = tmp_path / "model.json"
     file.write_text(json.dumps(document(TERMS["Moment"]) | {"live": live}))
-    mass = lb.added_mass("left", (0, 0, 1), weight=5)
+    mass = lb.loads.added_mass("left", (0, 0, 1), weight=5)
     expected = (
         lb.self_weight([mass]).terms[1:]
         + lb.mass_proportional((3, 0, 4), [mass]).terms[1:]
-        + lb.pressure("left", 3, facing=(-1, 0, 0)).terms
-        + lb.fill(18e3, 3).terms
+        + lb.loads.pressure("left", 3, facing=(-1, 0, 0)).terms
+        + lb.loads.fill(18e3, 3).terms
     )
     model = lb.read(file)
-    assert model.live.on(model.free_blocks) == pytest.approx(lb.Load(expected).on(model.free_blocks))
+    assert model.live.on(model.free_blocks) == pytest.approx(lb.loads.Load(expected).on(model.free_blocks))
     assert model.live.terms[1] == expected[1]
 
 
@@ -114,7 +116,7 @@ def test_fault_is_one_line_with_its_place(term, said, tmp_path):
     assert all(part in line for part in said), line
 
 
-EVERY = document(sum(TERMS.values(), lb.Load())) | {"units": {"length": "ft", "force": "kip"}}
+EVERY = document(sum(TERMS.values(), lb.loads.Load())) | {"units": {"length": "ft", "force": "kip"}}
 PLACES = [(k, key) for k, term in enumerate(EVERY["live"]) for key in term]
 VALUES = st.one_of(
     st.none(),

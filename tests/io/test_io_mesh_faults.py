@@ -100,7 +100,7 @@ def mutated(data, rng):
 def outcome(path):
     """The blocks in a file, or the error; anything else, a warning too, fails the test."""
     try:
-        return lb.read_blocks(path).blocks
+        return lb.files.read_blocks(path).blocks
     except lb.LimitBlocksError as error:
         return error
 
@@ -251,14 +251,14 @@ def test_what_is_no_file_of_blocks_is_refused(suffix, tmp_path):
     folder.mkdir()
     for path, said in ((folder, "is not a file"), (tmp_path / f"none{suffix}", "cannot be read")):
         with pytest.raises(lb.ModelError, match=said):
-            lb.read_blocks(path)
+            lb.files.read_blocks(path)
     for data in (b"", b" \n"):
         assert "is empty" in str(outcome_of(tmp_path / f"empty{suffix}", data))
 
 
 def test_unknown_suffix_names_the_formats(tmp_path):
     with pytest.raises(lb.ModelError, match=r"\.docx.*\.obj"):
-        lb.read_blocks(tmp_path / "wall.docx")
+        lb.files.read_blocks(tmp_path / "wall.docx")
 
 
 def test_command_line_says_it_in_one_line_and_exits_with_2(tmp_path):

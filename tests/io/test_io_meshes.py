@@ -43,8 +43,8 @@ def same_interfaces(blocks, model, tolerance):
 @pytest.mark.parametrize("name", STRUCTURES)
 def test_structure_keeps_its_interfaces(name, suffix, tmp_path):
     model = STRUCTURES[name]
-    path = lb.write_blocks(model, tmp_path / f"structure{suffix}")
-    imported = lb.read_blocks(path, unit_weight=20e3)
+    path = lb.files.write_blocks(model, tmp_path / f"structure{suffix}")
+    imported = lb.files.read_blocks(path, unit_weight=20e3)
     same_interfaces(imported.blocks, model, PRECISION[suffix])
     if suffix == ".ply":  # has no names
         assert imported.blocks[1].name == "structure 2"
@@ -58,7 +58,7 @@ def test_structure_keeps_its_interfaces(name, suffix, tmp_path):
 @pytest.mark.parametrize("name", ["arch", "portal"])
 def test_structure_keeps_its_bounds(name, suffix, tmp_path):
     model = STRUCTURES[name]
-    path = lb.write_blocks(model, tmp_path / f"structure{suffix}")
+    path = lb.files.write_blocks(model, tmp_path / f"structure{suffix}")
     again = lb.read(path, joint=JOINT, supports="support", live=DIRECTION, unit_weight={"block": 20e3})
     assert set(again.supports) == set(model.supports)
     before, after = lb.bounds(model), lb.bounds(again)
@@ -69,7 +69,7 @@ def test_structure_keeps_its_bounds(name, suffix, tmp_path):
 @pytest.mark.parametrize("name", ["wall", "arch", "barrel vault"])
 def test_binary_stl_without_names_is_told_apart_where_blocks_touch(name, tmp_path):
     model = STRUCTURES[name]
-    text = lb.write_blocks(model, tmp_path / "text.stl")
+    text = lb.files.write_blocks(model, tmp_path / "text.stl")
     corners = np.array(
         [line.split()[1:] for line in text.read_text().splitlines() if "vertex" in line], float
     )
@@ -77,13 +77,13 @@ def test_binary_stl_without_names_is_told_apart_where_blocks_touch(name, tmp_pat
     records["c"] = corners.reshape(-1, 3, 3)
     path = tmp_path / "binary.stl"
     path.write_bytes(b"solid".ljust(80) + struct.pack("<I", len(records)) + records.tobytes())
-    same_interfaces(lb.read_blocks(path).blocks, model, 1e-6)
+    same_interfaces(lb.files.read_blocks(path).blocks, model, 1e-6)
 
 
 @pytest.mark.parametrize("suffix", [".obj", ".stl", ".ply", ".glb"])
 def test_another_reader_finds_the_same_volumes(suffix, tmp_path):
     model = STRUCTURES["arch"]
-    path = lb.write_blocks(model, tmp_path / f"arch{suffix}")
+    path = lb.files.write_blocks(model, tmp_path / f"arch{suffix}")
     scene = trimesh.load_scene(path)
     assert scene.volume == pytest.approx(sum(block.volume for block in model.blocks), rel=1e-6)
     extents = np.ptp(np.concatenate([block.vertices for block in model.blocks]), axis=0)
@@ -107,7 +107,7 @@ def test_files_of_another_writer_are_read(suffix, tmp_path):
             (tmp_path / (path.name if file.endswith(".gltf") else file)).write_bytes(data)
     else:
         scene.export(path)
-    imported = lb.read_blocks(path, up="z")
+    imported = lb.files.read_blocks(path, up="z")
     faces = {len(block.faces): block.volume for block in imported.blocks}
     # a regular 12-gon of radius 1/2 has the area 12/2 sin(30 deg) / 4 = 3/4
     assert faces == pytest.approx({14: 0.75, 6: 4.0}, rel=1e-6)
@@ -119,19 +119,19 @@ def test_files_of_another_writer_are_read(suffix, tmp_path):
     ("units", "metres"), [("m", 1), ("cm", 0.01), ("mm", 1e-3), ("in", 0.0254), ("ft", 0.3048)]
 )
 def test_units_scale_lengths(units, metres, tmp_path):
-    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
-    (block,) = lb.read_blocks(path, units=units).blocks
+    path = lb.files.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
+    (block,) = lb.files.read_blocks(path, units=units).blocks
     assert block.volume == pytest.approx(6.0 * metres**3)
     assert block.centroid == pytest.approx(np.array([4, 5, 6]) * metres)
 
 
 def test_axis_up_turns_the_structure(tmp_path):
-    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
-    (block,) = lb.read_blocks(path, up="y").blocks
+    path = lb.files.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.obj")
+    (block,) = lb.files.read_blocks(path, up="y").blocks
     assert block.centroid == pytest.approx([4, -6, 5])
-    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.glb")
-    assert lb.read_blocks(path).blocks[0].centroid == pytest.approx([4, 5, 6])
-    assert lb.read_blocks(path, up="z").blocks[0].centroid == pytest.approx([4, 6, -5])
+    path = lb.files.write_blocks([lb.Block.box("a", (1, 2, 3), (4, 5, 6))], tmp_path / "a.glb")
+    assert lb.files.read_blocks(path).blocks[0].centroid == pytest.approx([4, 5, 6])
+    assert lb.files.read_blocks(path, up="z").blocks[0].centroid == pytest.approx([4, 6, -5])
 
 
 def test_obj_has_blocks_by_object_or_group_and_layers(tmp_path):
@@ -142,17 +142,17 @@ def test_obj_has_blocks_by_object_or_group_and_layers(tmp_path):
     high = "".join(f"f {' '.join(str(v - 9) for v in quad)}\n" for quad in quads)  # back from the last
     path = tmp_path / "two.obj"
     path.write_text(f"mtllib x.mtl\n{cube}g base\nusemtl granite\n{low}g shaft\nusemtl brick\n{high}")
-    imported = lb.read_blocks(path, unit_weight={"brick": 18e3})
+    imported = lb.files.read_blocks(path, unit_weight={"brick": 18e3})
     assert dict(imported.layers) == {"base": "granite", "shaft": "brick"}
     assert [block.unit_weight for block in imported.blocks] == [None, 18e3]
     path.write_text(f"{cube}o stone\ng pier\n{low}o stone #2\ng pier\n{high}")
-    assert dict(lb.read_blocks(path).layers) == {"stone": "pier", "stone #2": "pier"}
+    assert dict(lb.files.read_blocks(path).layers) == {"stone": "pier", "stone #2": "pier"}
     path.write_text(f"{cube}{low}{high}")
-    assert [block.name for block in lb.read_blocks(path).blocks] == ["two", "two 2"]
+    assert [block.name for block in lb.files.read_blocks(path).blocks] == ["two", "two 2"]
 
 
 def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
-    path = lb.write_blocks([lb.Block.box("a", (1, 2, 3), (0, 0, 0), 1.0)], tmp_path / "a.glb")
+    path = lb.files.write_blocks([lb.Block.box("a", (1, 2, 3), (0, 0, 0), 1.0)], tmp_path / "a.glb")
     data = path.read_bytes()
     half = np.sqrt(0.5)
     nodes = f'"nodes":[{{"name":"a","mesh":0,"rotation":[0,{half},0,{half}],"scale":[2,2,2]}},'
@@ -164,7 +164,7 @@ def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
     text += " " * (-len(text) % 4)
     body = struct.pack("<I", len(text)) + b"JSON" + text.encode() + data[20 + length :]
     path.write_bytes(data[:8] + struct.pack("<I", len(body) + 12) + body)
-    (block,) = lb.read_blocks(path).blocks
+    (block,) = lb.files.read_blocks(path).blocks
     assert block.centroid == pytest.approx([10, -30, 20])
     assert block.volume == pytest.approx(8 * 6.0)
     assert np.ptp(block.vertices, axis=0) == pytest.approx([4, 2, 6])  # X and Y change places about Z
@@ -172,7 +172,7 @@ def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
 
 def test_names_become_unique_and_say_so(tmp_path):
     boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(["a", "a", "a 2", "a"])]
-    imported = lb.read_blocks(lb.write_blocks(boxes, tmp_path / "a.stl"))
+    imported = lb.files.read_blocks(lb.files.write_blocks(boxes, tmp_path / "a.stl"))
     assert [block.name for block in imported.blocks] == ["a", "a 3", "a 2", "a 4"]
     assert imported.notes == ("3 blocks are named 'a'; all but the first got a number",)
 
@@ -184,9 +184,9 @@ def test_cavity_belongs_to_the_block_around_it(tmp_path):
     beside.apply_translation((3, 0, 0))
     path = tmp_path / "hollow.stl"
     trimesh.util.concatenate([inner, outer, beside]).export(path)
-    imported = lb.read_blocks(path)
+    imported = lb.files.read_blocks(path)
     assert [block.volume for block in imported.blocks] == pytest.approx([26.0, 27.0])
-    again = lb.read_blocks(lb.write_blocks(imported, tmp_path / "again.obj"))
+    again = lb.files.read_blocks(lb.files.write_blocks(imported, tmp_path / "again.obj"))
     assert [block.volume for block in again.blocks] == pytest.approx([26.0, 27.0])
 
 
@@ -199,8 +199,8 @@ CONCAVE = lb.Block(
 
 @pytest.mark.parametrize("suffix", PRECISION)
 def test_block_that_is_not_convex_keeps_its_shape(suffix, tmp_path):
-    path = lb.write_blocks([CONCAVE], tmp_path / f"angle{suffix}")
-    (block,) = lb.read_blocks(path).blocks
+    path = lb.files.write_blocks([CONCAVE], tmp_path / f"angle{suffix}")
+    (block,) = lb.files.read_blocks(path).blocks
     assert block.volume == pytest.approx(3.0, rel=PRECISION[suffix])
     assert sorted(block.areas) == pytest.approx([1, 1, 1, 1, 2, 2, 3, 3], rel=PRECISION[suffix])
     assert not block.convex
@@ -209,11 +209,13 @@ def test_block_that_is_not_convex_keeps_its_shape(suffix, tmp_path):
 def test_read_makes_a_model_and_logs_what_was_mended(tmp_path, caplog):
     path = tmp_path / "column.stl"
     lower, upper = (lb.Block.box(name, (1, 1, 2), (0, 0, z)) for name, z in (("base", -1), ("shaft", 1)))
-    inside_out = lb.write_blocks([upper], tmp_path / "upper.stl").read_text().splitlines()
+    inside_out = lb.files.write_blocks([upper], tmp_path / "upper.stl").read_text().splitlines()
     for k, line in enumerate(inside_out):
         if "outer loop" in line:
             inside_out[k + 1], inside_out[k + 2] = inside_out[k + 2], inside_out[k + 1]
-    path.write_text(lb.write_blocks([lower], tmp_path / "lower.stl").read_text() + "\n".join(inside_out))
+    path.write_text(
+        lb.files.write_blocks([lower], tmp_path / "lower.stl").read_text() + "\n".join(inside_out)
+    )
     with caplog.at_level(logging.WARNING, "limitblocks"):
         model = lb.read(
             path, joint=JOINT, supports=lambda b: b.centroid[2] < 0, live=DIRECTION, unit_weight=20e3
@@ -248,7 +250,7 @@ REFUSED = {
 def test_what_is_missing_or_unknown_is_said(name, tmp_path):
     arguments, said = REFUSED[name]
     boxes = [lb.Block.box("base", (1, 1, 1), (0, 0, 0)), lb.Block.box("top", (1, 1, 1), (0, 0, 1))]
-    path = lb.write_blocks(boxes, tmp_path / "two.stl")
+    path = lb.files.write_blocks(boxes, tmp_path / "two.stl")
     with pytest.raises(lb.ModelError, match=said):
         lb.read(path, **arguments)
 
@@ -266,12 +268,12 @@ def test_nothing_is_overwritten_without_being_asked(tmp_path):
         path = tmp_path / f"a{suffix}"
         path.write_text("mine")
         with pytest.raises(lb.LimitBlocksError, match="overwrite=True"):
-            lb.write_blocks(box, path)
+            lb.files.write_blocks(box, path)
         assert path.read_text() == "mine"
-        assert lb.write_blocks(box, path, overwrite=True) == path
+        assert lb.files.write_blocks(box, path, overwrite=True) == path
     with pytest.raises(lb.LimitBlocksError, match="cannot write"):
-        lb.write_blocks(box, tmp_path / "none" / "a.obj")
+        lb.files.write_blocks(box, tmp_path / "none" / "a.obj")
     with pytest.raises(lb.ModelError, match=r"\.obj"):
-        lb.write_blocks(box, tmp_path / "a.doc")
+        lb.files.write_blocks(box, tmp_path / "a.doc")
     with pytest.raises(lb.ModelError, match="no blocks"):
-        lb.write_blocks([], tmp_path / "b.obj")
+        lb.files.write_blocks([], tmp_path / "b.obj")

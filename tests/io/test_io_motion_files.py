@@ -48,7 +48,7 @@ def read_glb(path):
 
 
 def test_vtu_has_blocks_supports_and_the_mechanism(tmp_path):
-    files = lb.write_vtu(ARCH, tmp_path / "arch.vtu", BOUNDS)
+    files = lb.files.write_vtu(ARCH, tmp_path / "arch.vtu", BOUNDS)
     assert [file.name for file in files] == ["arch.vtu", "arch_interfaces.vtu"]
     mesh = meshio.read(files[0])
     points = np.concatenate([block.vertices for block in ARCH.blocks])
@@ -71,7 +71,7 @@ def test_vtu_has_blocks_supports_and_the_mechanism(tmp_path):
 
 
 def test_forces_in_the_vtu_of_the_interfaces_hold_every_block(tmp_path):
-    _, file = lb.write_vtu(ARCH, tmp_path / "arch.vtu", BOUNDS)
+    _, file = lb.files.write_vtu(ARCH, tmp_path / "arch.vtu", BOUNDS)
     mesh = meshio.read(file)
     force, number = mesh.cell_data["force"][0], mesh.cell_data["interface"][0]
     for block in ARCH.free_blocks:
@@ -87,17 +87,17 @@ def test_forces_in_the_vtu_of_the_interfaces_hold_every_block(tmp_path):
 
 
 def test_vtu_of_a_model_alone_and_of_a_claim_without_mechanism(tmp_path):
-    file, interfaces = lb.write_vtu(ARCH, tmp_path / "alone.vtu")
+    file, interfaces = lb.files.write_vtu(ARCH, tmp_path / "alone.vtu")
     assert meshio.read(file).point_data == {}
     assert list(meshio.read(interfaces).cell_data) == ["interface"]
-    claim = lb.Claim(BOUNDS.lower, BOUNDS.stress_resultants)
-    file, interfaces = lb.write_vtu(ARCH, tmp_path / "claim.vtu", claim)
+    claim = lb.results.Claim(BOUNDS.lower, BOUNDS.stress_resultants)
+    file, interfaces = lb.files.write_vtu(ARCH, tmp_path / "claim.vtu", claim)
     assert meshio.read(file).point_data == {}
     assert meshio.read(interfaces).cell_data["N"][0] == pytest.approx(BOUNDS.stress_resultants[:, 2])
 
 
 def test_load_path_is_a_collection_of_states(path, tmp_path):
-    files = lb.write_vtu(ARCH, tmp_path / "path.pvd", path)
+    files = lb.files.write_vtu(ARCH, tmp_path / "path.pvd", path)
     sets = ET.parse(files[0]).getroot().findall("Collection/DataSet")
     assert [(one.get("timestep"), one.get("part")) for one in sets] == [
         (str(k), str(p)) for k in range(3) for p in (0, 1)
@@ -112,7 +112,7 @@ def test_load_path_is_a_collection_of_states(path, tmp_path):
 
 def test_animation_turns_blocks_about_their_centroids(path, tmp_path):
     for result, frames in ((BOUNDS, 2), (path, 4)):
-        document, arrays = read_glb(lb.write_animation(ARCH, tmp_path / f"{frames}.glb", result))
+        document, arrays = read_glb(lb.files.write_animation(ARCH, tmp_path / f"{frames}.glb", result))
         (animation,) = document["animations"]
         tracks = {}
         for channel in animation["channels"]:
@@ -124,7 +124,7 @@ def test_animation_turns_blocks_about_their_centroids(path, tmp_path):
             tracks[channel["target"]["node"], channel["target"]["path"]] = values
         moving = {node for node, _ in tracks}
         assert {ARCH.blocks[k].name for k in moving}.isdisjoint(ARCH.supports)
-        factor = meshio.read(lb.write_vtu(ARCH, tmp_path / f"{frames}.vtu", BOUNDS)[0]).field_data[
+        factor = meshio.read(lb.files.write_vtu(ARCH, tmp_path / f"{frames}.vtu", BOUNDS)[0]).field_data[
             "magnification"
         ][0]
         for k in moving:
@@ -143,19 +143,19 @@ def test_animation_turns_blocks_about_their_centroids(path, tmp_path):
 def test_wrong_results_and_suffixes_are_refused(path, tmp_path):
     small = lb.structures.portal(JOINT, span=2.0, pier_width=0.6, pier_blocks=2)
     stronger = replace(ARCH, dead=2.0 * ARCH.dead)  # the same blocks: the shapes fit
-    claim = lb.Claim(1.0, BOUNDS.stress_resultants)
-    moving = lb.Claim(1.0, BOUNDS.stress_resultants, BOUNDS.displacement_rates)
+    claim = lb.results.Claim(1.0, BOUNDS.stress_resultants)
+    moving = lb.results.Claim(1.0, BOUNDS.stress_resultants, BOUNDS.displacement_rates)
     refused = [
-        (lb.write_vtu, ARCH, "a.vtk", BOUNDS, "expected .vtu"),
-        (lb.write_vtu, ARCH, "a.vtu", path, "expected .pvd"),
-        (lb.write_vtu, ARCH, "a.pvd", BOUNDS, "expected .vtu"),
-        (lb.write_vtu, small, "a.vtu", BOUNDS, "belongs to model"),
-        (lb.write_vtu, stronger, "a.vtu", BOUNDS, "belongs to model"),
-        (lb.write_animation, stronger, "a.glb", BOUNDS, "belongs to model"),
-        (lb.write_vtu, small, "a.vtu", claim, "stress resultants"),
-        (lb.write_animation, ARCH, "a.gltf", BOUNDS, "expected .glb"),
-        (lb.write_animation, ARCH, "a.glb", claim, "no displacement rates"),
-        (lb.write_animation, small, "a.glb", moving, "the model has"),
+        (lb.files.write_vtu, ARCH, "a.vtk", BOUNDS, "expected .vtu"),
+        (lb.files.write_vtu, ARCH, "a.vtu", path, "expected .pvd"),
+        (lb.files.write_vtu, ARCH, "a.pvd", BOUNDS, "expected .vtu"),
+        (lb.files.write_vtu, small, "a.vtu", BOUNDS, "belongs to model"),
+        (lb.files.write_vtu, stronger, "a.vtu", BOUNDS, "belongs to model"),
+        (lb.files.write_animation, stronger, "a.glb", BOUNDS, "belongs to model"),
+        (lb.files.write_vtu, small, "a.vtu", claim, "stress resultants"),
+        (lb.files.write_animation, ARCH, "a.gltf", BOUNDS, "expected .glb"),
+        (lb.files.write_animation, ARCH, "a.glb", claim, "no displacement rates"),
+        (lb.files.write_animation, small, "a.glb", moving, "the model has"),
     ]
     for write, model, name, result, said in refused:
         with pytest.raises(lb.ModelError, match=said):
@@ -167,24 +167,25 @@ def test_results_of_others_are_not_overwritten(path, tmp_path):
     mine = tmp_path / "path_0001.vtu"
     mine.write_text("mine")
     with pytest.raises(lb.LimitBlocksError, match=r"path_0001\.vtu exists"):
-        lb.write_vtu(ARCH, tmp_path / "path.pvd", path)
+        lb.files.write_vtu(ARCH, tmp_path / "path.pvd", path)
     assert [file.name for file in tmp_path.iterdir()] == [mine.name]  # nothing is written by halves
-    lb.write_vtu(ARCH, tmp_path / "path.pvd", path, overwrite=True)
+    lb.files.write_vtu(ARCH, tmp_path / "path.pvd", path, overwrite=True)
     assert mine.read_text() != "mine"
 
 
 @pytest.mark.parametrize(
     ("package", "suffix", "write"),
     [
-        ("trimesh", ".glb", lambda file: lb.write_blocks(ARCH, file)),
-        ("trimesh", ".glb", lambda file: lb.write_animation(ARCH, file, BOUNDS)),
-        ("meshio", ".vtu", lambda file: lb.write_vtu(ARCH, file, BOUNDS)),
+        ("trimesh", ".glb", lambda file: lb.files.write_blocks(ARCH, file)),
+        ("trimesh", ".glb", lambda file: lb.files.write_animation(ARCH, file, BOUNDS)),
+        ("meshio", ".vtu", lambda file: lb.files.write_vtu(ARCH, file, BOUNDS)),
     ],
 )
 def test_without_the_packages_of_the_extra_meshes(package, suffix, write, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(
-        lb.MissingDependency, match=rf"need the package {package}; install it by: pip install '{package}>="
+        lb.errors.MissingDependency,
+        match=rf"need the package {package}; install it by: pip install '{package}>=",
     ):
         write(tmp_path / f"a{suffix}")
     assert list(tmp_path.iterdir()) == []
@@ -201,7 +202,7 @@ def test_cells_stay_in_order_where_faces_have_different_numbers_of_corners(tmp_p
     blocks = [lb.Block.box("ground", (1, 1, 1), (0.5, 0.5, -0.5)), prism]
     interfaces = lb.find_interfaces(blocks, joint)
     model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    mesh = meshio.read(lb.write_vtu(model, tmp_path / "two.vtu")[0])
+    mesh = meshio.read(lb.files.write_vtu(model, tmp_path / "two.vtu")[0])
     cells = [tuple(cell) for run in mesh.cells for cell in run.data.tolist()]
     starts = {"ground": 0, "prism": 8}
     assert cells == [tuple(v + starts[b.name] for v in face) for b in blocks for face in b.faces]
@@ -211,7 +212,7 @@ def test_cells_stay_in_order_where_faces_have_different_numbers_of_corners(tmp_p
 def test_nodes_keep_names_that_are_repeated_or_of_the_format(tmp_path):
     names = ["world", "a", "a", "0", "Stöne"]
     boxes = [lb.Block.box(name, (1, 1, 1), (2 * k, 0, 0)) for k, name in enumerate(names)]
-    document, _ = read_glb(lb.write_blocks(boxes, tmp_path / "a.glb"))
+    document, _ = read_glb(lb.files.write_blocks(boxes, tmp_path / "a.glb"))
     assert [node["name"] for node in document["nodes"]] == names
     assert [node["translation"][0] for node in document["nodes"]] == [0, 2, 4, 6, 8]
     assert not any("matrix" in node for node in document["nodes"])  # or no animation may move them

@@ -83,7 +83,7 @@ def written(file, document):
 @pytest.mark.parametrize("key", MODELS)
 def test_what_is_written_is_read_bit_for_bit(key, wrapped, tmp_path):
     model, result = MODELS[key], RESULTS[key]
-    file = lb.write_result(wrapped(result), tmp_path / "result.json")
+    file = lb.files.write_result(wrapped(result), tmp_path / "result.json")
     for claim in (lb.read_result(file), lb.read_result(str(file), model)):
         assert (claim.load_factor, claim.dilatancy, claim.digest) == (result.load_factor, 0.2, model.digest)
         for name in STATE:
@@ -98,7 +98,7 @@ def test_bounds_are_read_and_checked_with_associated_flow(key, tmp_path):
     """The stresses of the lower bound and the mechanism of the upper one solve Eqs (54)-(59) with G = F."""
     model = MODELS[key]
     bounds = lb.bounds(model)
-    claim = lb.read_result(lb.write_result(bounds, tmp_path / "bounds.json"), model)
+    claim = lb.read_result(lb.files.write_result(bounds, tmp_path / "bounds.json"), model)
     assert (claim.load_factor, claim.dilatancy, claim.digest) == (bounds.lower, np.inf, model.digest)
     assert all(np.array_equal(getattr(claim, name), getattr(bounds, name)) for name in STATE)
     check = lb.check_mcp(model, claim, tolerance=1e-6)
@@ -109,14 +109,14 @@ def test_bounds_are_read_and_checked_with_associated_flow(key, tmp_path):
 
 def test_turning_is_written_and_read(tmp_path):
     result = associated(MODEL, 0.2, Turning.PRESSURE)
-    file = lb.write_result(result, tmp_path / "result.json")
+    file = lb.files.write_result(result, tmp_path / "result.json")
     assert json.loads(file.read_text(encoding="utf-8"))["turning"] == "centre of pressure"
     assert lb.read_result(file).turning is Turning.PRESSURE
     assert lb.read_result(written(file, MINIMAL)).turning is Turning.CENTROID
 
 
 def test_file_is_strict_json_and_says_where_it_comes_from(tmp_path):
-    text = lb.write_result(load_path(RESULT), tmp_path / "result.json").read_text(encoding="utf-8")
+    text = lb.files.write_result(load_path(RESULT), tmp_path / "result.json").read_text(encoding="utf-8")
     document = json.loads(text, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
     assert (document["schema_version"], document["analysis"]) == (1, "path")
     assert document["versions"]["limitblocks"] == lb.__version__
@@ -129,11 +129,13 @@ def test_file_is_strict_json_and_says_where_it_comes_from(tmp_path):
 def test_nothing_is_overwritten_unasked(tmp_path):
     file = written(tmp_path / "result.json", "mine")
     with pytest.raises(lb.LimitBlocksError, match="exists"):
-        lb.write_result(RESULT, file)
+        lb.files.write_result(RESULT, file)
     assert file.read_text() == "mine"
-    assert lb.read_result(lb.write_result(RESULT, file, overwrite=True)).load_factor == RESULT.load_factor
+    assert (
+        lb.read_result(lb.files.write_result(RESULT, file, overwrite=True)).load_factor == RESULT.load_factor
+    )
     with pytest.raises(lb.LimitBlocksError, match="cannot write"):
-        lb.write_result(RESULT, tmp_path / "none" / "result.json")
+        lb.files.write_result(RESULT, tmp_path / "none" / "result.json")
 
 
 def test_minimal_file_is_enough_and_names_may_stand_for_order(tmp_path):
@@ -157,7 +159,7 @@ def test_minimal_file_is_enough_and_names_may_stand_for_order(tmp_path):
 
 def test_result_of_another_model_is_refused_by_both_names(tmp_path):
     other = portal(lb.PointContact(0.2), "beam")
-    file = lb.write_result(RESULT, tmp_path / "result.json")
+    file = lb.files.write_result(RESULT, tmp_path / "result.json")
     with pytest.raises(lb.ModelError) as caught:
         lb.read_result(file, other)
     assert all(part in str(caught.value) for part in (str(file), MODEL.digest[:12], other.digest[:12]))

@@ -40,7 +40,9 @@ def two_joints():
     return lb.Model(model.blocks, ["ground"], [*low, *swapped], model.dead, model.live)
 
 
-LOADS = 0.1 * lb.force("lintel", (1e3, -1 / 3, 0), (0, 0, 2.4)) + 3 * lb.moment("left", (0, 5, np.pi))
+LOADS = 0.1 * lb.loads.force("lintel", (1e3, -1 / 3, 0), (0, 0, 2.4)) + 3 * lb.loads.moment(
+    "left", (0, 5, np.pi)
+)
 MODELS = {
     "boxes": portal(lb.OrdunaLourenco(0.6), lb.mass_proportional((1, 2, 3))),
     "points": portal(lb.PointContact(1 / 3), lb.mass_proportional((1, 0, 0))),
@@ -76,12 +78,12 @@ def test_what_is_written_is_read_bit_for_bit(model, tmp_path):
 
 @pytest.mark.parametrize("model", MODELS.values(), ids=MODELS)
 def test_schema_accepts_what_is_written(model):
-    jsonschema.Draft202012Validator(lb.model_schema()).validate(json.loads(json.dumps(model.to_dict())))
+    jsonschema.Draft202012Validator(lb.files.model_schema()).validate(json.loads(json.dumps(model.to_dict())))
 
 
 def test_schema_is_sound_and_rejects_what_read_rejects():
-    jsonschema.Draft202012Validator.check_schema(lb.model_schema())
-    validator = jsonschema.Draft202012Validator(lb.model_schema())
+    jsonschema.Draft202012Validator.check_schema(lb.files.model_schema())
+    validator = jsonschema.Draft202012Validator(lb.files.model_schema())
     good = json.loads(json.dumps(MODELS["boxes"].to_dict()))
     for change in (
         {"schema_version": 2},
@@ -102,7 +104,7 @@ def test_file_written_by_hand_is_the_same_model(tmp_path):
     assert model.digest == portal(lb.OrdunaLourenco(0.6), lb.mass_proportional((1, 0, 0))).digest
     file.write_text(text, encoding="utf-8-sig")  # as editors on Windows do
     assert lb.read(str(file)).digest == model.digest
-    jsonschema.Draft202012Validator(lb.model_schema()).validate(json.loads(text))
+    jsonschema.Draft202012Validator(lb.files.model_schema()).validate(json.loads(text))
 
 
 def test_direction_is_brought_to_unit_length_and_self_weight_is_a_term(tmp_path):

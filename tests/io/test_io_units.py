@@ -86,7 +86,7 @@ def read(document, tmp_path):
 )
 def test_other_units_give_the_same_model(length, force, metre, newton, tmp_path):
     document = scaled(SI, metre, newton) | {"units": {"length": length, "force": force}}
-    jsonschema.Draft202012Validator(lb.model_schema()).validate(document)
+    jsonschema.Draft202012Validator(lb.files.model_schema()).validate(document)
     model, si = read(document, tmp_path), read(SI, tmp_path)
     assert [i.name for i in model.interfaces] == [i.name for i in si.interfaces]
     for array in ("centroid", "axes", "polygon"):

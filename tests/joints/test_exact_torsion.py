@@ -30,12 +30,14 @@ every_polygon = pytest.mark.parametrize("polygon", POLYGONS.values(), ids=POLYGO
 
 
 def sides(**settings):
-    return lb.ExactTorsion(MU, side="inner", **settings), lb.ExactTorsion(MU, side="outer", **settings)
+    return lb.joints.ExactTorsion(MU, side="inner", **settings), lb.joints.ExactTorsion(
+        MU, side="outer", **settings
+    )
 
 
 @every_polygon
 def test_limit_surface_is_between_inner_and_outer(polygon):
-    interface = lb.interface(polygon, None)
+    interface = lb.joints.interface(polygon, None)
     inner, outer = sides()
     gap = inner.discretisation_error(interface)
     rng = np.random.default_rng(0)
@@ -54,9 +56,9 @@ def test_limit_surface_is_between_inner_and_outer(polygon):
 
 
 def test_gap_falls_as_the_square_of_the_fineness():
-    interface = lb.interface(RECTANGLE, None)
+    interface = lb.joints.interface(RECTANGLE, None)
     gaps = np.array(
-        [lb.ExactTorsion(MU, fineness).discretisation_error(interface) for fineness in (4, 8, 16)]
+        [lb.joints.ExactTorsion(MU, fineness).discretisation_error(interface) for fineness in (4, 8, 16)]
     )
     assert (gaps[:-1] / gaps[1:] > 3).all()
     assert gaps[2] < 0.006
@@ -65,7 +67,7 @@ def test_gap_falls_as_the_square_of_the_fineness():
 @every_polygon
 def test_torsion_under_bending_is_between_inner_and_outer(polygon):
     """Against uniform pressure on the effective area; everywhere in the polygon and at hinges."""
-    polygon = lb.interface(polygon, None).polygon
+    polygon = lb.joints.interface(polygon, None).polygon
     rng = np.random.default_rng(1)
     corners = np.concatenate([polygon, (polygon + np.roll(polygon, -1, axis=0)) / 2])
     e = np.concatenate([rng.dirichlet(np.full(len(polygon), 0.5), 150) @ polygon, (1 - 1e-9) * corners])
@@ -79,7 +81,7 @@ def test_torsion_under_bending_is_between_inner_and_outer(polygon):
 
 def test_rectangle_planes_touch_the_exact_surface():
     """Inner without bending and at the corners; outer without bending and at A, B, C of Table 4."""
-    interface = lb.interface(RECTANGLE, None)
+    interface = lb.joints.interface(RECTANGLE, None)
     inner, outer = sides(fineness=2)
     T = (0, 0, 0, 0, 0, 1)
     for e1, e2, touching in (
@@ -96,7 +98,7 @@ def test_rectangle_planes_touch_the_exact_surface():
 
 def test_pure_strengths_are_exact_on_both_sides():
     """Shear along the axes and torsion; the outer planes that give them bear the names of pure modes."""
-    interface = lb.interface(RECTANGLE, None)
+    interface = lb.joints.interface(RECTANGLE, None)
     for d, mode, expected in (
         ((1, 0, 0, 0, 0, 0), "slip", -MU * N),
         ((0, -1, 0, 0, 0, 0), "slip", -MU * N),
@@ -116,16 +118,16 @@ def test_effective_rectangle_is_not_convex_and_its_hull_is_outer():
     chord = (rectangle_torsion_bending(L1, L2, MU, N, *A) + rectangle_torsion_bending(L1, L2, MU, N, *C)) / 2
     sag = rectangle_torsion_bending(L1, L2, MU, N, *middle) / chord
     assert sag < 0.8
-    outer = lb.ExactTorsion(MU, side="outer").strength(
-        lb.interface(RECTANGLE, None), (0, 0, 0, 0, 0, 1), np.add(COMPRESSION, [0, 0, 0, *middle, 0])
+    outer = lb.joints.ExactTorsion(MU, side="outer").strength(
+        lb.joints.interface(RECTANGLE, None), (0, 0, 0, 0, 0, 1), np.add(COMPRESSION, [0, 0, 0, *middle, 0])
     )
     assert outer == pytest.approx(chord, rel=1e-9)
 
 
 def test_bending_error_is_the_number_in_the_docstring():
     for ratio in (1.0, 1.5, 2.0, 3.0):
-        interface = lb.interface(SQUARE * [ratio, 1], None)
-        error = lb.ExactTorsion(MU).bending_error(interface)
+        interface = lb.joints.interface(SQUARE * [ratio, 1], None)
+        error = lb.joints.ExactTorsion(MU).bending_error(interface)
         assert 0.15 < error < 0.18
         c_T, twist = rectangle_torsion_constant(ratio, 1.0), bending_planes(interface.polygon, "inner")
         T1, T2 = abs(twist[0, 1]) * 1.0, abs(twist[0, 2]) * ratio
@@ -138,7 +140,10 @@ def test_planes_turn_with_the_rectangle():
     e, states = np.array([0.06, -0.03]), []
     for polygon, point in ((RECTANGLE, e), (RECTANGLE @ TURN, e @ TURN)):
         states.append(
-            (lb.interface(polygon, None), np.add(COMPRESSION, [0, 0, 0, N * point[1], -N * point[0], 0]))
+            (
+                lb.joints.interface(polygon, None),
+                np.add(COMPRESSION, [0, 0, 0, N * point[1], -N * point[0], 0]),
+            )
         )
     for joint in (inner, outer):
         plain, turned = (joint.strength(i, (0, 0, 0, 0, 0, 1), Q) for i, Q in states)
@@ -158,7 +163,7 @@ def test_stack_of_shapes_is_the_single_ones_scaled():
                 both = (rows.F[k] @ Q)[: rows.linear].min(), (alone.F[0] @ Q)[: alone.linear].min()
                 assert both[0] == pytest.approx(both[1], rel=1e-9)
     exact = [
-        lb.ExactTorsion(MU).utilisation(lb.interface(p, None), q)
+        lb.joints.ExactTorsion(MU).utilisation(lb.joints.interface(p, None), q)
         for p, q in (
             (RECTANGLE, np.array([90, 40, N, 3, 5, 4.0])),
             (1024 * RECTANGLE, np.array([90, 40, N, 3072, 5120, 4096.0])),
@@ -168,7 +173,10 @@ def test_stack_of_shapes_is_the_single_ones_scaled():
 
 
 def test_the_set_is_convex():
-    interface, joint = lb.interface(POLYGONS["trapezium"], None), lb.ExactTorsion(MU, fineness=2)
+    interface, joint = (
+        lb.joints.interface(POLYGONS["trapezium"], None),
+        lb.joints.ExactTorsion(MU, fineness=2),
+    )
     rng = np.random.default_rng(3)
     held, surface = np.array([0, 0, -1.0, 0, 0, 0]), []
     for _ in range(40):
@@ -182,8 +190,8 @@ def test_the_set_is_convex():
 
 def test_flow_has_no_dilatancy_and_turns_about_the_point_of_action():
     joint, interface = (
-        lb.ExactTorsion(MU, fineness=1, compressive_strength=1e5),
-        lb.interface(RECTANGLE, None),
+        lb.joints.ExactTorsion(MU, fineness=1, compressive_strength=1e5),
+        lb.joints.interface(RECTANGLE, None),
     )
     Q = np.add(COMPRESSION, [5, 3, 0, 8.0, -12.0, 2.0])
     flow = joint.flow_directions(interface, Q, turning="centre of pressure")
@@ -199,9 +207,9 @@ def test_flow_has_no_dilatancy_and_turns_about_the_point_of_action():
 
 
 def test_zero_friction_and_crushing():
-    interface = lb.interface(RECTANGLE, None)
-    assert lb.ExactTorsion(0.0).strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION) == 0
-    moment = lb.ExactTorsion(MU, compressive_strength=2e4).strength(
+    interface = lb.joints.interface(RECTANGLE, None)
+    assert lb.joints.ExactTorsion(0.0).strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION) == 0
+    moment = lb.joints.ExactTorsion(MU, compressive_strength=2e4).strength(
         interface, (0, 0, 0, 1, 0, 0), COMPRESSION
     )
     assert moment == pytest.approx(-N * L2 * (1 + N / (4 * L1 * L2 * 2e4)), rel=1e-12)
@@ -216,7 +224,7 @@ def pushed_aside(joint, lever):
         lb.Block.box("base", (1, 1, 0.1), (0, 0, -0.05)),
         lb.Block.box("stone", (0.3, 0.2, 0.1), (0, 0, 0.05), 20e3),
     ]
-    live = lb.force("stone", (0.0, 120.0, 0.0), at=(lever, 0.0, 0.0))
+    live = lb.loads.force("stone", (0.0, 120.0, 0.0), at=(lever, 0.0, 0.0))
     return lb.Model(blocks, ["base"], lb.find_interfaces(blocks, joint), lb.self_weight(), live)
 
 
@@ -236,7 +244,7 @@ def test_two_programs_bracket_the_load_factor_of_a_block_that_twists(lever):
         low, high = lb.bounds(pushed_aside(inner, lever)), lb.bounds(pushed_aside(outer, lever))
         assert low.lower <= exact * (1 + 1e-7)
         assert high.upper >= exact * (1 - 1e-7)
-        gap = inner.discretisation_error(lb.interface(RECTANGLE, None))
+        gap = inner.discretisation_error(lb.joints.interface(RECTANGLE, None))
         assert high.upper <= low.lower * (1 + gap) ** 2
         gaps.append(high.upper / low.lower - 1)
     assert gaps[1] < gaps[0]
@@ -250,7 +258,9 @@ def test_bracket_with_bending_holds_the_effective_rectangle():
         lb.Block.box("low", (0.3, 0.3, 0.2), (0, 0, 0.1), 20e3),
         lb.Block.box("high", (0.3, 0.3, 0.2), (0, 0, 0.3), 20e3),
     ]
-    live = lb.force("high", (0.0, 100.0, 0.0), at=(0.15, 0.0, 0.3)) + lb.moment("high", (0, 0, 20.0))
+    live = lb.loads.force("high", (0.0, 100.0, 0.0), at=(0.15, 0.0, 0.3)) + lb.loads.moment(
+        "high", (0, 0, 20.0)
+    )
 
     def model(joint):
         return lb.Model(blocks, ["base"], lb.find_interfaces(blocks, joint), lb.self_weight(), live)
@@ -274,4 +284,4 @@ def test_bracket_with_bending_holds_the_effective_rectangle():
 )
 def test_bad_settings_are_named(settings, message):
     with pytest.raises(lb.ModelError, match=message):
-        lb.ExactTorsion(**settings)
+        lb.joints.ExactTorsion(**settings)

@@ -17,7 +17,7 @@ TORSION = (0, 0, 0, 0, 0, 1)
 
 @pytest.mark.parametrize(("ratio", "excess"), [(1, 1.85), (2, 1.88), (4, 1.94)])
 def test_torsion_is_mu_n_times_half_the_diagonal(ratio, excess):
-    interface = lb.interface(SQUARE * [ratio, 1], None)
+    interface = lb.joints.interface(SQUARE * [ratio, 1], None)
     torsion = lb.PointContact(MU).strength(interface, TORSION, COMPRESSION)
     assert torsion == pytest.approx(-MU * N * np.hypot(ratio, 1), rel=1e-9)
     assert torsion / (-MU * N * rectangle_torsion_constant(ratio, 1)) == pytest.approx(excess, abs=0.01)
@@ -28,7 +28,7 @@ def test_refining_changes_nothing(points):
     corners, finer = lb.PointContact(MU), lb.PointContact(MU, points=points)
     rng = np.random.default_rng(points)
     for polygon in (RECTANGLE, TRIANGLE):
-        interface = lb.interface(polygon, None)
+        interface = lb.joints.interface(polygon, None)
         for d in rng.normal(size=(4, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]:
             assert finer.strength(interface, d, COMPRESSION) == pytest.approx(
                 corners.strength(interface, d, COMPRESSION), rel=1e-8
@@ -37,7 +37,7 @@ def test_refining_changes_nothing(points):
 
 def test_any_force_within_the_polygon_is_carried_by_the_corners():
     """The reason: share it by barycentric weights."""
-    interface, joint = lb.interface(TRIANGLE, None), lb.PointContact(MU)
+    interface, joint = lb.joints.interface(TRIANGLE, None), lb.PointContact(MU)
     rng = np.random.default_rng(0)
     for weights in rng.dirichlet(np.ones(3), 10):
         (x1, x2), angle = weights @ interface.polygon, rng.uniform(0, 2 * np.pi)
@@ -48,7 +48,7 @@ def test_any_force_within_the_polygon_is_carried_by_the_corners():
 
 @pytest.mark.parametrize("polygon", [RECTANGLE, TRIANGLE], ids=["rectangle", "triangle"])
 def test_shear_and_hinging_are_exact(polygon):
-    interface, joint = lb.interface(polygon, None), lb.PointContact(MU)
+    interface, joint = lb.joints.interface(polygon, None), lb.PointContact(MU)
     hinging = lb.OrdunaLourenco(MU)
     for angle in np.linspace(0, 6, 13):
         d = (np.cos(angle), np.sin(angle), 0, 0, 0, 0)
@@ -60,7 +60,7 @@ def test_shear_and_hinging_are_exact(polygon):
 
 @pytest.mark.parametrize("sides", [4, 8, 24])
 def test_inner_and_outer_enclose_the_cones(sides):
-    interface, limit = lb.interface(RECTANGLE, None), np.cos(np.pi / sides)
+    interface, limit = lb.joints.interface(RECTANGLE, None), np.cos(np.pi / sides)
     exact = lb.PointContact(MU)
     for d in np.random.default_rng(sides).normal(size=(6, 6)) * [1, 1, 0, 0.01, 0.01, 0.1]:
         low, true, high = (
@@ -83,14 +83,14 @@ def test_inner_and_outer_enclose_the_cones(sides):
 
 
 def test_convexity_scaling_and_the_compression_ray():
-    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
+    interface, joint = lb.joints.interface(RECTANGLE, None), lb.PointContact(MU)
     directions = np.random.default_rng(5).normal(size=(12, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]
     surface = [COMPRESSION + d * joint.strength(interface, d, COMPRESSION) for d in directions]
     for Q in np.add(surface[::2], surface[1::2]) / 2:
         assert joint.utilisation(interface, Q) <= 1 + 1e-8
     Q = surface[0]
     big = Q * 8 * np.array([1, 1, 1, 4, 4, 4])
-    assert joint.utilisation(lb.interface(4 * RECTANGLE, None), big) == pytest.approx(1, rel=1e-8)
+    assert joint.utilisation(lb.joints.interface(4 * RECTANGLE, None), big) == pytest.approx(1, rel=1e-8)
     assert joint.utilisation(interface, COMPRESSION) == 0
     assert joint.utilisation(interface, (0, 0, 1, 0, 0, 0)) == np.inf
     assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == np.inf
@@ -113,11 +113,11 @@ def test_convexity_scaling_and_the_compression_ray():
     ],
 )
 def test_active_modes_of_a_mechanism(state, modes):
-    assert lb.PointContact(MU).active_modes(lb.interface(RECTANGLE, None), state) == modes
+    assert lb.PointContact(MU).active_modes(lb.joints.interface(RECTANGLE, None), state) == modes
 
 
 def test_zero_friction():
-    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(0.0)
+    interface, joint = lb.joints.interface(RECTANGLE, None), lb.PointContact(0.0)
     assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(-N * L2, rel=1e-9)
     assert joint.strength(interface, TORSION, COMPRESSION) == 0
     with pytest.raises(lb.ModelError, match="outside the yield set already"):
@@ -134,7 +134,7 @@ def test_answer_satisfies_the_cones_to_1e_10():
 
 def test_noise_in_a_stress_state_does_not_stop_the_solver():
     """The noise a solver leaves in the out-of-plane resultants of a plane wall."""
-    interface = lb.interface(RECTANGLE, None)
+    interface = lb.joints.interface(RECTANGLE, None)
     rng = np.random.default_rng(3)
     for size in (1e-9, 1e-12, 1e-16):
         for noise in rng.normal(size=(8, 6)) * size * -N * [1, 1, 0, L1, L1, L1]:
@@ -163,12 +163,14 @@ def test_an_interface_that_carries_rounding_alone():
     """HiGHS gave up on such states, 4e-11 N: V2 over mu |N|, or M1 over |N| times the half side."""
     polygon = np.array([(0.3, -0.1), (0.3, 0.1), (-0.3, 0.1), (-0.3, -0.1)])
     V2, N2, M1 = 5.51144723e-12, -3.90941282e-11, 5.87182741e-13
-    result = lb.PointContact(0.6).utilisation(lb.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29))
+    result = lb.PointContact(0.6).utilisation(
+        lb.joints.interface(polygon, None), (3e-28, V2, N2, M1, -7e-28, 9e-29)
+    )
     assert result == pytest.approx(max(V2 / (0.6 * -N2), M1 / (0.1 * -N2)), rel=1e-7)
 
 
 def test_given_stresses_outside_are_refused_even_if_the_direction_leads_inside():
-    interface, joint = lb.interface(RECTANGLE, None), lb.PointContact(MU)
+    interface, joint = lb.joints.interface(RECTANGLE, None), lb.PointContact(MU)
     for given in (-COMPRESSION, COMPRESSION - [1.01 * MU * N, 0, 0, 0, 0, 0]):
         with pytest.raises(lb.ModelError, match="outside the yield set already"):
             joint.strength(interface, COMPRESSION, given)
@@ -190,7 +192,7 @@ def test_multipliers_are_those_of_the_mechanism():
 
 def test_no_flow_in_stress_resultants():
     with pytest.raises(lb.ModelError, match="no flow directions"):
-        lb.PointContact(MU).flow_directions(lb.interface(RECTANGLE, None), COMPRESSION)
+        lb.PointContact(MU).flow_directions(lb.joints.interface(RECTANGLE, None), COMPRESSION)
 
 
 @pytest.mark.parametrize(

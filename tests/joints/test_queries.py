@@ -14,7 +14,7 @@ RECTANGLE = np.array([(0.15, -0.1), (0.15, 0.1), (-0.15, 0.1), (-0.15, -0.1)])
 JOINTS = [
     lb.OrdunaLourenco(MU, slip="paper"),
     lb.OrdunaLourenco(MU, 2e4),
-    lb.ExactTorsion(MU, fineness=2),
+    lb.joints.ExactTorsion(MU, fineness=2),
     lb.PointContact(MU),
 ]
 every_joint = pytest.mark.parametrize("joint", JOINTS, ids=repr)
@@ -53,7 +53,7 @@ def test_reach_at_the_apex_and_along_the_boundary():
 
 @every_joint
 def test_strength_and_utilisation_say_the_same(joint):
-    interface = lb.interface(RECTANGLE, joint)
+    interface = lb.joints.interface(RECTANGLE, joint)
     rng = np.random.default_rng(0)
     for d in rng.normal(size=(8, 6)) * [1, 1, 0, 0.1, 0.1, 0.1]:
         held = np.array([0, 0, N, 0, 0, 0])
@@ -71,7 +71,7 @@ def test_strength_and_utilisation_say_the_same(joint):
 
 
 def test_active_modes_by_name():
-    interface = lb.interface(RECTANGLE, None)
+    interface = lb.joints.interface(RECTANGLE, None)
     c_T = 0.0968105
     joint, held = lb.OrdunaLourenco(MU), np.array([0, 0, N, 0, 0, 0])
     limit = -MU * N
@@ -93,13 +93,13 @@ def test_questions_in_any_units(joint):
     """Tiny and huge forces: the answers scale, unless there is a strength."""
     if getattr(joint, "compressive_strength", None):
         return
-    interface, Q = lb.interface(RECTANGLE, None), np.array([50, 30, N, 4, -6, 5.0])
+    interface, Q = lb.joints.interface(RECTANGLE, None), np.array([50, 30, N, 4, -6, 5.0])
     small, usual, large = (joint.utilisation(interface, factor * Q) for factor in (1e-9, 1.0, 1e9))
     assert [small, large] == pytest.approx([usual, usual], rel=1e-9)
 
 
 def test_interface_for_teaching():
-    interface = lb.interface(np.add(RECTANGLE[::-1], (3, 4)), JOINTS[0])
+    interface = lb.joints.interface(np.add(RECTANGLE[::-1], (3, 4)), JOINTS[0])
     np.testing.assert_allclose(interface.polygon.mean(axis=0), 0, atol=1e-15)
     x, y = interface.polygon.T
     assert (x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2 == pytest.approx(0.06)
@@ -117,12 +117,12 @@ def test_interface_for_teaching():
     ],
 )
 def test_bad_polygons_are_named(polygon, message):
-    with pytest.raises(lb.GeometryError, match=message):
-        lb.interface(polygon, JOINTS[0])
+    with pytest.raises(lb.errors.GeometryError, match=message):
+        lb.joints.interface(polygon, JOINTS[0])
 
 
 def test_bad_questions_are_named():
-    interface, joint = lb.interface(RECTANGLE, None), JOINTS[0]
+    interface, joint = lb.joints.interface(RECTANGLE, None), JOINTS[0]
     with pytest.raises(lb.ModelError, match="direction is zero"):
         joint.strength(interface, np.zeros(6))
     with pytest.raises(lb.ModelError, match=r"direction is .*expected six finite numbers"):
@@ -139,7 +139,7 @@ def test_words_name_what_is_not_default():
         "OrdunaLourenco(friction=0.6, compressive_strength=2000000.0, slip='paper')"
     )
     assert repr(lb.PointContact(0.7)) == "PointContact(friction=0.7)"
-    assert repr(lb.ExactTorsion(0.7, side="outer")) == "ExactTorsion(friction=0.7, side='outer')"
+    assert repr(lb.joints.ExactTorsion(0.7, side="outer")) == "ExactTorsion(friction=0.7, side='outer')"
 
 
 @every_joint

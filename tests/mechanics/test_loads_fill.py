@@ -19,7 +19,7 @@ def extrados(radius=5.3, voussoirs=11):
 
 
 def test_fill_over_an_arch_weighs_what_is_between_level_and_extrados():
-    load = lb.fill(GAMMA, LEVEL).on(ARCH.free_blocks)
+    load = lb.loads.fill(GAMMA, LEVEL).on(ARCH.free_blocks)
     (x, z) = extrados().T
     area = LEVEL * (x[-1] - x[0]) - np.trapezoid(z, x)
     assert -load[:, 2].sum() == pytest.approx(GAMMA * DEPTH * area, rel=1e-9)
@@ -30,7 +30,7 @@ def test_fill_over_an_arch_weighs_what_is_between_level_and_extrados():
 
 def test_horizontal_earth_pressure_is_the_integral_over_height():
     coefficient = 0.4
-    load = lb.fill(GAMMA, LEVEL, earth_pressure=coefficient).on(ARCH.free_blocks)
+    load = lb.loads.fill(GAMMA, LEVEL, earth_pressure=coefficient).on(ARCH.free_blocks)
     depth = LEVEL - extrados()[:6, 1]  # the left half up to the block at the crown
     each = coefficient * GAMMA * DEPTH * (depth[:-1] ** 2 - depth[1:] ** 2) / 2
     assert load[:5, 0] == pytest.approx(each, rel=1e-9)
@@ -41,7 +41,7 @@ def test_horizontal_earth_pressure_is_the_integral_over_height():
         z, w = np.polynomial.legendre.leggauss(3)
         z = (a + b) / 2 + (b - a) / 2 * z
         moment += coefficient * GAMMA * DEPTH * (b - a) / 2 * float(w @ ((LEVEL - z) * z))
-    left, plain = load[:5], lb.fill(GAMMA, LEVEL).on(ARCH.free_blocks)[:5]
+    left, plain = load[:5], lb.loads.fill(GAMMA, LEVEL).on(ARCH.free_blocks)[:5]
     arms = np.stack([block.centroid for block in ARCH.free_blocks[:5]])
     extra = left - plain
     assert (extra[:, 3:] + np.cross(arms, extra[:, :3]))[:, 1].sum() == pytest.approx(moment)
@@ -61,7 +61,7 @@ def test_fill_is_the_weight_of_its_body(dx, dy, cover, seed):
         lb.Block(name, np.concatenate(parts), faces, weight).moved(turn, (30.0, -7.0, 0.0))
         for name, parts, weight in (("stone", (low, top), 1.0), ("body", (top, high), GAMMA))
     )
-    load = lb.fill(GAMMA, level, blocks="stone").on([stone])[0]
+    load = lb.loads.fill(GAMMA, level, blocks="stone").on([stone])[0]
     weight = np.array([0, 0, -body.weight])
     assert load[:3] == pytest.approx(weight, rel=1e-9, abs=1e-6)
     assert load[3:] == pytest.approx(
@@ -72,14 +72,14 @@ def test_fill_is_the_weight_of_its_body(dx, dy, cover, seed):
 def test_only_what_is_below_the_level_and_not_covered_gets_fill():
     low = lb.Block.box("low", (4, 2, 1), (0, 0, 0.5), 1.0)
     high = lb.Block.box("high", (1, 1, 3), (-0.5, 0.5, 2.5), 1.0)
-    load = lb.fill(GAMMA, 2.5).on([low, high])
+    load = lb.loads.fill(GAMMA, 2.5).on([low, high])
     assert load[0, 2] == pytest.approx(-GAMMA * 1.5 * (4 * 2 - 1))
     assert load[0, 3:] == pytest.approx(  # the column missing at (-0.5, 0.5): r x F of a lifted weight
         np.cross((-0.5, 0.5, 0), (0, 0, GAMMA * 1.5)), abs=1e-6
     )
     assert not load[1].any()
     bridge = lb.Block.box("bridge", (1, 4, 1), (1, 0, 1.8), 1.0)  # hangs over, without touching
-    load = lb.fill(GAMMA, 2.5, blocks=["low"]).on([low, high, bridge])
+    load = lb.loads.fill(GAMMA, 2.5, blocks=["low"]).on([low, high, bridge])
     assert load[0, 2] == pytest.approx(-GAMMA * 1.5 * (4 * 2 - 1 - 2))
 
 
@@ -88,7 +88,7 @@ def test_a_hole_in_the_fill():
         lb.Block.box("slab", (4, 4, 1), (0, 0, 0.5), 1.0),
         lb.Block.box("post", (1, 1, 5), (0.3, 0.2, 3.5), 1.0),
     )
-    load = lb.fill(GAMMA, 2.0, blocks="slab").on([slab, post])[0]
+    load = lb.loads.fill(GAMMA, 2.0, blocks="slab").on([slab, post])[0]
     assert load[2] == pytest.approx(-GAMMA * 15)
     assert load[3:] == pytest.approx(np.cross((0.3, 0.2, 0), (0, 0, GAMMA)), abs=1e-6)
 
@@ -100,7 +100,7 @@ def test_level_through_a_slope_fills_the_lower_part():
         [(0, 0, 0), (2, 0, 0), (0, 0, 1), (0, 3, 0), (2, 3, 0), (0, 3, 1)],
         [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)],
     )
-    load = lb.fill(GAMMA, 0.5).on([wedge])[0]
+    load = lb.loads.fill(GAMMA, 0.5).on([wedge])[0]
     weight = GAMMA * 3 * 0.5 * 1 * 0.5
     assert load[2] == pytest.approx(-weight)
     assert load[3:] == pytest.approx(np.cross((1 + 2 / 3 - 2 / 3, 0, 0), (0, 0, -weight)), abs=1e-6)
@@ -111,8 +111,8 @@ def test_fill_strengthens_and_models_can_be_analysed():
     the weight of the fill: (W + F) b / 2 over H h / 2."""
     ground = lb.Block.box("ground", (4, 4, 0.2), (0, 0, -0.1))
     block = lb.Block.box("block", (1, 1, 2), (0, 0, 1), 20e3)
-    dead = lb.self_weight() + lb.fill(GAMMA, 3.0)
-    live = lb.force("block", (1e3, 0, 0), at=(0, 0, 1))
+    dead = lb.self_weight() + lb.loads.fill(GAMMA, 3.0)
+    live = lb.loads.force("block", (1e3, 0, 0), at=(0, 0, 1))
     model = lb.Model(
         [ground, block], ["ground"], lb.find_interfaces([ground, block], lb.PointContact(9.0)), dead, live
     )
@@ -122,12 +122,12 @@ def test_fill_strengthens_and_models_can_be_analysed():
 @pytest.mark.parametrize(
     ("load", "said"),
     [
-        (lambda: lb.fill(-1.0, LEVEL), "unit weight is -1.0"),
-        (lambda: lb.fill(0.0, LEVEL), "unit weight is 0.0"),
-        (lambda: lb.fill(GAMMA, np.nan), "level is nan"),
-        (lambda: lb.fill(GAMMA, LEVEL, earth_pressure=-0.3), "-0.3"),
-        (lambda: lb.fill(GAMMA, LEVEL, blocks=["crown"]), "'crown'"),
-        (lambda: lb.fill(GAMMA, 5.0, blocks="voussoir 6"), "level 5 m"),
+        (lambda: lb.loads.fill(-1.0, LEVEL), "unit weight is -1.0"),
+        (lambda: lb.loads.fill(0.0, LEVEL), "unit weight is 0.0"),
+        (lambda: lb.loads.fill(GAMMA, np.nan), "level is nan"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, earth_pressure=-0.3), "-0.3"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, blocks=["crown"]), "'crown'"),
+        (lambda: lb.loads.fill(GAMMA, 5.0, blocks="voussoir 6"), "level 5 m"),
     ],
 )
 def test_wrong_fill_is_refused(load, said):

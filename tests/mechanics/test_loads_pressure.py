@@ -31,8 +31,8 @@ def inside(block, face):
 
 
 def on_all_faces(block, **pressure):
-    loads = (lb.pressure(block.name, at=inside(block, k), **pressure) for k in range(len(block.faces)))
-    return sum(loads, lb.Load()).on([block])[0]
+    loads = (lb.loads.pressure(block.name, at=inside(block, k), **pressure) for k in range(len(block.faces)))
+    return sum(loads, lb.loads.Load()).on([block])[0]
 
 
 @pytest.mark.parametrize("block", BODIES.values(), ids=BODIES)
@@ -56,9 +56,13 @@ def test_submerged_block_is_lifted_by_the_weight_of_water_at_its_centroid(block,
 
 def test_floating_block_is_lifted_by_the_weight_of_the_water_it_displaces():
     """Up to half its height: faces above the water get nothing, those through it a part."""
-    sides = [lb.pressure("wall", facing=d, unit_weight=WATER, level=0.5) for d in ((1, 0, 0), (-1, 0, 0))]
-    sides += [lb.pressure("wall", facing=d, unit_weight=WATER, level=0.5) for d in ((0, 1, 0), (0, -1, 0))]
-    below = lb.pressure("wall", facing=(0, 0, -1), unit_weight=WATER, level=0.5)
+    sides = [
+        lb.loads.pressure("wall", facing=d, unit_weight=WATER, level=0.5) for d in ((1, 0, 0), (-1, 0, 0))
+    ]
+    sides += [
+        lb.loads.pressure("wall", facing=d, unit_weight=WATER, level=0.5) for d in ((0, 1, 0), (0, -1, 0))
+    ]
+    below = lb.loads.pressure("wall", facing=(0, 0, -1), unit_weight=WATER, level=0.5)
     load = sum(sides, below).on([WALL])[0]
     assert load == pytest.approx(np.array([0, 0, WATER * 3.0 * 0.5, 0, 0, 0]), abs=1e-9)
 
@@ -66,7 +70,7 @@ def test_floating_block_is_lifted_by_the_weight_of_the_water_it_displaces():
 @pytest.mark.parametrize("depth", [0.3, 1.2, 2.0, 5.0])
 def test_water_against_a_wall(depth):
     """Resultant gamma d^2 / 2 per m at d / 3 above the ground; a trapezium where it stands above the wall."""
-    load = lb.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=depth).on([WALL])[0]
+    load = lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=depth).on([WALL])[0]
     wet = min(depth, 2.0)
     deep, high = depth, depth - wet
     total = 3.0 * WATER * (deep + high) / 2 * wet
@@ -76,7 +80,7 @@ def test_water_against_a_wall(depth):
 
 def test_water_on_a_slope_is_thrust_of_its_projection_and_weight_above():
     level = 1.5
-    load = lb.pressure("wedge", facing=(1, 0, 2), unit_weight=WATER, level=level).on([WEDGE])[0]
+    load = lb.loads.pressure("wedge", facing=(1, 0, 2), unit_weight=WATER, level=level).on([WEDGE])[0]
     thrust = 3.0 * WATER * (level**2 - 0.5**2) / 2
     weight = 3.0 * WATER * 2.0 * (level + 0.5) / 2
     assert load[:3] == pytest.approx([-thrust, 0, -weight])
@@ -100,7 +104,7 @@ def test_water_on_a_slope_is_thrust_of_its_projection_and_weight_above():
 def test_retaining_wall(joint_type, friction, formula):
     ground = lb.Block.box("ground", (4, 4, 0.2), (0, 0, -0.1))
     blocks = [ground, WALL]
-    live = lb.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)
+    live = lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)
     interfaces = lb.find_interfaces(blocks, joint_type(friction))
     model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), live)
     assert lb.bounds(model).lower == pytest.approx(formula, rel=1e-6)
@@ -110,18 +114,18 @@ def test_pressure_on_courses_is_that_on_the_wall():
     courses = [lb.Block.box(f"course {k}", (1, 3, 0.5), (0.5, 0, 0.25 + k / 2), 20e3) for k in range(4)]
     names = [course.name for course in courses]
     level = 1.3  # the top course stays dry
-    parts = lb.pressure(names, 200.0, facing=(-1, 0, 0), unit_weight=WATER, level=level).on(courses)
-    whole = lb.pressure("wall", 200.0, facing=(-1, 0, 0), unit_weight=WATER, level=level).on([WALL])[0]
+    parts = lb.loads.pressure(names, 200.0, facing=(-1, 0, 0), unit_weight=WATER, level=level).on(courses)
+    whole = lb.loads.pressure("wall", 200.0, facing=(-1, 0, 0), unit_weight=WATER, level=level).on([WALL])[0]
     arms = np.stack([course.centroid - WALL.centroid for course in courses])
     moment = (parts[:, 3:] + np.cross(arms, parts[:, :3])).sum(axis=0)
     assert np.concatenate([parts[:, :3].sum(axis=0), moment]) == pytest.approx(whole)
 
 
 def test_pressure_that_grows_upwards_is_a_difference():
-    uniform = lb.pressure("wall", WATER * 2.0, facing=(-1, 0, 0))
-    load = (uniform + (-1) * lb.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)).on([WALL])[
-        0
-    ]
+    uniform = lb.loads.pressure("wall", WATER * 2.0, facing=(-1, 0, 0))
+    load = (uniform + (-1) * lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)).on(
+        [WALL]
+    )[0]
     total = 3.0 * WATER * 2.0
     assert load == pytest.approx(np.array([total, 0, 0, 0, total * (4 / 3 - 1.0), 0]))
 
@@ -129,25 +133,28 @@ def test_pressure_that_grows_upwards_is_a_difference():
 @pytest.mark.parametrize(
     ("load", "said"),
     [
-        (lambda: lb.pressure("wal", 1.0, facing=(1, 0, 0)), "'wal'"),
-        (lambda: lb.pressure("wedge", 1.0, facing=(1, 0, -0.5)), "no face towards"),
-        (lambda: lb.pressure("wall", 1.0, facing=(1, 1, 0)), "equally close"),
-        (lambda: lb.pressure("wall", 1.0, facing=(0, 0, 0)), "non-zero"),
-        (lambda: lb.pressure("wall", 1.0, at=(0.5, 0, 1.0)), "on no face"),
-        (lambda: lb.pressure("wall", 1.0, at=(0.0, 0, 2.5)), "on no face"),
-        (lambda: lb.pressure("wall", 1.0, at=(0.0, 0, 2.0)), "on an edge"),
-        (lambda: lb.pressure("wall", 1.0), "direction"),
-        (lambda: lb.pressure("wall", 1.0, facing=(1, 0, 0), at=(0, 0, 1)), "either"),
-        (lambda: lb.pressure(["wall", "wedge"], 1.0, at=(0, 0, 1)), "one point"),
-        (lambda: lb.pressure(["wall", "wall"], 1.0, facing=(1, 0, 0)), "twice"),
-        (lambda: lb.pressure([], 1.0, facing=(1, 0, 0)), "no block"),
-        (lambda: lb.pressure("wall", facing=(1, 0, 0)), "zero"),
-        (lambda: lb.pressure("wall", facing=(1, 0, 0), unit_weight=1.0), "without a level"),
-        (lambda: lb.pressure("wall", facing=(1, 0, 0), unit_weight=-1.0, level=1.0), "unit weight is -1.0"),
-        (lambda: lb.pressure("wall", facing=(1, 0, 0), unit_weight=1.0, level=0.0), "below every face"),
-        (lambda: lb.pressure("wall", facing=(1, 0, 0), unit_weight=1.0, level=np.nan), "level is nan"),
-        (lambda: lb.pressure("wall", np.inf, facing=(1, 0, 0)), "pressure is inf"),
-        (lambda: lb.pressure("wall", "much", facing=(1, 0, 0)), "'much'"),
+        (lambda: lb.loads.pressure("wal", 1.0, facing=(1, 0, 0)), "'wal'"),
+        (lambda: lb.loads.pressure("wedge", 1.0, facing=(1, 0, -0.5)), "no face towards"),
+        (lambda: lb.loads.pressure("wall", 1.0, facing=(1, 1, 0)), "equally close"),
+        (lambda: lb.loads.pressure("wall", 1.0, facing=(0, 0, 0)), "non-zero"),
+        (lambda: lb.loads.pressure("wall", 1.0, at=(0.5, 0, 1.0)), "on no face"),
+        (lambda: lb.loads.pressure("wall", 1.0, at=(0.0, 0, 2.5)), "on no face"),
+        (lambda: lb.loads.pressure("wall", 1.0, at=(0.0, 0, 2.0)), "on an edge"),
+        (lambda: lb.loads.pressure("wall", 1.0), "direction"),
+        (lambda: lb.loads.pressure("wall", 1.0, facing=(1, 0, 0), at=(0, 0, 1)), "either"),
+        (lambda: lb.loads.pressure(["wall", "wedge"], 1.0, at=(0, 0, 1)), "one point"),
+        (lambda: lb.loads.pressure(["wall", "wall"], 1.0, facing=(1, 0, 0)), "twice"),
+        (lambda: lb.loads.pressure([], 1.0, facing=(1, 0, 0)), "no block"),
+        (lambda: lb.loads.pressure("wall", facing=(1, 0, 0)), "zero"),
+        (lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=1.0), "without a level"),
+        (
+            lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=-1.0, level=1.0),
+            "unit weight is -1.0",
+        ),
+        (lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=1.0, level=0.0), "below every face"),
+        (lambda: lb.loads.pressure("wall", facing=(1, 0, 0), unit_weight=1.0, level=np.nan), "level is nan"),
+        (lambda: lb.loads.pressure("wall", np.inf, facing=(1, 0, 0)), "pressure is inf"),
+        (lambda: lb.loads.pressure("wall", "much", facing=(1, 0, 0)), "'much'"),
     ],
 )
 def test_wrong_pressure_is_refused(load, said):

@@ -33,38 +33,38 @@ def about_origin(load, blocks):
     ],
 )
 def test_force_acts_on_the_highest_block_at_its_place(place, owner, height):
-    load = lb.top_force(FORCE, place).on(SLABS)
-    assert load == pytest.approx(lb.force(SLABS[owner].name, FORCE, (*place, height)).on(SLABS))
+    load = lb.loads.top_force(FORCE, place).on(SLABS)
+    assert load == pytest.approx(lb.loads.force(SLABS[owner].name, FORCE, (*place, height)).on(SLABS))
 
 
 def test_force_on_an_arch_is_on_the_extrados():
     places = [(0.0, 0.2), (2.0, -0.3), (-4.9, 0.0)]
     for x, y in places:
-        load = lb.top_force(FORCE, (x, y)).on(ARCH.free_blocks)
+        load = lb.loads.top_force(FORCE, (x, y)).on(ARCH.free_blocks)
         (k,) = np.flatnonzero(load.any(axis=1))
         block = ARCH.free_blocks[k]
         angles = np.linspace(-np.pi / 2, np.pi / 2, 10)
         z = np.interp(x, 5.3 * np.sin(angles), 5.3 * np.cos(angles))
-        assert load == pytest.approx(lb.force(block.name, FORCE, (x, y, z)).on(ARCH.free_blocks))
+        assert load == pytest.approx(lb.loads.force(block.name, FORCE, (x, y, z)).on(ARCH.free_blocks))
 
 
 def test_an_edge_belongs_to_the_first_block():
     level = [SLABS[0], lb.Block.box("beside", (2, 2, 1), (1, 0, 0.5), 1.0)]
     for blocks in (level, level[::-1]):
-        load = lb.top_force(FORCE, (0.0, 0.0)).on(blocks)
+        load = lb.loads.top_force(FORCE, (0.0, 0.0)).on(blocks)
         assert load.any(axis=1).tolist() == [True, False]
 
 
 def test_line_load_is_shared_by_length():
-    load = lb.line_load((0, 0, -1e3), (-1.5, 0.1), (1.8, 0.1)).on(SLABS)
+    load = lb.loads.line_load((0, 0, -1e3), (-1.5, 0.1), (1.8, 0.1)).on(SLABS)
     assert load[:, 2] == pytest.approx([-1.5e3, -1.0e3, -0.8e3])
     expected = sum(
         (
-            lb.force("left", (0, 0, -1.5e3), (-0.75, 0.1, 1)),
-            lb.force("right", (0, 0, -1.0e3), (0.5, 0.1, 2)),
-            lb.force("over", (0, 0, -0.8e3), (1.4, 0.1, 2.5)),
+            lb.loads.force("left", (0, 0, -1.5e3), (-0.75, 0.1, 1)),
+            lb.loads.force("right", (0, 0, -1.0e3), (0.5, 0.1, 2)),
+            lb.loads.force("over", (0, 0, -0.8e3), (1.4, 0.1, 2.5)),
         ),
-        lb.Load(),
+        lb.loads.Load(),
     )
     assert load == pytest.approx(expected.on(SLABS), abs=1e-9)
 
@@ -73,13 +73,15 @@ def test_line_load_is_shared_by_length():
 def test_line_load_on_an_arch_is_the_sum_of_its_parts(x0, x1, y0, y1):
     if abs(x1 - x0) < 0.1:
         x1 = x0 + (0.1 if x0 < 0 else -0.1)
-    line = lb.line_load(FORCE, (x0, y0), (x1, y1)).on(ARCH.free_blocks)
+    line = lb.loads.line_load(FORCE, (x0, y0), (x1, y1)).on(ARCH.free_blocks)
     length = np.hypot(x1 - x0, y1 - y0)
     assert line[:, :3].sum(axis=0) == pytest.approx(np.multiply(FORCE, length))
     n = 400
     s = (np.arange(n) + 0.5) / n
     places = np.column_stack([x0 + s * (x1 - x0), y0 + s * (y1 - y0)])
-    parts = sum((length / n * lb.top_force(FORCE, place) for place in places), lb.Load()).on(ARCH.free_blocks)
+    parts = sum((length / n * lb.loads.top_force(FORCE, place) for place in places), lb.loads.Load()).on(
+        ARCH.free_blocks
+    )
     size = np.linalg.norm(FORCE) * length
     assert about_origin(line, ARCH.free_blocks) == pytest.approx(
         about_origin(parts, ARCH.free_blocks), abs=5e-3 * size
@@ -89,19 +91,19 @@ def test_line_load_on_an_arch_is_the_sum_of_its_parts(x0, x1, y0, y1):
 def test_line_along_a_joint_acts_once():
     angle = np.linspace(-np.pi / 2, np.pi / 2, 10)[4]
     x = 5.3 * np.sin(angle)
-    load = lb.line_load((0, 0, -1e3), (x, -0.5), (x, 0.5)).on(ARCH.free_blocks)
+    load = lb.loads.line_load((0, 0, -1e3), (x, -0.5), (x, 0.5)).on(ARCH.free_blocks)
     assert load[:, 2].sum() == pytest.approx(-1e3)
 
 
 @pytest.mark.parametrize(
     ("load", "said"),
     [
-        (lambda: lb.top_force(FORCE, (9.0, 0.0)), "x = 9 m, y = 0 m"),
-        (lambda: lb.top_force(FORCE, (0, 0, 0)), "two finite numbers"),
-        (lambda: lb.top_force((1, 2), (0, 0)), "three finite numbers"),
-        (lambda: lb.line_load(FORCE, (-1.5, 0), (2.5, 0)), "no free block"),
-        (lambda: lb.line_load(FORCE, (1, 0), (1, 0)), "start and end"),
-        (lambda: lb.line_load(FORCE, (1, np.nan), (1, 0)), "start"),
+        (lambda: lb.loads.top_force(FORCE, (9.0, 0.0)), "x = 9 m, y = 0 m"),
+        (lambda: lb.loads.top_force(FORCE, (0, 0, 0)), "two finite numbers"),
+        (lambda: lb.loads.top_force((1, 2), (0, 0)), "three finite numbers"),
+        (lambda: lb.loads.line_load(FORCE, (-1.5, 0), (2.5, 0)), "no free block"),
+        (lambda: lb.loads.line_load(FORCE, (1, 0), (1, 0)), "start and end"),
+        (lambda: lb.loads.line_load(FORCE, (1, np.nan), (1, 0)), "start"),
     ],
 )
 def test_wrong_place_is_refused(load, said):

@@ -69,10 +69,10 @@ def judged(model: lb.Model, expected: Truth) -> Verdict:
         return Verdict("undecided")
     try:
         result = lb.bounds(model)
-    except (lb.NoEquilibrium, lb.UnlimitedLoad) as error:
-        word = "falls" if isinstance(error, lb.NoEquilibrium) else "unlimited"
+    except (lb.errors.NoEquilibrium, lb.errors.UnlimitedLoad) as error:
+        word = "falls" if isinstance(error, lb.errors.NoEquilibrium) else "unlimited"
         return Verdict("right" if expected.verdict == word else f"says {word}", str(error))
-    except lb.SolverFailure as error:
+    except lb.errors.SolverFailure as error:
         return Verdict("refused", str(error))
     except Exception as error:
         return Verdict("crashed", f"{type(error).__name__}: {error}")
@@ -99,7 +99,7 @@ def judged_nonassociated(case: Case, expected: Truth) -> Verdict:
     try:
         result = lb.nonassociated(case.model)
         passed = lb.check_mcp(case.model, result).passed
-    except lb.NoEquilibrium as error:
+    except lb.errors.NoEquilibrium as error:
         return Verdict("right" if expected.verdict == "falls" else "says falls", str(error))
     except lb.NotConverged as error:
         return Verdict("not converged", str(error))

@@ -48,7 +48,7 @@ def case(seed):
         block = free[draw.count(0, len(free) - 1)]
         corner = block.vertices[draw.count(0, len(block.vertices) - 1)]
         at = block.centroid + draw.uniform(0.0, 0.9) * (corner - block.centroid)
-        live = lb.force(block.name, np.multiply(block.weight, direction), at)
+        live = lb.loads.force(block.name, np.multiply(block.weight, direction), at)
     model = lb.Model(parts.blocks, parts.supports, parts.interfaces, lb.self_weight(), live, f"{kind} {seed}")
     truth = None
     if parts.carried is not None and not pushed:

@@ -149,7 +149,7 @@ def test_a_load_on_one_of_two_blocks_leaves_the_other_to_stand_or_fall():
             parts.supports + both.supports,
             parts.interfaces + both.interfaces,
             lb.self_weight(),
-            lb.force("p block 1", (1.0, 0, 0), at=(0.5, 0, 0.1)),
+            lb.loads.force("p block 1", (1.0, 0, 0), at=(0.5, 0, 0.1)),
         )
         known = truth(model)
         assert known.verdict == verdict

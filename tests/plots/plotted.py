@@ -37,7 +37,7 @@ def arch():
     """A semicircular arch of 9 voussoirs with a growing force on its crown."""
     model = lb.structures.arch(JOINT, radius=2.0, thickness=0.4, voussoirs=9)
     crown = model.free_blocks[4]
-    live = lb.force(crown.name, (0, 0, -10e3), at=(0, 0, 2.0))
+    live = lb.loads.force(crown.name, (0, 0, -10e3), at=(0, 0, 2.0))
     return lb.Model(model.blocks, model.supports, model.interfaces, model.dead, live)
 
 

@@ -11,7 +11,7 @@ from limitblocks.joints.torsion import rectangle_torsion_constant
 
 L1, L2, FRICTION = 0.15, 0.10, 0.6
 JOINT = lb.OrdunaLourenco(friction=FRICTION)
-RECTANGLE = lb.interface([(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)], JOINT)
+RECTANGLE = lb.joints.interface([(L1, -L2), (L1, L2), (-L1, L2), (-L1, -L2)], JOINT)
 
 
 def curve(ax, label=None):
@@ -103,7 +103,7 @@ def test_point_contacts_have_a_curve_too():
 
 
 WEAK = lb.OrdunaLourenco(friction=FRICTION, cohesion=1e3)
-TRIANGLE = lb.interface([(0, 0), (0.3, 0), (0, 0.2)], JOINT)
+TRIANGLE = lb.joints.interface([(0, 0), (0.3, 0), (0, 0.2)], JOINT)
 STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
 
 

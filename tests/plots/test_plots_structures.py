@@ -213,7 +213,7 @@ def test_missing_matplotlib_is_named():
         "import sys; sys.modules['matplotlib'] = None\n"
         "import limitblocks as lb\n"
         "try:\n    lb.plots\n"
-        "except lb.MissingDependency as error:\n"
+        "except lb.errors.MissingDependency as error:\n"
         '    sys.exit("pip install \'matplotlib>=3" not in str(error))\n'
         "sys.exit(2)"
     )

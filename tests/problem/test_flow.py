@@ -12,7 +12,7 @@ JOINTS = [
     lb.OrdunaLourenco(MU, slip="paper"),
     lb.OrdunaLourenco(MU),
     lb.OrdunaLourenco(MU, compressive_strength=1e6),
-    lb.ExactTorsion(MU, fineness=2),
+    lb.joints.ExactTorsion(MU, fineness=2),
     lb.PointContact(MU),
 ]
 every_joint = pytest.mark.parametrize("joint", JOINTS, ids=repr)

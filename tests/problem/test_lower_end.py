@@ -17,8 +17,8 @@ JOINTS = [
     lb.OrdunaLourenco(MU, slip="inner", sides=3),
     lb.OrdunaLourenco(MU, compressive_strength=1e5),
     lb.OrdunaLourenco(MU, cohesion=5e3, tensile_strength=5e3),
-    lb.ExactTorsion(MU, fineness=2, side="inner"),
-    lb.ExactTorsion(MU, fineness=2, side="outer"),
+    lb.joints.ExactTorsion(MU, fineness=2, side="inner"),
+    lb.joints.ExactTorsion(MU, fineness=2, side="outer"),
     lb.PointContact(MU),
     lb.PointContact(MU, cone="inner", sides=5),
 ]

@@ -28,7 +28,7 @@ def report(model):
 
 
 def test_schema_describes_the_json_of_every_result(report):
-    schema = lb.report_schema()
+    schema = lb.files.report_schema()
     jsonschema.Draft202012Validator.check_schema(schema)
     content = json.loads(report.json, parse_constant=pytest.fail)
     jsonschema.validate(content, schema)
@@ -115,7 +115,7 @@ def test_pdf_names_the_package_it_needs(report, tmp_path, monkeypatch):
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(lb.MissingDependency, match=r"reportlab.*pip install 'reportlab>=4"):
+    with pytest.raises(lb.errors.MissingDependency, match=r"reportlab.*pip install 'reportlab>=4"):
         report.save(tmp_path / "arch.pdf")
     assert not (tmp_path / "arch.pdf").exists()
 

@@ -49,12 +49,12 @@ def nonassociated(bounds):
     names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
     names += ("dead_load_stresses",)
     state = {name: getattr(bounds, name) for name in (*names, "residuals", "digest")}
-    return lb.Nonassociated(
+    return lb.results.Nonassociated(
         load_factor=0.2,
         frictionless=0.1,
         associated=0.3,
         backward_error=BackwardError(*(Residual(name, 1e-9, "") for name in MEANINGS), (), 1e-9, None),
-        status=lb.Status.CONVERGED,
+        status=lb.results.Status.CONVERGED,
         how="tracked path",
         history=(),
         dilatancy=0.0,
@@ -220,10 +220,12 @@ def test_two_thousand_blocks_stay_under_three_megabytes(bounds):
     )
     end = nonassociated(full)
     steps = [
-        lb.PathStep(0.1 * k, end.stress_resultants, k * end.displacement_rates, (), {"yield": 0.0}, "step")
+        lb.results.PathStep(
+            0.1 * k, end.stress_resultants, k * end.displacement_rates, (), {"yield": 0.0}, "step"
+        )
         for k in range(20)
     ]
-    report = lb.report(model, full, end, lb.LoadPath(tuple(steps), end))
+    report = lb.report(model, full, end, lb.results.LoadPath(tuple(steps), end))
     assert len(report.picture.blocks) == 2001
     assert len(report.html.encode()) < 3e6
 

@@ -51,9 +51,9 @@ def test_vertical_joints_are_vertical(embrace, n):
         x, z = i.centroid[0], i.centroid[2]
         low, high = np.sqrt(1.75**2 - x**2), np.sqrt(2.25**2 - x**2)
         assert z == pytest.approx((low + high) / 2)
-        assert lb.geometry.polygon.areas(i.polygon) == pytest.approx(high - low)
+        assert lb.joints.areas(i.polygon) == pytest.approx(high - low)
     springings = [i for i in model.interfaces if "support" in i.name]
-    assert [lb.geometry.polygon.areas(i.polygon) for i in springings] == pytest.approx([0.5, 0.5])
+    assert [lb.joints.areas(i.polygon) for i in springings] == pytest.approx([0.5, 0.5])
 
 
 @pytest.mark.parametrize("n", [5, 9, 40])
@@ -100,7 +100,7 @@ def test_pointed_arch(rise):
     (apex,) = [i for i in model.interfaces if abs(i.axes[2, 0]) > 1 - 1e-9]
     low, high = (np.sqrt((1.0 + shift + side * t / 2) ** 2 - shift**2) for side in (-1, 1))
     assert apex.centroid == pytest.approx([0.0, 0.0, (low + high) / 2])
-    assert lb.geometry.polygon.areas(apex.polygon) == pytest.approx(high - low)
+    assert lb.joints.areas(apex.polygon) == pytest.approx(high - low)
 
 
 @pytest.mark.parametrize("rise", [1.2, 2.8])
@@ -112,7 +112,7 @@ def test_elliptical_arch(rise):
     assert volume(model) == pytest.approx(length * t, rel=1e-4)  # between parallels of the centreline
     middles = np.array([i.centroid for i in model.interfaces])
     assert (middles[:, 0] / a) ** 2 + (middles[:, 2] / rise) ** 2 == pytest.approx(np.ones(n + 1))
-    areas = [lb.geometry.polygon.areas(i.polygon) for i in model.interfaces]
+    areas = [lb.joints.areas(i.polygon) for i in model.interfaces]
     assert areas == pytest.approx(np.full(n + 1, t))
     middles = middles[np.argsort(middles[:, 0])]
     steps = np.linalg.norm(np.diff(middles, axis=0), axis=1)

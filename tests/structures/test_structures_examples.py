@@ -61,7 +61,7 @@ def test_symmetrical_example_is_as_strong_to_the_left(models, name):
     model = models[name]
     live = model.live.on(model.free_blocks)
     assert live[:, 0].sum() > 0.0
-    left = lb.Load(
+    left = lb.loads.Load(
         tuple(
             (factor, replace(term, direction=tuple(-np.array(term.direction))))
             if hasattr(term, "direction")

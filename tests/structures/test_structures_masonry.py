@@ -174,7 +174,9 @@ def test_a_single_corbel_by_hand():
         "pile", (going, thick, courses * rise), (0, -thick / 2, rise + courses * rise / 2), 20e3
     )
     ground = lb.Block.box("ground", (going, thick, rise), (0, -thick / 2, -rise / 2))
-    load = lb.force("tread", (0, 0, -tread.weight * length / (length + thick)), at=(0, length / 2, rise / 2))
+    load = lb.loads.force(
+        "tread", (0, 0, -tread.weight * length / (length + thick)), at=(0, length / 2, rise / 2)
+    )
     blocks = [ground, tread, pile]
     model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, JOINT), lb.self_weight(), load)
     free, inside = length**2 / 2, (1 + courses) * thick**2 / 2

@@ -100,9 +100,7 @@ def test_facade_is_interlocked_with_its_returns():
         ]  # fmt: skip
         # between every two courses the quoin of one wall bears on half a stone of the other
         assert len(bearing) == 11 - 1
-        assert [lb.geometry.polygon.areas(i.polygon) for i in bearing] == pytest.approx(
-            [0.4 * stone / 2] * 10
-        )
+        assert [lb.joints.areas(i.polygon) for i in bearing] == pytest.approx([0.4 * stone / 2] * 10)
         quoins = [b for b in model.free_blocks if b.name.startswith(side) and b.vertices[:, 1].min() < 0.01]
         assert len(quoins) == 11 // 2
 

@@ -56,9 +56,7 @@ def test_arch_on_piers():
     assert volume(model) == pytest.approx(depth * (ring + 2 * courses * width * height))
     springings = [i for i in model.interfaces if {i.block_i[0], i.block_j[0]} & {"v"} and "pier" in i.name]
     assert [i.centroid[2] for i in springings] == pytest.approx([courses * height] * 2)
-    assert [lb.geometry.polygon.areas(i.polygon) for i in springings] == pytest.approx(
-        [thickness * depth] * 2
-    )
+    assert [lb.joints.areas(i.polygon) for i in springings] == pytest.approx([thickness * depth] * 2)
     assert lb.bounds(model).lower > 0.0
 
 
@@ -80,9 +78,7 @@ def test_corner_is_interlocked(n_front, n_side, courses):
         if abs(i.axes[2, 2]) > 0.9 and {i.block_i.split()[0], i.block_j.split()[0]} == {"front", "side"}
     ]  # fmt: skip
     assert len(crossing) == courses - 1
-    assert [lb.geometry.polygon.areas(i.polygon) for i in crossing] == pytest.approx(
-        [half**2] * len(crossing)
-    )
+    assert [lb.joints.areas(i.polygon) for i in crossing] == pytest.approx([half**2] * len(crossing))
     assert lb.bounds(model).lower > 0.0
 
 
@@ -109,7 +105,7 @@ def test_barrel_vault_is_a_running_bond_of_exact_contacts(courses, stones):
             assert len(interface.polygon) == 4
             assert normal @ interface.centroid == pytest.approx(0.0, abs=1e-9)
             assert np.hypot(interface.centroid[0], interface.centroid[2]) == pytest.approx(radius)
-            area += lb.geometry.polygon.areas(interface.polygon)
+            area += lb.joints.areas(interface.polygon)
     assert area == pytest.approx((courses + 1) * thickness * length)
     assert lb.bounds(model).lower > 0.0
 

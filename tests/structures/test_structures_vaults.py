@@ -7,11 +7,12 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.geometry.polygon import centroids
 from limitblocks.structures.convex import cut, hull
 from limitblocks.structures.rings import circular
 
 JOINT = lb.PointContact(0.7)
-area_of = lb.geometry.polygon.areas
+area_of = lb.joints.areas
 
 
 def volume(model):
@@ -36,7 +37,7 @@ def section(radius, thickness, courses, embrace):
     polygons = np.array([np.clip(outline, (0.0, -np.inf), np.inf) for outline in ring.voussoirs()])
     keep = [p for p in polygons if np.ptp(p[:, 0]) > 0.0]
     area = sum(float(area_of(p)) for p in keep)
-    return area, sum(float(area_of(p)) * lb.geometry.polygon.centroids(p[None])[0, 0] for p in keep), ring
+    return area, sum(float(area_of(p)) * centroids(p[None])[0, 0] for p in keep), ring
 
 
 SHAPES = [(2.0, 0.4, 7, np.pi), (2.0, 0.4, 6, np.pi), (3.0, 0.3, 9, 2.2)]

@@ -51,7 +51,7 @@ def test_rocking_against_direction(analysis):
 
 
 def test_directions_up_and_down():
-    series = studies.directions(block(), lb.compass(1, vertical=True))
+    series = studies.directions(block(), lb.loads.compass(1, vertical=True))
     assert series.load_factors[1] == pytest.approx(1.0)  # lifted by its own weight
     assert series.load_factors[2] == np.inf
     assert series.errors[2].startswith("UnlimitedLoad: ")
@@ -60,12 +60,12 @@ def test_directions_up_and_down():
 
 
 def test_live_load_that_cannot_be_turned():
-    model = block(live=lb.force("block", (1e3, 0, 0), (0, 0, 1)))
+    model = block(live=lb.loads.force("block", (1e3, 0, 0), (0, 0, 1)))
     with pytest.raises(lb.ModelError, match="PointForce"):
         studies.directions(model, 4)
 
     def push(direction):
-        return lb.force("block", 1e3 * np.array(direction), (0, 0, H))
+        return lb.loads.force("block", 1e3 * np.array(direction), (0, 0, H))
 
     series = studies.directions(model, 4, live=push)
     sides = WEIGHT / (2e3 * H) * np.array([B1, B2, B1, B2])
@@ -101,14 +101,14 @@ def test_load_moving_over_an_arch_is_symmetric_and_worst_off_the_crown():
         arch.supports,
         arch.interfaces,
         arch.dead,
-        lb.top_force((0, 0, -1e3), series.worst_position),
+        lb.loads.top_force((0, 0, -1e3), series.worst_position),
     )
     assert lb.bounds(least).lower == series.load_factors[series.least]
 
 
 def test_axles_by_a_function_of_the_place():
     def axles(place):
-        return lb.top_force((0, 0, -1e3), place) + lb.top_force((0, 0, -1e3), (place[0] - 0.4, 0))
+        return lb.loads.top_force((0, 0, -1e3), place) + lb.loads.top_force((0, 0, -1e3), (place[0] - 0.4, 0))
 
     series = studies.moving_load(slab(), axles, [(2.4, 0.0)])
     assert series.load_factors == pytest.approx([20e3 / (1e3 * (1.4 + 1.0))])
@@ -130,7 +130,7 @@ def test_sweep_over_friction(joint_type):
 
 def test_one_failure_does_not_lose_the_others():
     """A width that is no width, one that stands, one whose dead load pushes it over."""
-    push = lb.self_weight() + lb.force("block", (0.3 * WEIGHT, 0, 0), (0, 0, H / 2))
+    push = lb.self_weight() + lb.loads.force("block", (0.3 * WEIGHT, 0, 0), (0, 0, H / 2))
     done = []
     series = studies.sweep(
         lambda width: block(width=width, dead=push),
@@ -181,7 +181,7 @@ def test_a_process_that_dies_is_our_error():
 
 
 def test_rows_as_text_numbers_and_csv(tmp_path):
-    series = studies.directions(block(), lb.compass(2, vertical=True))
+    series = studies.directions(block(), lb.loads.compass(2, vertical=True))
     table = series.table().splitlines()
     assert table[0].split()[:5] == ["angle", "x", "y", "z", "load_factor"]
     assert len(table) == 5
@@ -195,7 +195,7 @@ def test_rows_as_text_numbers_and_csv(tmp_path):
     series.write_csv(file, overwrite=True)
     with pytest.raises(lb.LimitBlocksError, match="cannot write"):
         series.write_csv(tmp_path / "no" / "rows.csv")
-    written = json.loads(lb.write_result(series, tmp_path / "rows.json").read_text())
+    written = json.loads(lb.files.write_result(series, tmp_path / "rows.json").read_text())
     assert (written["study"], written["of"], len(written["rows"])) == ("Directions", "bounds", 4)
     assert written["rows"][0]["load_factor"] == series.load_factors[0]
     assert written["rows"][3]["load_factor"] is None  # JSON has no infinity

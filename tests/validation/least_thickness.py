@@ -25,7 +25,7 @@ def least_thickness(build, start, *, change=lambda model: model, small=1e-5):
         while True:
             try:
                 new = load_factor(before - step)
-            except lb.NoEquilibrium:
+            except lb.errors.NoEquilibrium:
                 step /= 2
             else:
                 break
@@ -37,7 +37,7 @@ def stands(model):
     """Whether the dead loads stand, each answer proven by a stress state or a mechanism."""
     try:
         lb.bounds(model)
-    except lb.NoEquilibrium:
+    except lb.errors.NoEquilibrium:
         return False
     return True
 

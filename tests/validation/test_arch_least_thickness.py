@@ -34,10 +34,10 @@ def lumped(model):
 
     def load(direction):
         terms = (
-            lb.force(block.name, weight * np.array(direction), at=point)
+            lb.loads.force(block.name, weight * np.array(direction), at=point)
             for block, point in zip(model.free_blocks, points, strict=True)
         )
-        return sum(terms, lb.Load())
+        return sum(terms, lb.loads.Load())
 
     return replace(model, dead=load((0, 0, -1)), live=load((1, 0, 0)))
 

@@ -3,10 +3,11 @@
 import pytest
 
 import limitblocks as lb
+from limitblocks.structures.cases import FERRIS_TIN_LOI
 from limitblocks.structures.ferris_tin_loi import BLOCK_HEIGHT, COURSES
 
 JOINTS = [lb.OrdunaLourenco(0.65), lb.PointContact(0.65)]
-ASSOCIATED = {1: 0.64286, 2: 0.58000, 3: 0.40369, 4: 0.33195}  # the source's table of results
+ASSOCIATED = {number: one.value for number, one in FERRIS_TIN_LOI.items()}
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=lambda joint: type(joint).__name__)

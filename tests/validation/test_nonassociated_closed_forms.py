@@ -63,7 +63,7 @@ def test_force_at_a_height(joint_type, z):
     friction, b = 0.4, 0.5
     model = structures.block(joint_type(friction), width=b, height=1.0)
     weight = model.free_blocks[0].weight
-    pushed = replace(model, live=lb.force("block 1", (1, 0, 0), at=(0, 0, z)))
+    pushed = replace(model, live=lb.loads.force("block 1", (1, 0, 0), at=(0, 0, z)))
     assert_load_factor(pushed, min(friction, b / (2 * z)) * weight)
 
 
@@ -128,7 +128,9 @@ def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):
     """It would have to lift as it slides: no solution exists, and none is claimed."""
     model = jammed(joint_type(0.3))
     with pytest.raises(lb.NotConverged, match="no solution within") as caught:
-        lb.nonassociated(model, dilatancy=0.15, means=[lb.Means(lb.Barrier(), seed=0, budget=40)])
+        lb.nonassociated(
+            model, dilatancy=0.15, means=[lb.settings.Means(lb.settings.Barrier(), seed=0, budget=40)]
+        )
     assert caught.value.result.residuals["flow"] > 1e-3
     assert caught.value.result.associated == np.inf
 
@@ -155,5 +157,5 @@ def test_the_solutions_of_the_jammed_block_are_many(ceiling_force):
         assert at[2] == pytest.approx(-0.5 if below else 0.5)
     rates = np.zeros((3, 6))
     rates[[b.name for b in model.blocks].index("block"), 0] = 1.0 / weight
-    claim = lb.Claim(load_factor, np.array(Q), displacement_rates=rates)
+    claim = lb.results.Claim(load_factor, np.array(Q), displacement_rates=rates)
     assert lb.check_mcp(model, claim).worst.value <= 1e-9

@@ -49,7 +49,7 @@ def test_wedge_in_a_groove_without_dilatancy(kind, friction, degrees):
 def test_wedge_in_a_groove_associated(kind, friction, degrees):
     half_angle = np.radians(degrees)
     if np.tan(half_angle) <= friction:
-        with pytest.raises(lb.UnlimitedLoad):
+        with pytest.raises(lb.errors.UnlimitedLoad):
             lb.bounds(groove(kind(friction), half_angle, 10.0))
         return
     expected = friction / np.sqrt(np.sin(half_angle) ** 2 - (friction * np.cos(half_angle)) ** 2)
@@ -110,7 +110,7 @@ def claim(model, load_factor, share, along=1.0):
         Q.append(sign * np.concatenate([interface.axes @ force, interface.axes @ moment]))
     rates = np.zeros((len(model.blocks), 6))
     rates[[block.name for block in model.blocks].index("wedge"), 0] = 1.0 / wedge.weight
-    return lb.Claim(load_factor, np.array(Q), displacement_rates=rates)
+    return lb.results.Claim(load_factor, np.array(Q), displacement_rates=rates)
 
 
 # --------------------------------- two planes and a plunging line: Hoek & Bray (1981), Rock Slope Engineering

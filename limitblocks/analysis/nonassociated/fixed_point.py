@@ -44,7 +44,7 @@ def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
     minimum hold, recomputed. Otherwise, and for cones, Clarabel.
     """
     x = None if problem.cones.second_order else by_planes(problem, weights)
-    return _by_cones(problem, weights) if x is None else x
+    return by_cones(problem, weights) if x is None else x
 
 
 def by_planes(problem: LimitProblem, weights: Array, settings: dict[str, Any] = OSQP) -> Array | None:
@@ -79,7 +79,8 @@ def _least(problem: LimitProblem, weights: Array, x: Array, u: Array, y: Array) 
     return worst if np.isfinite(worst) else np.inf
 
 
-def _by_cones(problem: LimitProblem, weights: Array) -> Array | None:
+def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
+    """Stresses of least norm x^T W x by Clarabel; None if it finds none."""
     x = cp.Variable(problem.C.shape[0])
     norm = cp.sum_squares(cp.multiply(np.sqrt(weights), x))
     constraints = [problem.C.T @ x == problem.dead, *in_cone(problem.F @ x + problem.g, problem.cones)]

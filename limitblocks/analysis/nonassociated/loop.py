@@ -26,9 +26,10 @@ from limitblocks.analysis.nonassociated.start import (
 from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
+from limitblocks.choices import Method, method_of
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import checked_limit, settled, within
-from limitblocks.evidence.ending import Method, Status, method_of
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
@@ -46,7 +47,7 @@ def nonassociated(
     backward_error: float | None = None,
     start: Start | None = None,
     method: Method | str = Method.PATH,
-    means: Sequence[Means] = MEANS,
+    means: Sequence[Means] | None = None,
     progress: Callable[[Iteration], None] | None = None,
     confirm: bool = True,
     throw: bool = True,
@@ -82,7 +83,7 @@ def nonassociated(
         The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
         loop ends at another solution, and it may stall.
-    means : sequence of Means
+    means : sequence of Means, optional
         Paths to follow in turn, until one ends at a solution; after the first of several the increments of
         :func:`limitblocks.load_path` are tried.
     progress : callable, optional
@@ -135,7 +136,7 @@ def nonassociated(
             state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
         else:
             scale = load_scale(problem, enclosing.associated)
-            state, how = first_to_solve(flow, x0, scale, means, tolerance, record)
+            state, how = first_to_solve(flow, x0, scale, means or MEANS, tolerance, record)
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit

@@ -3,7 +3,7 @@
 # trimesh reads triangles alone: it would lose quads, and objects that groups or materials divide.
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from limitblocks.errors import ModelError
@@ -11,7 +11,7 @@ from limitblocks.geometry import Block
 from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
 
-_Section = tuple[str, str]  # name and layer of what is drawn
+_Section = tuple[str, str, str]  # name, layer and material of what is drawn
 _Face = tuple[int, ...]
 
 
@@ -41,11 +41,12 @@ def contents(path: Path) -> Contents:
             ) from None
     refuse_many(faces=sum(map(len, drawn.values())))
     bodies: list[Solid] = []
-    for (name, layer), faces in drawn.items():
+    for (name, layer, material), faces in drawn.items():
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
-        bodies += solids(name, layer, [vertices[vertex] for vertex in used], loops)
+        found = solids(name, layer, [vertices[vertex] for vertex in used], loops)
+        bodies += [solid._replace(material=material) for solid in found]
     return Contents(bodies)
 
 
@@ -65,8 +66,9 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
 
 def _section(state: dict[str, str], path: Path) -> _Section:
     if state["o"]:
-        return state["o"], state["g"] or state["usemtl"]
-    return state["g"] or path.stem, state["usemtl"]
+        layer, material = state["g"] or state["usemtl"], state["usemtl"]
+        return state["o"], layer, "" if material == layer else material
+    return state["g"] or path.stem, state["usemtl"], ""
 
 
 def _face(corners: list[str], known: int) -> _Face:
@@ -78,14 +80,16 @@ def _face(corners: list[str], known: int) -> _Face:
     return tuple(index - 1 if index > 0 else known + index for index in indices)
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
-    """Return the OBJ file of blocks: faces, names and every digit; layers as materials."""
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
+    """Return the OBJ file of blocks: faces, names, every digit; layers as materials or groups."""
     lines = ["# limitblocks; m, Z up"]
-    first = 1
+    first, made = 1, any(block.material for block in blocks)
     for block in blocks:
         lines.append(f"o {one_line(block.name)}")
         lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in block.vertices.tolist()]
-        lines += [f"usemtl {one_line(layers[block.name])}"] if layers.get(block.name) else []
+        layer, material = (one_line(word) for word in (layers.get(block.name, ""), block.material))
+        lines += [f"g {layer}"] if layer and made else []
+        lines += [f"usemtl {material or layer}"] if material or layer else []
         lines += ["f " + " ".join(str(first + vertex) for vertex in face) for face in block.faces]
         first += len(block.vertices)
     return ("\n".join(lines) + "\n").encode()

@@ -3,7 +3,7 @@
 # trimesh reads no binary polygons of mixed sizes and writes single precision; meshio reads no face data.
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from io import BytesIO
 from itertools import islice
 from pathlib import Path
@@ -136,7 +136,7 @@ def _values(element: _Element, take: _Take) -> dict[str, Any]:
     return values
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:  # it has none
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:  # none
     """Return the binary PLY file of blocks: faces and every digit, no names."""
     points = np.concatenate([block.vertices for block in blocks])
     starts = np.cumsum([0, *(len(block.vertices) for block in blocks)])

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -75,7 +75,7 @@ def _corners(body: str, name: str) -> Array:
         raise ModelError(f"solid {name!r}: {error}") from None
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:  # it has none
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:  # none
     """Return the STL file of blocks in text: triangles, names and every digit."""
     lines: list[str] = []
     for block in blocks:

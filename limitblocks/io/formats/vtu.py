@@ -15,6 +15,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.geometry import Block
 from limitblocks.io.motion import displaced, motion
 from limitblocks.io.packages import package
 from limitblocks.model import Model
@@ -109,13 +110,21 @@ def _blocks(model: Model, state: Array | None, field: dict[str, float]) -> bytes
     polygons = [np.add(face, starts[k]) for k, block in enumerate(blocks) for face in block.faces]
     owner = np.repeat(np.arange(len(blocks)), [len(block.faces) for block in blocks])
     held = set(model.supports)
-    supports = np.array([block.name in held for block in blocks], dtype=np.int64)
+    of: dict[str, Any] = {
+        "support": np.array([block.name in held for block in blocks], dtype=np.int64)
+    } | _labels(blocks)
     moves = (
         {}
         if state is None
         else {"displacement": np.concatenate([displaced(*each) for each in zip(blocks, state, strict=True)])}
     )
-    return _vtu(points, polygons, moves, {"block": owner, "support": supports[owner]}, field)
+    return _vtu(points, polygons, moves, {"block": owner} | {word: of[word][owner] for word in of}, field)
+
+
+def _labels(blocks: Sequence[Block]) -> dict[str, Any]:
+    """Return the places of the blocks' layers and materials in the alphabet, where there are any."""
+    words = {word: [getattr(block, word) for block in blocks] for word in ("layer", "material")}
+    return {word: np.unique(names, return_inverse=True)[1] for word, names in words.items() if any(names)}
 
 
 def _interfaces(model: Model, path: Path, resultants: Array | None) -> tuple[Path, bytes]:

@@ -26,6 +26,8 @@ function place(point) {
 function blockCard(scene, k, result, step) {
   const block = scene.blocks[k];
   const rows = [["Kind", block.support ? "support" : "free block"]];
+  if (block.layer) rows.push(["Layer", block.layer]);
+  if (block.material) rows.push(["Material", block.material]);
   if (block.weight !== null) rows.push(["Weight", inUnits(block.weight, "N")]);
   rows.push(["Volume", `${digits(block.volume)} m³`]);
   rows.push(["Centroid", place(block.centroid)]);

@@ -16,6 +16,8 @@ function readScene() {
       support: support.has(k),
       weight: blocks.weight[k],
       volume: blocks.volume[k],
+      layer: blocks.layer[k],
+      material: blocks.material[k],
       centroid: blocks.centroid.slice(3 * k, 3 * k + 3),
       shape: data.shapes[blocks.shape[k]],
     })),

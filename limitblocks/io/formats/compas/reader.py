@@ -30,6 +30,7 @@ from limitblocks.io.formats.compas.geometry import frame, polygons, transformati
 from limitblocks.io.imported import SUPPORT_LAYERS, Contents, Solid, foreign
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
+_HOLDERS = {"graph", "model"}  # keys of what holds blocks: assemblies, problems of compas_dem
 _SUPPORT = ("is_support", "is_fixed", "fixed", "is_boundary")
 
 
@@ -67,6 +68,8 @@ def thing(value: Any) -> Thing:
     if not isinstance(dtype, str):
         return Thing("", value, "", "")
     data = value.get("data", value.get("value"))
+    if isinstance(data, dict) and "datatype" in data and isinstance(data.get("data"), dict):
+        data = data["data"]  # wrapped twice, as COMPAS 0.18 did
     inner = data if isinstance(data, dict) else {}
     kind = dtype.rpartition("/")[2]
     attributes = inner.get("attributes")
@@ -87,7 +90,7 @@ def _walk(value: Any, place: Array, key: str, support: bool, left_out: Counter[s
         yield _solid(solid, place, name or _numbered(key), support)
     elif isinstance(data, dict) and (within := _known(data, place, left_out)) is not None:
         yield from within
-    elif isinstance(data, dict) and kind and "graph" not in data:
+    elif isinstance(data, dict) and kind and not _HOLDERS & data.keys():
         left_out[kind] += 1
     else:
         for word, part in _parts(data, key, bool(kind)):
@@ -103,22 +106,23 @@ def _known(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
     return _network(data, place) if "assembly" in data and "blocks" in data else None
 
 
-def _parts(data: Any, key: str, graph_only: bool) -> Iterator[tuple[str, Any]]:
+def _parts(data: Any, key: str, holders_only: bool) -> Iterator[tuple[str, Any]]:
     """Yield what a list, a dictionary or an assembly holds, each with the key it stands under."""
     if isinstance(data, list):
         yield from ((f"{key} {k}".strip(), part) for k, part in enumerate(data))
     elif isinstance(data, dict):
-        yield from ((k, part) for k, part in data.items() if k == "graph" or not graph_only)
+        yield from ((k, part) for k, part in data.items() if k in _HOLDERS or not holders_only)
 
 
 def _numbered(key: str) -> str:
     return f"block {key}" if key.isdigit() else key
 
 
-def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "") -> Solid:
+def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "", material: str = "") -> Solid:
     vertices, faces = shape
     vertices = vertices @ place[:3, :3].T + place[:3, 3]
-    return Solid(name, layer or ("support" if support else "block"), vertices, faces, support)
+    layer = layer or material or ("support" if support else "block")
+    return Solid(name, layer, vertices, faces, support, material)
 
 
 def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Iterator[Solid]:
@@ -135,7 +139,8 @@ def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> It
         shape = next((s for word in _GEOMETRY if (s := _shape(held.get(word)))), None)
         if shape is not None:
             name = shape[1] or part.name or _numbered(str(key))
-            yield _solid(shape[0], where, name, support)
+            layer, material = (str(node.get(word) or "") for word in ("layer", "material"))
+            yield _solid(shape[0], where, name, support, layer, material)
         elif part.kind:
             left_out[f"{part.kind} without geometry"] += 1
 
@@ -181,7 +186,7 @@ def _model(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
         material = thing(materials.get(item.data.get("material"))).name
         if item.data.get("features"):
             left_out[f"features of block {name!r}"] += len(item.data["features"])
-        yield _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material)
+        yield _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material=material)
 
 
 def _parents(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from typing import Any
 from uuid import NAMESPACE_URL, uuid5
 
 from limitblocks.geometry import Block
-from limitblocks.io.imported import SUPPORT_LAYERS
 
 _FRAME = {"point": [0.0, 0.0, 0.0], "xaxis": [1.0, 0.0, 0.0], "yaxis": [0.0, 1.0, 0.0]}
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return a compas.datastructures.Assembly whose graph has "block", a mesh, and "is_support" at each node.
 
     The graph is that of an assembly of compas_assembly, with a part beside each block.
     """
     nodes = {
-        str(k): _node(k, block, layers.get(block.name, "").lower() in SUPPORT_LAYERS)
+        str(k): _node(k, block, layers.get(block.name, ""), block.name in supports)
         for k, block in enumerate(blocks)
     }
     graph = {
@@ -36,13 +35,15 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
     return json.dumps(document, allow_nan=False).encode()
 
 
-def _node(k: int, block: Block, support: bool) -> dict[str, Any]:
+def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
     part = {"attributes": {"name": block.name}, "key": k, "frame": _FRAME, "features": []}
     x, y, z = block.centroid.tolist()
     return {
         "part": _object("datastructures/Part", part, block.name, f"part {k}"),
         "block": _object("datastructures/Mesh", _mesh(block), block.name, f"block {k}"),
         "is_support": support,
+        "layer": layer,
+        "material": block.material,
         "x": x,
         "y": y,
         "z": z,

@@ -15,7 +15,7 @@ from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.reader import Part
-from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, imported, metres
+from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, frame, imported
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
 CLOSING = 1e-2
@@ -39,6 +39,7 @@ def read_drawing(
     layers: str | Sequence[str] | None = None,
     units: str | None = None,
     unit_weight: UnitWeight = None,
+    skip_bad: bool = False,
 ) -> ImportedBlocks:
     """Return the blocks in a DXF drawing of an elevation: prisms over its closed outlines.
 
@@ -60,6 +61,8 @@ def read_drawing(
         metres where it says nothing.
     unit_weight : float or mapping of str to float, optional
         N/m3, of all blocks or by layer.
+    skip_bad : bool
+        Leave out outlines that are no blocks, with a note each, instead of refusing the file.
 
     Raises
     ------
@@ -74,13 +77,16 @@ def read_drawing(
             raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
         drawing = dxf.opened(path)
         stated = dxf.metres_per_unit(drawing)
-        depth = thickness / metres(units, stated)
         with foreign("DXF"):
-            solids, notes = _solids(drawing, depth, [layers] if isinstance(layers, str) else layers)
-        return imported(Contents(solids, stated, [*dxf.unit_notes(drawing), *notes]), units, unit_weight)
+            found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
+        notes = [*dxf.unit_notes(drawing), *found.notes]
+        contents = found._replace(metres=stated, notes=notes, up="z")
+        depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])
+        solids = [solid._replace(vertices=solid.vertices * depth) for solid in found.solids]
+        return imported(contents._replace(solids=solids), units, unit_weight, "z", skip_bad=skip_bad)
 
 
-def _solids(drawing: Any, depth: float, layers: Sequence[str] | None) -> tuple[list[Solid], list[str]]:
+def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
     left_out: Counter[str] = Counter()
     everything = list(dxf.parts(drawing, left_out))
     labels = [part for part in everything if part.kind in ("TEXT", "MTEXT", "ATTRIB")]
@@ -91,25 +97,30 @@ def _solids(drawing: Any, depth: float, layers: Sequence[str] | None) -> tuple[l
             *(f"layer {layer!r} is empty or missing{faults.near(layer, known)}" for layer in unknown)
         )
     notes: list[str] = []
+    wrong: dict[str, tuple[str, ...]] = {}
     outlines = []
     for part in everything:
         if part.kind in ("TEXT", "MTEXT", "ATTRIB"):
             continue
-        outline = _outline(part, notes) if layers is None or part.layer in layers else None
+        try:
+            outline = _outline(part, notes) if layers is None or part.layer in layers else None
+        except ModelError as error:
+            wrong[f"{part.kind} {part.handle}"] = error.problems
+            continue
         if outline is None:
             left_out[part.kind] += 1
         else:
             outlines.append(outline)
-    if not outlines:
+    if not outlines and not wrong:
         raise ModelError(
             f"holds no closed outline{f' but {dxf.listed(left_out)}' if left_out else ''}", *notes
         )
     names = _labelled(outlines, labels)
     solids = [
-        Solid(name, outline.part.layer, *_prism(outline.corners, depth))
+        Solid(name, outline.part.layer, *_prism(outline.corners, 1.0))
         for name, outline in zip(names, outlines, strict=True)
     ]
-    return solids, [*notes, *dxf.notes_on(left_out)]
+    return Contents(solids, notes=[*notes, *dxf.notes_on(left_out)], wrong=wrong)
 
 
 def _prism(corners: Array, depth: float) -> tuple[Array, list[tuple[int, ...]]]:
@@ -121,7 +132,13 @@ def _prism(corners: Array, depth: float) -> tuple[Array, list[tuple[int, ...]]]:
 
 
 def _outline(part: Part, notes: list[str]) -> Outline | None:
-    """Return the outline that an entity is; None where it is none."""
+    """Return the outline that an entity is; None where it is no polyline with an area.
+
+    Raises
+    ------
+    ModelError
+        It is one, but no simple closed loop in the plane of the drawing.
+    """
     line = _polyline(part)
     if line is None or len(line[0]) < 3:
         return None
@@ -130,12 +147,25 @@ def _outline(part: Part, notes: list[str]) -> Outline | None:
     if not (np.abs(points) <= 1e30).all():
         raise ModelError(f"{word}: corners are not finite numbers up to 1e30")
     size = float(np.ptp(points, axis=0).max())
+    slim, again = _once(points, CLOSING * size if not closed else 0.0)
+    notes += [f"{word}: retraces itself over {again} of {len(points)} corners; counted once"] * (again > 0)
+    if len(slim) < 3:
+        notes.append(f"left out: {word}: it has no area")
+        return None
+    points = slim
     gap = float(np.linalg.norm(points[-1] - points[0]))
     if gap <= CLOSING * size and not closed:
         notes += [f"{word}: closed over a gap of {gap:.2g} drawing units"] if gap > 0.0 else []
         closed, points = True, points[:-1]
     elif gap == 0.0:
         points = points[:-1]
+    return _sound(part, word, points, closed, gap, size, notes)
+
+
+def _sound(
+    part: Part, word: str, points: Array, closed: bool, gap: float, size: float, notes: list[str]
+) -> Outline | None:
+    """Return the outline of corners that are counted once; None and a note where it is left out."""
     corners = points[:, :2]
     ring = shapely.Polygon(corners) if len(corners) >= 3 else None
     for wrong, why in (
@@ -150,6 +180,28 @@ def _outline(part: Part, notes: list[str]) -> Outline | None:
         near = f"{corners[0, 0]:.6g}, {corners[0, 1]:.6g}"
         raise ModelError(f"{word} near ({near}) crosses or touches itself; an outline is one simple loop")
     return Outline(corners, part)
+
+
+def _once(points: Array, closing: float) -> tuple[Array, int]:
+    """Return the corners (n, 3) of a polyline without what it draws twice, and how many these are.
+
+    Spikes go, which it runs out and back, and what follows where it is back at its start, within `closing`,
+    if that runs along its first sides again.
+    """
+    rows, n = points.tolist(), len(points)
+    kept: list[list[float]] = []
+    for row in rows:
+        kept.append(row)
+        while len(kept) > 2 and kept[-1] == kept[-3]:
+            del kept[-2:]
+        if len(kept) > 1 and kept[-1] == kept[-2]:
+            kept.pop()
+    left = np.array(kept)
+    for j in range(3, len(left) - 1) if closing else ():
+        tail = left[j:]
+        if len(tail) <= j and len(tail) and np.abs(tail - left[: len(tail)]).max() <= closing:
+            return left[: j + 1], n - j - 1
+    return left, n - len(left)
 
 
 def _polyline(part: Part) -> tuple[Array, bool] | None:

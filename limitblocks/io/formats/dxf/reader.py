@@ -17,7 +17,7 @@ from limitblocks.io.packages import package
 #: Application under whose name the name of a block is kept beside an entity.
 APPLICATION = "LIMITBLOCKS"
 _DEEPEST = 32  # block references within block references
-_NO_UNIT = "states no unit of length ($INSUNITS is 0); metres unless units=... is given"
+_NO_UNIT = "states no unit of length ($INSUNITS is 0)"
 
 
 class Part(NamedTuple):
@@ -43,6 +43,11 @@ class Part(NamedTuple):
         """What the drawing calls the entity."""
         return str(self.entity.dxf.handle)
 
+    @property
+    def material(self) -> str:
+        """What this library wrote that it is made of."""
+        return _written(self.entity, 1)
+
     def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
         """Return faces in the sense they have in the drawing, which a mirror image turns."""
         mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
@@ -63,27 +68,36 @@ def contents(path: Path) -> Contents:
     left_out: Counter[str] = Counter()
     faces: list[Part] = []
     solids: list[Solid] = []
+    wrong: dict[str, tuple[str, ...]] = {}
     with foreign("DXF"):
         for part in parts(drawing, left_out):
             if part.kind == "3DFACE":
                 faces.append(part)
                 continue
-            shape = bodies.polygons(part)
+            try:
+                shape = bodies.polygons(part)
+            except ModelError as error:
+                wrong[part.name] = error.problems
+                continue
             if shape is None:
                 left_out[part.kind] += 1
                 continue
             for points, loops in shape:
-                solids += shells.solids(part.name, part.layer, points, part.turned(loops))
+                made = shells.solids(part.name, part.layer, points, part.turned(loops))
+                solids += [solid._replace(material=part.material) for solid in made]
         solids += bodies.from_3d_faces(faces)
-    if not solids:
+    if not solids and not wrong:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    return Contents(solids, metres_per_unit(drawing), [*unit_notes(drawing), *notes_on(left_out)])
+    notes = [*unit_notes(drawing), *notes_on(left_out)]
+    return Contents(solids, metres_per_unit(drawing), notes, "z", wrong)
 
 
 def _instead(left_out: Counter[str]) -> str:
     drawn = left_out["LWPOLYLINE"] + left_out["POLYLINE"]
     if drawn:
-        return f" but {drawn} polylines; limitblocks.read_drawing makes blocks of outlines and a thickness"
+        return (
+            f" but {drawn} polylines; limitblocks.files.read_drawing makes blocks of outlines and a thickness"
+        )
     return f" but {listed(left_out)}" if left_out else ""
 
 
@@ -166,7 +180,7 @@ class _Expansion:
                 yield from self.inserted(entity, matrix, own, depth)
             else:
                 # the name that was written, else a name by which the entity is found in the drawing
-                given = _given_name(entity) or name or f"{own} {entity.dxf.handle}"
+                given = _written(entity, 0) or name or f"{own} {entity.dxf.handle}"
                 yield Part(entity, matrix, own, given, reference)
 
     def inserted(self, insert: Any, matrix: Array, layer: str, depth: int) -> Iterator[Part]:
@@ -189,7 +203,9 @@ class _Expansion:
                 yield Part(label, matrix, layer, "", self.references)
 
 
-def _given_name(entity: Any) -> str:
+def _written(entity: Any, place: int) -> str:
+    """Return the name (place 0) or the material (1) that this library wrote beside an entity."""
     if not entity.has_xdata(APPLICATION):
         return ""
-    return next((str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000), "")
+    words = [str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000]
+    return words[place] if place < len(words) else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 
 from limitblocks.geometry import Block
 from limitblocks.io.formats.dxf.reader import APPLICATION
@@ -15,7 +15,7 @@ _LONGEST = 255  # of names
 _COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of the colour index
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return the drawing; the name of each block is kept beside its mesh, for the reader of this library."""
     drawing = package("ezdxf", "DXF").new("R2010", units=_METRES)
     drawing.appids.add(APPLICATION)
@@ -28,7 +28,10 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
         mesh = space.add_mesh({"layer": names[block.name]})
         mesh.vertices = block.vertices.tolist()
         mesh.faces = block.faces
-        mesh.set_xdata(APPLICATION, [(1000, " ".join(block.name.split())[:_LONGEST])])
+        mesh.set_xdata(
+            APPLICATION,
+            [(1000, " ".join(word.split())[:_LONGEST]) for word in (block.name, block.material) if word],
+        )
     stream = io.StringIO()
     drawing.write(stream)
     return bytes(drawing.encode(stream.getvalue()))

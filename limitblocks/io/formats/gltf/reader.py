@@ -26,7 +26,7 @@ _HARMLESS = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "K
 
 
 def contents(path: Path) -> Contents:
-    """Return the solids of a glTF or GLB file; layers are materials.
+    """Return the solids of a glTF or GLB file; the layer of a node is its material.
 
     Raises
     ------
@@ -47,7 +47,9 @@ def contents(path: Path) -> Contents:
                 points, triangles = _geometry(document, buffers, mesh)
                 refuse_many(len(bodies), faces := faces + len(triangles))
                 points = points @ placement[:3, :3].T + placement[:3, 3]
-                bodies += solids(str(name), _layer(document, mesh), points, triangles)
+                layer, material = _labels(document, node, mesh)
+                found = solids(str(name), layer, points, triangles)
+                bodies += [solid._replace(material=material) for solid in found]
     return Contents(bodies, metres=1.0, up="y")
 
 
@@ -184,7 +186,11 @@ def _accessor(document: dict[str, Any], buffers: list[bytes], k: int, kind: str)
     return np.ndarray((count, columns), item, data, first, (stride, item.itemsize))
 
 
-def _layer(document: dict[str, Any], mesh: dict[str, Any]) -> str:
-    """Return the name of the material of a mesh."""
+def _labels(document: dict[str, Any], node: dict[str, Any], mesh: dict[str, Any]) -> tuple[str, str]:
+    """Return layer and material of a node: its material is its layer unless its extras name one."""
     first = next((one["material"] for one in mesh["primitives"] if "material" in one), None)
-    return "" if first is None else str(document["materials"][first].get("name", ""))
+    material = "" if first is None else str(document["materials"][first].get("name", ""))
+    extras = node.get("extras")
+    if isinstance(extras, dict) and isinstance(extras.get("layer"), str):
+        return extras["layer"], material
+    return material, ""

@@ -5,7 +5,7 @@ trimesh writes no animations; see the glTF 2.0 specification, sections 3.6 (data
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Z_UP
+from limitblocks.io.imported import Z_UP, labels
 from limitblocks.io.motion import motion
 from limitblocks.io.packages import package
 from limitblocks.model import Model
@@ -32,7 +32,8 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     """Write a model with the motion of a result as an animation to a GLB file, and return its path.
 
     A mechanism grows from nothing in two seconds; a load path passes through its steps in them. Motion
-    is scaled as in :func:`limitblocks.write_vtu`, and the rotations are true ones, not their linear part.
+    is scaled as in :func:`limitblocks.files.write_vtu`, and the rotations are true ones, not their linear
+    part.
 
     Parameters
     ----------
@@ -57,17 +58,24 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
         raise ModelError(f"{path}: suffix {path.suffix!r} is not that of an animation; expected .glb")
     states = motion(model, result).states
     supports = set(model.supports)
-    layers = {block.name: "support" if block.name in supports else "block" for block in model.blocks}
+    layers = labels(model.blocks, supports)
     still = np.zeros_like(states[:1])
-    return write(path, encoded(model.blocks, layers, np.concatenate([still, states])), overwrite)
+    return write(path, encoded(model.blocks, layers, supports, np.concatenate([still, states])), overwrite)
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str], states: Array | None = None) -> bytes:
+def encoded(
+    blocks: Sequence[Block],
+    layers: Mapping[str, str],
+    supports: Container[str],
+    states: Array | None = None,
+) -> bytes:
     """Return the GLB file of blocks, with an animation through the displacements `states` (k, n, 6)."""
     trimesh, gltf = package("trimesh", "GLB"), package("trimesh.exchange.gltf", "GLB")
     scene = trimesh.Scene()
     for k, block in enumerate(blocks):
-        visual = trimesh.visual.TextureVisuals(material=_material(trimesh, layers.get(block.name, "")))
+        visual = trimesh.visual.TextureVisuals(
+            material=_material(trimesh, block, layers, block.name in supports)
+        )
         points = (block.vertices - block.centroid) @ Z_UP
         mesh = trimesh.Trimesh(points, block.triangles, process=False, visual=visual)
         scene.add_geometry(mesh, node_name=str(k), geom_name=str(k))
@@ -77,16 +85,18 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], states: Array | 
             # an animation moves a translation, not the matrix that trimesh would write
             node |= {"name": block.name, "translation": (Z_UP.T @ block.centroid).tolist()}
             mesh["name"] = block.name
+            if block.material:
+                node["extras"] = {"layer": layers.get(block.name, "")}
         if states is not None:
             document["animations"] = [_animation(buffers, document["accessors"], blocks, states)]
 
     return bytes(gltf.export_glb(scene, include_normals=False, buffer_postprocessor=finish))
 
 
-def _material(trimesh: ModuleType, name: str) -> Any:
+def _material(trimesh: ModuleType, block: Block, layers: Mapping[str, str], support: bool) -> Any:
     return trimesh.visual.material.PBRMaterial(
-        name=name or None,
-        baseColorFactor=_COLOURS.get(name, _PLAIN),
+        name=block.material or layers.get(block.name) or None,
+        baseColorFactor=_COLOURS["support" if support else "block"] if layers else _PLAIN,
         metallicFactor=0.0,
         roughnessFactor=0.9,
         doubleSided=True,

@@ -58,39 +58,67 @@ def _brep(rhino3dm: ModuleType, brep: Any) -> Polygons:
     tolerance = _STRAIGHT * max(
         box.Max.X - box.Min.X, box.Max.Y - box.Min.Y, box.Max.Z - box.Min.Z, np.finfo(float).tiny
     )
-    outlines = []
+    outlines: list[Array] = []
     for face in brep.Faces:
-        if len(face.Loops) > 1:
-            raise ModelError("has a face with a hole; run Mesh on it in Rhino")
-        outline = _outline(face, tolerance)
-        if outline is None:
+        parts = _face(face, tolerance)
+        if parts is None:
             return _render_mesh(rhino3dm, brep)
-        outlines.append(outline)
+        outlines += parts
     return soup(outlines)
 
 
-def _outline(face: Any, tolerance: float) -> Array | None:
-    """Return the corners (n, 3) of a plane face with straight edges; None for another one."""
+def _face(face: Any, tolerance: float) -> list[Array] | None:
+    """Return the polygons of corners (n, 3) that a plane face is, triangles where it has holes.
+
+    None for a face that is not plane, or has edges that are not straight.
+    """
     if not face.IsPlanar(tolerance):
         return None
     edges = list(face.DuplicateFace(False).Edges)
     if not all(edge.IsLinear(tolerance) for edge in edges):
         return None
-    ends = np.array([[_xyz(edge.PointAtStart), _xyz(edge.PointAtEnd)] for edge in edges])
-    corners, left = [ends[0, 0], ends[0, 1]], list(range(1, len(edges)))
-    while left:
-        gaps = np.linalg.norm(ends[left] - corners[-1], axis=2)
-        k, end = np.unravel_index(gaps.argmin(), gaps.shape)
-        if gaps[k, end] > 10.0 * tolerance:
-            return None
-        corners.append(ends[left.pop(int(k)), 1 - end])
-    loop = np.array(corners[:-1])
+    rings = _rings(np.array([[_xyz(edge.PointAtStart), _xyz(edge.PointAtEnd)] for edge in edges]), tolerance)
+    if rings is None:
+        return None
     u, v = face.Domain(0), face.Domain(1)
     normal = np.array(_xyz(face.NormalAt((u.T0 + u.T1) / 2, (v.T0 + v.T1) / 2)))
-    inward = bool(np.cross(loop, np.roll(loop, -1, axis=0)).sum(axis=0) @ normal < 0.0) != bool(
-        face.OrientationIsReversed
-    )
-    return loop[::-1] if inward else loop
+    normal *= -1.0 if face.OrientationIsReversed else 1.0
+    rings = [ring if _area(ring, normal) > 0.0 else ring[::-1] for ring in rings]
+    return rings if len(rings) == 1 else _with_holes(rings, normal)
+
+
+def _rings(ends: Array, tolerance: float) -> list[Array] | None:
+    """Return the closed loops of corners (n, 3) of sides with `ends` (e, 2, 3); None where one stays open."""
+    rings: list[Array] = []
+    left = list(range(len(ends)))
+    while left:
+        first = ends[left.pop(0)]
+        corners = [first[0], first[1]]
+        while np.linalg.norm(corners[-1] - corners[0]) > 10.0 * tolerance or len(corners) < 4:
+            gaps = np.linalg.norm(ends[left] - corners[-1], axis=2)
+            if not left or gaps.min() > 10.0 * tolerance:
+                return None
+            k, end = np.unravel_index(gaps.argmin(), gaps.shape)
+            corners.append(ends[left.pop(int(k)), 1 - end])
+        rings.append(np.array(corners[:-1]))
+    return rings
+
+
+def _area(ring: Array, normal: Array) -> float:
+    """Return twice the area of a loop as seen against `normal`."""
+    return float(np.cross(ring - ring[0], np.roll(ring, -1, axis=0) - ring[0]).sum(axis=0) @ normal)
+
+
+def _with_holes(rings: list[Array], normal: Array) -> list[Array]:
+    """Return triangles of a plane face, the largest of whose loops is the outline and the others holes."""
+    from manifold3d import triangulate
+
+    rings = sorted(rings, key=lambda ring: -_area(ring, normal))
+    rings = [rings[0], *(ring[::-1] for ring in rings[1:])]
+    k = int(np.abs(normal).argmax())
+    axes = [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
+    corners = np.concatenate(rings)
+    return [corners[trio] for trio in triangulate([ring[:, axes] for ring in rings])]
 
 
 def _xyz(point: Any) -> tuple[float, float, float]:

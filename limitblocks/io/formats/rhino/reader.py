@@ -33,6 +33,7 @@ class Part(NamedTuple):
     matrix: Array
     layer: str
     name: str
+    material: str
 
     def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
         """Return faces in the sense they have in the model, which a mirror image turns."""
@@ -49,29 +50,33 @@ def contents(path: Path) -> Contents:
     rhino3dm = package("rhino3dm", "3dm")
     model, notes = _model(rhino3dm, path)
     left_out: Counter[str] = Counter()
-    wrong: list[str] = []
+    wrong: dict[str, list[str]] = {}
     solids: list[Solid] = []
     with foreign("3dm"):
         for part in _Expansion(rhino3dm, model, left_out).everything():
             try:
                 shape = breps.polygons(rhino3dm, part.geometry)
             except ModelError as error:
-                wrong += [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
+                said = [f"{part.name!r} on layer {part.layer!r}: {fault}" for fault in error.problems]
+                wrong.setdefault(part.name, []).extend(said)
                 continue
             if shape is None:
                 left_out[type(part.geometry).__name__] += 1
             else:
                 points, faces = part.placed(shape[0]), part.turned(shape[1])
-                solids += shells.solids(part.name, part.layer, points, faces)
-        metres, said = _metres(model)
-    if wrong:
-        raise ModelError(*wrong)
+                made = shells.solids(part.name, part.layer, points, faces)
+                solids += [solid._replace(material=part.material) for solid in made]
+        metres, units = _metres(model)
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
-    if not solids:
-        raise ModelError(
-            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces"
+    if not solids and not wrong:
+        shown = "; switch on what is hidden, objects and layers, and save again" * (
+            "hidden objects" in left_out
         )
-    return Contents(solids, metres, [*notes, *said, *([f"left out: {listed}"] if listed else [])])
+        raise ModelError(
+            f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces{shown}"
+        )
+    notes += [*units, *([f"left out: {listed}"] if listed else [])]
+    return Contents(solids, metres, notes, "z", wrong)
 
 
 def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
@@ -91,7 +96,7 @@ def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
 def _metres(model: Any) -> tuple[float | None, list[str]]:
     unit = str(model.Settings.ModelUnitSystem).rpartition(".")[2]
     if unit in {"None", "Unset"}:
-        return None, ["states no unit of length; metres unless units=... is given"]
+        return None, ["states no unit of length"]
     if unit not in _METRES:
         raise ModelError(f"unit of length is {unit!r}; set one of {', '.join(_METRES)} in Rhino")
     return _METRES[unit], []
@@ -103,6 +108,7 @@ class _Expansion:
     def __init__(self, rhino3dm: ModuleType, model: Any, left_out: Counter[str]) -> None:
         self.rhino3dm, self.model, self.left_out = rhino3dm, model, left_out
         self.met = 0
+        self.materials = model.Materials
         self.layers = {layer.Index: layer for layer in model.Layers}
         shown = {str(layer.Id): layer for layer in model.Layers}
         self.hidden = {
@@ -130,7 +136,14 @@ class _Expansion:
                 yield from self.instances(geometry, matrix, title, depth)
             elif geometry is not None:
                 path = layer.FullPath if layer is not None else ""
-                yield Part(geometry, matrix, path, title or f"{path} {str(attributes.Id)[:8]}".strip())
+                title = title or f"{path} {str(attributes.Id)[:8]}".strip()
+                yield Part(geometry, matrix, path, title, self.material(attributes, layer))
+
+    def material(self, attributes: Any, layer: Any) -> str:
+        """Return the name of the material of an object, its own or that of its layer; empty for none."""
+        own = attributes.MaterialSource == self.rhino3dm.ObjectMaterialSource.MaterialFromObject
+        index = attributes.MaterialIndex if own else layer.RenderMaterialIndex if layer is not None else -1
+        return str(self.materials[index].Name) if 0 <= index < len(self.materials) else ""
 
     def instances(self, reference: Any, matrix: Array, name: str, depth: int) -> Iterator[Part]:
         definition = self.model.InstanceDefinitions.FindId(reference.ParentIdefId)

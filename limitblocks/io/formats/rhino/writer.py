@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
@@ -15,16 +15,20 @@ from limitblocks.io.packages import package
 _VERSION = 7  # of Rhino, that can open the file
 
 
-def encoded(blocks: Sequence[Block], layers: Mapping[str, str]) -> bytes:
+def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return the file; faces of more than four sides, or of blocks that are not convex, become triangles."""
     rhino3dm = package("rhino3dm", "3dm")
     model = rhino3dm.File3dm()
     model.Settings.ModelUnitSystem = rhino3dm.UnitSystem.Meters
     numbers: dict[str, int] = {}
+    materials: dict[str, int] = {}
     for block in blocks:
         attributes = rhino3dm.ObjectAttributes()
         attributes.Name = block.name
         attributes.LayerIndex = _layer(rhino3dm, model, numbers, layers.get(block.name, "") or "block")
+        if block.material:
+            attributes.MaterialIndex = _material(rhino3dm, model, materials, block.material)
+            attributes.MaterialSource = rhino3dm.ObjectMaterialSource.MaterialFromObject
         model.Objects.AddMesh(_mesh(rhino3dm, block), attributes)
     with TemporaryDirectory() as folder:  # rhino3dm writes to files only
         file = Path(folder) / "blocks.3dm"
@@ -43,6 +47,15 @@ def _layer(rhino3dm: ModuleType, model: Any, numbers: dict[str, int], path: str)
             layer.ParentLayerId = model.Layers[_layer(rhino3dm, model, numbers, above)].Id
         numbers[path] = model.Layers.Add(layer)
     return numbers[path]
+
+
+def _material(rhino3dm: ModuleType, model: Any, numbers: dict[str, int], name: str) -> int:
+    """Return the number of the material with this name, made where there is none."""
+    if name not in numbers:
+        material = rhino3dm.Material()
+        material.Name = name
+        numbers[name] = model.Materials.Add(material)
+    return numbers[name]
 
 
 def _mesh(rhino3dm: ModuleType, block: Block) -> Any:

@@ -1,0 +1,124 @@
+"""Blocks chosen by name, layer, material, pattern or place."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from fnmatch import fnmatchcase
+
+from limitblocks.errors import ModelError, near
+from limitblocks.geometry.block import Block
+
+Selection = str | Iterable[str] | Callable[[Block], bool]
+
+_WORDS = ("name", "layer", "material")
+_PLACE = re.compile(r"\s*([xyz])\s*([<>])=?\s*([-+0-9.eE]+)\s*")
+_WILD = re.compile(r"[*?\[]")
+_SHOWN = 12
+
+
+def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") -> tuple[str, ...]:
+    """Return the names of the blocks that are wanted, in their order.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+    wanted : str, iterable of str, or function of a Block
+        What is true for a block that is wanted, or texts, each one of
+
+        - the name of a block, or of a layer: "ground", "BASE";
+        - "name:PATTERN", "layer:PATTERN" or "material:PATTERN", where * stands for any letters, ? for one;
+        - a pattern alone, of names and layers: "ground*";
+        - "z<0.05", "x>2": blocks with no point beyond that coordinate, m.
+    word : str
+        What the blocks are wanted for, in messages.
+
+    Raises
+    ------
+    ModelError
+        A text matches no block, or the function is true for none; the message lists what there is.
+    """
+    if callable(wanted):
+        picked = {block.name for block in blocks if wanted(block)}
+        if not picked:
+            raise ModelError(f"{word}: the function is true for none of {len(blocks)} blocks")
+    else:
+        texts = [wanted] if isinstance(wanted, str) else list(wanted)
+        picked, wrong = set[str](), list[str]()
+        for text in texts:
+            names = _matching(blocks, text)
+            picked.update(names)
+            wrong += [] if names else [f"{word} {text!r} {_why_none(blocks, text)}"]
+        if wrong:
+            raise ModelError(*wrong)
+    return tuple(block.name for block in blocks if block.name in picked)
+
+
+def matches(pattern: str, text: str) -> bool:
+    """Return whether `text` is `pattern`, or matches it, in the same letters."""
+    return pattern == text or fnmatchcase(text, pattern)
+
+
+def listed(blocks: Sequence[Block]) -> str:
+    """Return what blocks can be chosen by: their layers and materials with numbers of blocks, and names."""
+    parts = []
+    for word in ("layer", "material"):
+        counts = Counter(getattr(block, word) for block in blocks)
+        counts.pop("", None)
+        if counts:
+            some = [f"{name!r} ({number})" for name, number in counts.most_common(_SHOWN)]
+            parts.append(f"{word}s {_joined(some, len(counts))}")
+    names = [repr(block.name) for block in blocks[:_SHOWN]]
+    return "; ".join([*parts, f"blocks {_joined(names, len(blocks))}"])
+
+
+def _joined(shown: Sequence[str], number: int) -> str:
+    return ", ".join(shown) + (f" and {number - len(shown)} more" if number > len(shown) else "")
+
+
+def _matching(blocks: Sequence[Block], text: str) -> list[str]:
+    exact = [block.name for block in blocks if text in (block.name, block.layer)]
+    if exact:
+        return exact if text else []
+    word, _, pattern = text.partition(":")
+    if word in _WORDS and pattern:
+        return [block.name for block in blocks if matches(pattern, getattr(block, word))]
+    place = _PLACE.fullmatch(text)
+    if place:
+        axis, sign, bound = "xyz".index(place[1]), place[2], _number(place[3], text)
+        return [block.name for block in blocks if _within(block, axis, sign, bound)]
+    if not _WILD.search(text):
+        return []
+    return [b.name for b in blocks if fnmatchcase(b.name, text) or fnmatchcase(b.layer, text)]
+
+
+def _number(text: str, whole: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ModelError(f"{whole!r} has no number after its sign; expected as in 'z<0.05'") from None
+
+
+def _within(block: Block, axis: int, sign: str, bound: float) -> bool:
+    coordinates = block.vertices[:, axis]
+    return bool(coordinates.max() <= bound if sign == "<" else coordinates.min() >= bound)
+
+
+def _why_none(blocks: Sequence[Block], text: str) -> str:
+    """Return why no block matches, and what would."""
+    place = _PLACE.fullmatch(text)
+    if place:
+        axis, below = "xyz".index(place[1]), place[2] == "<"
+        ends = [(b.vertices[:, axis].max() if below else b.vertices[:, axis].min(), b.name) for b in blocks]
+        nearest = (sorted(ends) if below else sorted(ends, reverse=True))[:3]
+        some = ", ".join(f"{name!r} {end:.4g}" for end, name in nearest)
+        return f"matches no block: {'tops' if below else 'bottoms'} along {place[1]} (m): {some}"
+    word, _, pattern = text.partition(":")
+    if word in _WORDS and pattern:
+        known = {getattr(block, word) for block in blocks} - {""}
+        return f"matches no {word}{near(pattern, known)}; there are {listed(blocks)}"
+    if _WILD.search(text):
+        return f"matches no name and no layer; there are {listed(blocks)}"
+    known = {block.name for block in blocks} | {block.layer for block in blocks} - {""}
+    return f"is neither a block nor a layer{near(text, known)}; there are {listed(blocks)}"

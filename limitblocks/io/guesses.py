@@ -1,0 +1,116 @@
+"""What a file does not say: the unit of length, and which axis points up."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array
+
+#: Words for blocks that do not move, in names and layers of the programs and languages of this field.
+SUPPORT_WORDS = re.compile(
+    r"support|ground|found|footing|plinth|abutment|fixed|anchor|(^|[^a-z])(base|sol|suolo|boden)([^a-z]|$)",
+    re.IGNORECASE,
+)
+#: Size, m, beyond which a structure is hardly in metres: the longest masonry bridge spans and naves are less.
+LARGE = 300.0
+#: Length of a block, m, that a guess of the unit comes closest to.
+_BLOCK = 0.4
+_CANDIDATES = {"cm": 0.01, "mm": 0.001}  # metres per unit
+_FEWEST = 4  # blocks that tell which way is up
+_ALL, _MOST, _HALF = 0.98, 0.9, 0.5
+
+
+class Boxes(NamedTuple):
+    """Bounding boxes of n solids, (n, 3) each, and which are supports by their names."""
+
+    low: Array
+    high: Array
+    support: Array
+
+    @classmethod
+    def of(cls, vertices: Sequence[Array], words: Sequence[tuple[str, str]]) -> Boxes:
+        """Return the boxes of solids with these vertices, and (name, layer)."""
+        low, high = (np.array([f(points, axis=0) for points in vertices]) for f in (np.min, np.max))
+        named = [any(SUPPORT_WORDS.search(word) for word in pair) for pair in words]
+        return cls(low, high, np.array(named))
+
+    @property
+    def size(self) -> float:
+        """Largest dimension of all."""
+        return float((self.high.max(axis=0) - self.low.min(axis=0)).max())
+
+    @property
+    def length(self) -> float:
+        """Median of the longest dimension of a solid."""
+        return float(np.median((self.high - self.low).max(axis=1)))
+
+
+def unit(boxes: Boxes) -> tuple[str, str] | None:
+    """Return the unit that solids too large for metres are probably in, and a sentence on it; else None."""
+    if not LARGE < boxes.size < 1e30:
+        return None
+    far = {name: abs(np.log(boxes.length * metres / _BLOCK)) for name, metres in _CANDIDATES.items()}
+    name = min(far, key=lambda one: far[one])
+    size, length = boxes.size * _CANDIDATES[name], boxes.length * _CANDIDATES[name]
+    return name, (
+        f"states no unit of length and is {boxes.size:.4g} units large: taken as {name}, {size:.4g} m large "
+        f"with blocks of {length:.2g} m; say units={name!r} (--units {name}), or what it is in"
+    )
+
+
+def tilted(boxes: Boxes, up: str) -> str:
+    """Return why the other of the axes Y and Z points up rather than `up`, or nothing where it does not.
+
+    Masonry rests on what lies below it. A structure whose blocks mostly lie on the ground although the other
+    axis stacks them, whose blocks hang over nothing although the other axis carries them all, or whose
+    supports are at the bottom of the other axis only, lies on its side.
+    """
+    if len(boxes.low) < _FEWEST or not np.isfinite(boxes.size):
+        return ""
+    a, b = (1, 2) if up == "y" else (2, 1)
+    this, other = "XYZ"[a], "XYZ"[b]
+    if boxes.support.any() and _at_bottom(boxes, b) and not _at_bottom(boxes, a, _HALF):
+        return f"the blocks whose names say support are at the bottom along {other}, not along {this}"
+    ground, carried = _shares(boxes, a)
+    ground_b, carried_b = _shares(boxes, b)
+    n = len(boxes.low)
+    if ground >= _HALF and ground_b <= ground / 2.0 and carried_b >= _HALF:
+        return (
+            f"{round(ground * n)} of {n} blocks would lie on the ground with {this} up, "
+            f"{round(ground_b * n)} with {other} up"
+        )
+    if carried <= _MOST and ground_b <= _HALF and carried_b >= _ALL:
+        return (
+            f"{round((1.0 - carried) * n)} of {n} blocks would have nothing below them with {this} up, "
+            f"{round((1.0 - carried_b) * n)} with {other} up"
+        )
+    return ""
+
+
+def _at_bottom(boxes: Boxes, axis: int, share: float = 1.0 / 3.0) -> bool:
+    """Return whether the centres of all supports are in the lowest share of the height along `axis`."""
+    low, high = boxes.low[:, axis], boxes.high[:, axis]
+    middle = (low + high)[boxes.support] / 2.0
+    return bool((middle <= low.min() + share * (high.max() - low.min())).all())
+
+
+def _shares(boxes: Boxes, axis: int) -> tuple[float, float]:
+    """Return the share of blocks on the ground, and of those there or with another one below, `axis` up."""
+    low, high, _ = boxes
+    plan = [k for k in range(3) if k != axis]
+    tolerance = 0.05 * boxes.length
+    ground = low[:, axis] <= low[:, axis].min() + tolerance
+    shapes = shapely.box(low[:, plan[0]], low[:, plan[1]], high[:, plan[0]], high[:, plan[1]])
+    i, j = shapely.STRtree(shapes).query(shapes, predicate="intersects")
+    sides = np.minimum(high[i], high[j]) - np.maximum(low[i], low[j])
+    area = (high - low)[:, plan].prod(axis=1)
+    over = sides[:, plan].clip(0.0).prod(axis=1) > 0.01 * area[i]
+    below = (low[j, axis] < low[i, axis] - tolerance) & (high[j, axis] >= low[i, axis] - tolerance)
+    carried = ground.copy()
+    carried[i[over & below]] = True
+    return float(ground.mean()), float(carried.mean())

@@ -1,0 +1,100 @@
+"""Blocks made of the solids of a file, one by one: a bad one does not spoil the others."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from typing import TYPE_CHECKING, NamedTuple, get_args
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry import Block
+from limitblocks.geometry.accuracy import Accuracy, block_length, millimetres
+from limitblocks.geometry.mend import TwistedFaces, mended
+from limitblocks.geometry.twisted import Twisted, rounding
+
+if TYPE_CHECKING:
+    from limitblocks.io.imported import Solid
+
+#: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.
+_TWIST = 4.0
+
+
+class Made(NamedTuple):
+    """Blocks, what was mended, what is wrong with solids that are none, by name, and which are supports."""
+
+    blocks: tuple[Block, ...]
+    notes: tuple[str, ...]
+    wrong: dict[str, Sequence[str]]
+    supports: tuple[str, ...] = ()
+
+
+_Mended = tuple[Block, tuple[str, ...]]
+
+
+def made(named: Mapping[str, Solid], placement: Array, twisted: Twisted | None) -> Made:
+    """Return the blocks that solids are, in m, placed by the matrix `placement` (3, 3).
+
+    Where `twisted` is left out, twisted faces are divided into triangles if they are so within the accuracy
+    that the faces of the blocks show where they touch, or within the last digit of their coordinates.
+    """
+    if twisted not in (None, *get_args(Twisted)):
+        raise ModelError(f"twisted is {twisted!r}; expected one of {', '.join(get_args(Twisted))}")
+    good, wrong, bent = dict[str, _Mended](), dict[str, Sequence[str]](), dict[str, float]()
+    for name, solid in named.items():
+        try:
+            good[name] = _made(name, solid, placement, twisted or "refuse")
+        except ModelError as error:
+            wrong[name] = error.problems
+            if isinstance(error, TwistedFaces):
+                bent[name] = error.distance
+    if bent and twisted is None:
+        good |= _accurate(good, {name: named[name] for name in bent}, placement, bent)
+    wrong = {name: lines for name, lines in wrong.items() if name not in good}
+    kept = [good[name] for name in named if name in good]
+    return Made(tuple(block for block, _ in kept), tuple(line for _, said in kept for line in said), wrong)
+
+
+def _made(name: str, solid: Solid, placement: Array, twisted: Twisted) -> _Mended:
+    vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
+    block, said = mended(name, vertices, solid.faces, twisted=twisted)
+    return block.labelled(unit_weight=None, layer=solid.layer, material=solid.material), said
+
+
+def _accurate(
+    good: Mapping[str, _Mended], named: Mapping[str, Solid], placement: Array, bent: Mapping[str, float]
+) -> dict[str, _Mended]:
+    """Return the blocks among those `named` whose faces are twisted within the accuracy of the file."""
+    triangles = dict[str, _Mended]()
+    for name, solid in named.items():
+        with suppress(GeometryError):  # its own fault was told
+            triangles[name] = _made(name, solid, placement, "triangulate")
+    blocks = [block for block, _ in (*good.values(), *triangles.values())]
+    shown = (Accuracy.shown(blocks).size or 0.0) * block_length(blocks) if blocks else 0.0
+    taken = {}
+    for name, (block, said) in triangles.items():
+        # a corner rounded by half a step in each coordinate
+        step = rounding(np.asarray(named[name].vertices, dtype=np.float64))
+        step *= float(np.linalg.norm(placement[0]))
+        if bent[name] <= max(_TWIST * shown, step):
+            is_good = f"as the file is good to about {millimetres(max(shown, step / 2.0))} there"
+            taken[name] = block, tuple(f"{line}, {is_good}" for line in said)
+    return taken
+
+
+def refused(wrong: Mapping[str, Sequence[str]], good: int) -> ModelError:
+    """Return the error that lists all solids that are no blocks, beside so many `good` ones."""
+    lines = [line for problems in wrong.values() for line in problems]
+    if good:
+        lines.insert(
+            0,
+            f"{len(wrong)} of {good + len(wrong)} blocks are bad; --skip-bad (skip_bad=True) leaves them out",
+        )
+    return ModelError(*lines)
+
+
+def left_out(wrong: Mapping[str, Sequence[str]]) -> list[str]:
+    """Return notes on solids that were left out."""
+    return [f"left out: {line}" for problems in wrong.values() for line in problems]

@@ -1,0 +1,38 @@
+"""Joints that are drawn open: blocks that touch nothing, and the gap with which they would."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from limitblocks.geometry import Block, Contacts, find_contacts
+
+#: Gaps, in block lengths, that are tried where blocks have no interface.
+_WIDER = (0.01, 0.02, 0.05, 0.1)
+
+
+def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
+    """Return the line that says which gap lets blocks touch that have no interface; none where none does."""
+    for gap in _WIDER * bool(contacts.isolated):
+        wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
+        tied = len(contacts.isolated) - len(wide.isolated)
+        if tied > 0:
+            apart = _distance(wide, blocks, set(contacts.isolated))
+            return [
+                f"{tied} blocks without any interface would touch with gap={gap:g} (block lengths, "
+                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open? "
+                f"They are typically {1e3 * apart:.2g} mm wide"
+            ]
+    return []
+
+
+def _distance(contacts: Contacts, blocks: Sequence[Block], among: set[str]) -> float:
+    """Return the median distance, m, across the interfaces of the blocks named, as of convex blocks."""
+    points = {block.name: block.vertices for block in blocks}
+    apart = [
+        (points[one.block_j] @ one.axes[2]).min() - (points[one.block_i] @ one.axes[2]).max()
+        for one in contacts.interfaces
+        if among & {one.block_i, one.block_j}
+    ]
+    return float(np.median(apart))

@@ -1,0 +1,66 @@
+"""Which rows of two places are the same, whatever their order and whatever turns their cones."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem.plane.places import Place
+
+EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
+
+
+def close(a: Array, b: Array, scale: Array | float) -> bool:
+    """Whether two arrays agree up to EXACT times the scale."""
+    return bool((np.abs(a - b) <= EXACT * scale).all())
+
+
+def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
+    """Which linear row or cone (K, members) of `other` each one of `kind` is, its stresses turned.
+
+    None where one is like none. Cones are alike where their heads are, and the lengths of their other rows.
+    """
+    turned, there = _numbers(kind, turn), _numbers(other, None)
+    scale = np.abs(there).max(axis=(1, 2))
+    scale = np.where(scale > 0.0, scale, 1.0)[:, None, None]
+    turned, there = turned / scale, there / scale
+    partners = []
+    for kinds in _same_size(kind):
+        a, b = (np.stack([length_of(v[:, at]) for at in kinds], axis=1) for v in (turned, there))
+        here, there_too = in_order(a), in_order(b)
+        pair = [np.take_along_axis(v, at[..., None], 1) for v, at in ((a, here), (b, there_too))]
+        if not close(pair[0], pair[1], 1.0):
+            return None
+        partner = np.empty_like(here)
+        np.put_along_axis(partner, here, kind.members.index(kinds[0]) + there_too, axis=1)
+        partners.append(partner)
+    return np.concatenate(partners, axis=1) if partners else np.zeros((len(kind.rows), 0), dtype=np.int64)
+
+
+def _numbers(kind: Place, turn: Array | None) -> Array:
+    """Rows of F, g and G (K, r, 2 c + 1), of turned stresses."""
+    F, G = (kind.F, kind.G) if turn is None else (kind.F @ turn, kind.G @ turn)
+    return np.concatenate([F, kind.g[..., None], G], axis=2)
+
+
+def _same_size(kind: Place) -> list[list[slice]]:
+    """Linear rows, and cones of each size."""
+    sizes = sorted({at.stop - at.start for at in kind.members[kind.linear :]})
+    conic = [[at for at in kind.members[kind.linear :] if at.stop - at.start == size] for size in sizes]
+    return [part for part in (list(kind.members[: kind.linear]), *conic) if part]
+
+
+def in_order(values: Array) -> Indices:
+    """An order (K, L) of values (K, L, n) that puts equal ones beside each other, whatever theirs was."""
+    mix = np.cos(np.arange(values.shape[2]) ** 2 + 1.0)  # numbers without a pattern: unlike values differ
+    with np.errstate(invalid="ignore"):
+        return np.argsort(values @ mix, axis=1)
+
+
+def length_of(rows: Array) -> Array:
+    """Head of a linear row or a cone (K, size, n) and products of its other rows: what no turn changes."""
+    rest = rows[:, 1:]
+    if not rest.shape[1]:
+        return np.asarray(rows[:, 0])
+    products = np.einsum("kri,krj->kij", rest, rest).reshape(len(rows), -1)
+    return np.concatenate([rows[:, 0], products], axis=1)

@@ -1,0 +1,120 @@
+"""Places where forces act, those of one kind together."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem.limit_problem import LimitProblem
+from limitblocks.problem.places import places
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """K places of one kind: `c` stresses each, `linear` rows and then `cones` of one size each.
+
+    Attributes
+    ----------
+    columns : Indices, shape (K, c)
+        Their generalised stresses.
+    rows : Indices, shape (K, r)
+        Their rows: linear ones, then those of each cone.
+    linear : int
+        Number of linear rows.
+    cones : tuple of int
+        Sizes of the cones.
+    ends : Indices, shape (K, 2)
+        Free blocks at both ends, -1 for a support.
+    strain : Array, shape (K, 2, c, 6)
+        Strain rates per rate of the block at each end.
+    F, G : Array, shape (K, r, c)
+        Yield rows and plastic potential, in the force of the interface.
+    g : Array, shape (K, r)
+        Constant terms, in the same.
+    """
+
+    columns: Indices
+    rows: Indices
+    linear: int
+    cones: tuple[int, ...]
+    ends: Indices
+    strain: Array
+    F: Array
+    G: Array
+    g: Array
+
+    @cached_property
+    def members(self) -> tuple[slice, ...]:
+        """Rows of each linear row and each cone."""
+        sizes = (1,) * self.linear + self.cones
+        first = np.concatenate([[0], np.cumsum(sizes)]).tolist()
+        return tuple(slice(a, b) for a, b in pairwise(first))
+
+    def taken(self, chosen: Indices) -> Place:
+        """Return some of the places."""
+        columns, rows, ends = (part[chosen] for part in (self.columns, self.rows, self.ends))
+        strain, F, G, g = (part[chosen] for part in (self.strain, self.F, self.G, self.g))
+        return Place(columns, rows, self.linear, self.cones, ends, strain, F, G, g)
+
+
+def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
+    """The places of a problem, those of one kind together; `strain` (s, 2, 6) as in :class:`Place`."""
+    of_member, of_stress = places(problem)
+    of_row = of_member[problem.cones.member]
+    count = int(max(of_member.max(initial=-1), of_stress.max(initial=-1))) + 1
+    columns, column = owned(of_stress, count)
+    rows, row = owned(of_row, count)
+    for its, linear, cones in _alike(problem, of_member, of_stress, count):
+        c, r = np.bincount(of_stress)[its[0]], linear + sum(cones)
+        dense = []
+        for matrix in (problem.F.tocoo(), problem.G.tocoo()):
+            index = np.full(count, -1)
+            index[its] = np.arange(len(its))
+            keep = index[of_stress[matrix.col]] >= 0
+            i, j, data = matrix.row[keep], matrix.col[keep], matrix.data[keep]
+            dense.append(np.zeros((len(its), r, c)))
+            dense[-1][index[of_stress[j]], row[i], column[j]] = data * problem.units.row[i]
+        own = columns[its, :c]
+        yield Place(
+            columns=own,
+            rows=rows[its, :r],
+            linear=linear,
+            cones=cones,
+            ends=problem.ends[problem.stress_interface[own[:, 0]]],
+            strain=strain[own].transpose(0, 2, 1, 3),
+            F=dense[0],
+            G=dense[1],
+            g=(problem.g * problem.units.row)[rows[its, :r]],
+        )
+
+
+def _alike(
+    problem: LimitProblem, of_member: Indices, of_stress: Indices, count: int
+) -> Iterator[tuple[Indices, int, tuple[int, ...]]]:
+    """Places with the same numbers of stresses, of linear rows, and of cones of each size; these two."""
+    cones = problem.cones
+    size = np.bincount(cones.member, minlength=cones.degree)
+    size[: cones.linear] = 0  # a cone of one row is none
+    kinds = np.unique(size[cones.linear :]).tolist()
+    numbers = [np.bincount(of_stress, minlength=count)]
+    numbers += [np.bincount(of_member[size == kind], minlength=count) for kind in (0, *kinds)]
+    table = np.stack(numbers, axis=1)
+    for own in np.unique(table, axis=0).tolist():
+        conic = tuple(kind for kind, k in zip(kinds, own[2:], strict=True) for _ in range(k))
+        yield np.flatnonzero((table == own).all(axis=1)), own[1], conic
+
+
+def owned(owner: Indices, count: int) -> tuple[Indices, Indices]:
+    """Numbers (count, most) of what each place owns, in their order, and the position of each (len,)."""
+    own = np.bincount(owner, minlength=count)
+    order = np.argsort(owner, kind="stable")
+    position = np.empty(len(owner), dtype=np.int64)
+    position[order] = np.arange(len(owner)) - np.repeat(np.cumsum(own) - own, own)
+    table = np.zeros((count, int(own.max(initial=0))), dtype=np.int64)
+    table[owner, position] = np.arange(len(owner))
+    return table, position

@@ -1,0 +1,58 @@
+"""Linear rows that others imply."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.arrays import Array
+
+ROUNDING = 1e-10  # of rows of unit length
+DECIMALS = 9  # rows that agree to these are judged once
+
+Flags = npt.NDArray[np.bool_]
+
+
+def redundant(rows: Array, present: Flags) -> Flags:
+    """Return which rows a.(x, 1) >= 0 (K, L, d + 1) of each set follow from two others of it, (K, L).
+
+    A row follows where it is a sum of two with factors >= 0, one of which may be the constant 1 >= 0. In the
+    plane rows act on (V, N) or on (N, M): two are enough. `present` (K, L) tells which rows there are.
+    """
+    order = np.argsort(~present, axis=1, kind="stable")[:, : int(present.sum(axis=1).max(initial=0))]
+    own = np.take_along_axis(rows, order[..., None], axis=1)
+    there = np.take_along_axis(present, order, axis=1)
+    size = np.linalg.norm(own, axis=2, keepdims=True)
+    own = np.where(there[..., None], own / np.where(size > 0.0, size, 1.0), 0.0)
+    K, D = len(own), own.shape[2]
+    kinds = np.round(np.concatenate([own.reshape(K, -1), there], axis=1), DECIMALS) + 0.0
+    _, first, kind = np.unique(kinds, axis=0, return_index=True, return_inverse=True)
+    constant = np.broadcast_to(np.eye(D)[-1], (len(first), 1, D))
+    follows = _follows(np.concatenate([own[first], constant], axis=1), there[first])[kind.ravel()]
+    flags = np.zeros_like(present)
+    np.put_along_axis(flags, order, follows, axis=1)
+    return flags
+
+
+def _follows(rows: Array, present: Flags) -> Flags:
+    """The same of rows of unit length, the last of which is the constant; one row after the other."""
+    K, L = present.shape
+    left = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1)
+    pairs = np.array(list(combinations(range(L + 1), 2)), dtype=int).reshape(-1, 2)
+    products = rows @ rows.transpose(0, 2, 1)
+    follows = np.zeros((K, L), dtype=bool)
+    for c in range(L):
+        i, j = pairs[(pairs != c).all(axis=1)].T
+        cosine, a, b = products[:, i, j], products[:, i, c], products[:, j, c]
+        sine = 1.0 - cosine**2
+        usable = left[:, i] & left[:, j] & (sine > ROUNDING)
+        sine = np.where(usable, sine, 1.0)
+        by_i, by_j = (a - b * cosine) / sine, (b - a * cosine) / sine
+        sums = by_i[..., None] * rows[:, i] + by_j[..., None] * rows[:, j]
+        off = np.abs(sums - rows[:, c, None]).max(axis=2)
+        implied = usable & (np.minimum(by_i, by_j) >= -ROUNDING) & (off <= ROUNDING)
+        follows[:, c] = left[:, c] & implied.any(axis=1)
+        left[:, c] &= ~follows[:, c]
+    return follows

@@ -1,0 +1,184 @@
+"""Yield rows on symmetric stresses: merged where they coincide, cones of one direction as two lines.
+
+On stresses that the mirror leaves as they are a row and its mirror image are one row, and a cone t >= ||z||
+whose z keeps one direction is t >= |z|. A row of the reduced problem is a sum of rows of the whole one with
+weights from the dual cone, symmetric under the mirror: its multiplier times these weights are multipliers of
+the whole problem that satisfy the flow rule out of the plane, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem.plane.alike import EXACT, in_order, length_of
+from limitblocks.problem.plane.mirror import Mirrored
+from limitblocks.problem.plane.redundant import redundant
+
+Flags = npt.NDArray[np.bool_]
+CHUNK = 1000  # places at a time: keeps the arrays small
+
+
+@dataclass(frozen=True, eq=False)
+class PlaneRows:
+    """Rows of the reduced problem of one `size`: 1 linear, else that of their cones.
+
+    `source` (R',) is the row of the whole problem that each comes from; `weight`, `row`, `column` are
+    triplets of the weights of rows of the whole problem in each.
+    """
+
+    size: int
+    source: Indices
+    weight: Array
+    row: Indices
+    column: Indices
+
+
+@dataclass(frozen=True, eq=False)
+class _Sets:
+    """Rows of K places, or of K pairs of a place and its image, on the basis of their symmetric stresses.
+
+    `rows` (K, r) are numbers of the whole problem, `values` (K, r, d + 1) F x' + g over the largest;
+    `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and `Mirrored`, the first
+    `linear` of them linear rows.
+    """
+
+    rows: Indices
+    values: Array
+    members: tuple[slice, ...]
+    linear: tuple[bool, ...]
+    partner: Indices
+
+    @cached_property
+    def start(self) -> Indices:
+        """First row of each member."""
+        return np.array([member.start for member in self.members])
+
+    @cached_property
+    def heads(self) -> Array:
+        """Weights (K, members, r) of the head of each member and of its partner: half and half."""
+        K, r = self.rows.shape
+        own = np.broadcast_to(np.eye(r)[self.start], (K, len(self.members), r))
+        return np.asarray((own + np.eye(r)[self.start[self.partner]]) / 2.0)
+
+
+def plane_rows(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> Iterator[PlaneRows]:
+    """Rows of the places `own` (K,) and of their images on the stresses of the bases X (K, c, d).
+
+    Without `every_row` rows that two others imply are left out.
+    """
+    for first in range(0, len(own), CHUNK):
+        chunk = slice(first, first + CHUNK)
+        sets = _sets(kind, own[chunk], X[chunk])
+        lines = [sets.heads[:, np.array(sets.linear)]]
+        valid = [np.ones(lines[0].shape[:2], dtype=bool)]
+        for size in sorted({m.stop - m.start for m in sets.members} - {1}):
+            cones = _cones(sets, size)
+            lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
+            valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
+            yield from _kept(sets, cones)
+        yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
+
+
+def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
+    p, image = kind.places, kind.image[own]
+    there = [own] if (image == own).all() else [own, image]
+    values = np.concatenate([np.concatenate([p.F[k] @ X, p.g[k][..., None]], axis=2) for k in there], axis=1)
+    r, count = p.rows.shape[1], len(p.members)
+    return _Sets(
+        rows=np.concatenate([p.rows[k] for k in there], axis=1),
+        values=values / np.abs(values).max(axis=(1, 2), keepdims=True),
+        members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
+        linear=tuple(k < p.linear for k in range(count)) * len(there),
+        partner=np.concatenate([kind.partner[k] + j * count for j, k in enumerate(there)], axis=1),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Cones:
+    """Cones of one size: weights (K, L, z + 1, r) of rows in head and directions, and how many of these.
+
+    `valid` (K, L) marks those that stand for all that are the same; `start` (L,) are their first rows.
+    """
+
+    weight: Array
+    rank: Indices
+    valid: Flags
+    start: Indices
+
+
+def _cones(sets: _Sets, size: int) -> _Cones:
+    """Cones whose rows below the head are put in as few directions as they take."""
+    which = [k for k, m in enumerate(sets.members) if m.stop - m.start == size]
+    start = sets.start[which]
+    E = sets.values[:, start[:, None] + np.arange(size)]
+    stands, share = _same(np.stack([length_of(E[:, k]) for k in range(len(which))], axis=1))
+    z = E[:, :, 1:]
+    _, S, Vt = np.linalg.svd(z, full_matrices=False)
+    kept = S > EXACT
+    rank = kept.sum(axis=2)
+    directions = (S * kept)[..., None] * Vt
+    if directions.shape[2] == size - 1:
+        directions = np.where((rank == size - 1)[..., None, None], z, directions)
+    directions = np.take_along_axis(directions, stands[..., None, None], axis=1)
+    inverse = np.linalg.pinv(directions, rcond=EXACT)
+    K, r = sets.rows.shape
+    weight = np.zeros((K, len(which), directions.shape[2] + 1, r))
+    weight[:, :, 0] = sets.heads[:, which]
+    place = np.arange(K)[:, None, None]
+    for first in (np.broadcast_to(start, stands.shape), sets.start[sets.partner[:, which]]):
+        at = first[..., None] + np.arange(1, size)
+        frame = sets.values[place, at] @ inverse
+        rows = np.zeros((K, len(which), size - 1, r))
+        np.put_along_axis(rows, at[..., None], 0.5, axis=3)
+        weight[:, :, 1:] += np.einsum("klzq,klzr->klqr", frame, rows)
+    mean = np.einsum("klm,kmzr->klzr", share, weight)
+    return _Cones(mean, rank, stands == np.arange(len(which)), start)
+
+
+def _kept(sets: _Sets, cones: _Cones) -> Iterator[PlaneRows]:
+    """Cones of two directions and more."""
+    for rank in np.unique(cones.rank[cones.valid & (cones.rank > 1)]).tolist():
+        k, which = np.nonzero(cones.valid & (cones.rank == rank))
+        weight = cones.weight[k, which, : rank + 1]
+        source = sets.rows[k[:, None], cones.start[which][:, None] + np.arange(rank + 1)]
+        yield _parts(sets, rank + 1, k, weight, source)
+
+
+def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> PlaneRows:
+    """Linear rows, those that coincide merged in their mean."""
+    values = np.where(valid[..., None], weight @ sets.values, np.inf)
+    stands, share = _same(values)
+    valid = valid & (stands == np.arange(valid.shape[1]))
+    if not every_row:
+        valid &= ~redundant(np.where(valid[..., None], values, 0.0), valid)
+    k, which = np.nonzero(valid)
+    mean = np.einsum("klm,kmr->klr", share, weight)[k, which][:, None]
+    source = np.take_along_axis(sets.rows[k], np.abs(mean[:, 0]).argmax(axis=1)[:, None], axis=1)
+    return _parts(sets, 1, k, mean, source)
+
+
+def _parts(sets: _Sets, size: int, k: Indices, weight: Array, source: Indices) -> PlaneRows:
+    """Triplets of weights (c, size, r) of the rows of the sets k (c,)."""
+    weight = np.where(np.abs(weight) > EXACT, weight, 0.0)
+    c, z, r = np.nonzero(weight)
+    return PlaneRows(size, source.ravel(), weight[c, z, r], c * size + z, sets.rows[k[c], r])
+
+
+def _same(values: Array) -> tuple[Indices, Array]:
+    """The first member (K, L) with the same values, and the shares (K, L, L) of all of them in their mean."""
+    K = len(values)
+    order = in_order(values)
+    there = np.take_along_axis(values, order[..., None], axis=1)
+    with np.errstate(invalid="ignore"):
+        new = ~(np.abs(np.diff(there, axis=1)) <= EXACT).all(axis=2)
+    group = np.concatenate([np.zeros((K, 1), dtype=int), np.cumsum(new, axis=1)], axis=1)
+    label = np.empty_like(group)
+    np.put_along_axis(label, order, group, axis=1)
+    same = label[:, :, None] == label[:, None]
+    return same.argmax(axis=2), same / same.sum(axis=2, keepdims=True)

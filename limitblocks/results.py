@@ -1,0 +1,43 @@
+"""What the functions of limitblocks return: classes to read about and to annotate with."""
+
+from limitblocks.analysis.diagnosis import Diagnosis
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.check import Check
+from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.interface_states import InterfaceStates
+from limitblocks.evidence.load_path_result import LoadPath, PathStep, Snap
+from limitblocks.evidence.range_answer import Origin, RangeAnswer
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.evidence.stability_result import Stability, Standing
+from limitblocks.geometry import Contacts, Healed
+from limitblocks.reports import Report
+
+__all__ = [
+    "BackwardError",
+    "Bounds",
+    "Check",
+    "Claim",
+    "Contacts",
+    "Diagnosis",
+    "Healed",
+    "InterfaceStates",
+    "Iteration",
+    "LoadFactorRange",
+    "LoadPath",
+    "Nonassociated",
+    "Origin",
+    "PathStep",
+    "RangeAnswer",
+    "Report",
+    "Snap",
+    "Stability",
+    "Standing",
+    "Status",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__
