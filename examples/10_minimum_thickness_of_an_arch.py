@@ -33,7 +33,7 @@ import limitblocks as lb
 
 PRINTED = {0.395832: 0.107426, 0.309215: 0.200637}  # friction: t/R
 FRICTIONS = (0.31, 0.33, 0.35, 0.37, 0.39, 0.45, 0.6)
-VOUSSOIRS = 35
+VOUSSOIRS = 45
 
 
 def main(folder="output"):

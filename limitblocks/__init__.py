@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from limitblocks.analysis.load_factor_range.run import load_factor_range
     from limitblocks.analysis.nonassociated.load_path import load_path
     from limitblocks.analysis.nonassociated.loop import nonassociated
+    from limitblocks.analysis.sensitivities import sensitivities
     from limitblocks.analysis.stability import stability
     from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError
     from limitblocks.evidence.check import check_mcp
@@ -69,6 +70,7 @@ __all__ = [
     "report",
     "results",
     "self_weight",
+    "sensitivities",
     "settings",
     "stability",
     "structures",
@@ -102,6 +104,7 @@ _HOMES = {
     "read_result": "io",
     "report": "reports.report",
     "self_weight": "loads",
+    "sensitivities": "analysis.sensitivities",
     "stability": "analysis.stability",
 }
 

@@ -11,6 +11,7 @@ from limitblocks.evidence.load_path_result import LoadPath, PathStep, Snap
 from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.evidence.sensitivity_result import Influence, LoadPosition, Sensitivities
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Contacts, Healed
 from limitblocks.reports import Report
@@ -23,15 +24,18 @@ __all__ = [
     "Contacts",
     "Diagnosis",
     "Healed",
+    "Influence",
     "InterfaceStates",
     "Iteration",
     "LoadFactorRange",
     "LoadPath",
+    "LoadPosition",
     "Nonassociated",
     "Origin",
     "PathStep",
     "RangeAnswer",
     "Report",
+    "Sensitivities",
     "Snap",
     "Stability",
     "Standing",

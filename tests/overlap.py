@@ -26,10 +26,11 @@ def _not_drawn(axes):
         if axis is None:
             continue
         off = solid or not axes.axison or not axis.get_visible()
-        low, high = sorted(axis.get_view_interval())
-        room = 1e-9 * max(abs(low), abs(high))
+        along = axis.get_transform().transform  # of a logarithmic axis the logarithm
+        low, high = sorted(along(axis.get_view_interval()))
+        room = 1e-9 * (high - low)
         for tick in (*axis.get_major_ticks(), *axis.get_minor_ticks()):
-            if off or not low - room <= tick.get_loc() <= high + room:
+            if off or not low - room <= along([tick.get_loc()])[0] <= high + room:
                 yield from (tick.label1, tick.label2)
         if off:
             yield from (axis.label, axis.get_offset_text())

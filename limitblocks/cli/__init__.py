@@ -6,6 +6,9 @@ wrong, 3 no solution found, 130 interrupted.
 
 from __future__ import annotations
 
+import sys
+from io import TextIOWrapper
+
 import typer
 
 from limitblocks.cli import documents, verbs
@@ -37,6 +40,9 @@ for _name, _group in {"study": studies, "new": _new, "examples": examples}.items
 
 def main() -> None:
     """Run the command line."""
+    for stream in (sys.stdout, sys.stderr):  # a letter that the console lacks is no reason to crash
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")
     app(prog_name="limitblocks")
 
 

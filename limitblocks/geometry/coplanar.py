@@ -19,7 +19,7 @@ FLAT = 1e-4
 COLLINEAR = 1e-6
 
 
-def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
+def merged(points: Array, faces: Faces, size: float, most: int) -> tuple[Faces, float]:
     """Return the faces of a closed surface with coplanar neighbours merged, and how far those are from flat.
 
     A face that would have a hole, or touch itself, stays in pieces. Vertices between two edges in one line
@@ -33,11 +33,13 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
         Closed surface, each edge used once in each direction.
     size : float
         Of the block, m.
+    most : int
+        Faces after which no more are looked for; one more than these is returned then.
     """
     limit = FLAT * size
     rings: list[tuple[int, ...]] = []
     warp = 0.0
-    for members in _regions(points, faces, limit):
+    for members in _regions(points, faces, limit, most):
         ring = _ring([faces[k] for k in members]) if len(members) > 1 else ()
         off = warp_of(points, ring, {v for k in members for v in faces[k]}) if ring else 0.0
         if ring and off <= 2.0 * limit:
@@ -45,6 +47,8 @@ def merged(points: Array, faces: Faces, size: float) -> tuple[Faces, float]:
             rings.append(ring)
         else:
             rings += [faces[k] for k in members]
+    if len(rings) > most:
+        return tuple(rings[: most + 1]), warp
     return _without_needless(points, tuple(rings), COLLINEAR * size), warp
 
 
@@ -74,7 +78,7 @@ def area_vectors(points: Array, faces: Faces) -> Array:
     return np.asarray(np.add.reduceat(swept, np.flatnonzero(np.diff(owner, prepend=-1))) / 2.0)
 
 
-def _regions(points: Array, faces: Faces, limit: float) -> list[list[int]]:
+def _regions(points: Array, faces: Faces, limit: float, most: int) -> list[list[int]]:
     """Return groups of adjacent faces, each within `limit` of the plane of its largest face."""
     vectors = area_vectors(points, faces)
     areas = np.linalg.norm(vectors, axis=1)
@@ -84,8 +88,10 @@ def _regions(points: Array, faces: Faces, limit: float) -> list[list[int]]:
     slim = areas <= limit * length
     least = np.cos(ANGLE)
     free = np.ones(len(faces), dtype=bool)
-    regions = []
+    regions: list[list[int]] = []
     for seed in np.argsort(-areas, kind="stable").tolist():
+        if len(regions) > most:
+            break
         if not free[seed]:
             continue
         free[seed] = False

@@ -73,9 +73,13 @@ def mended(
     if not loops:
         _wrong(name, "no face has an area; a solid is needed")
     loops = _outward(name, points, loops, notes)
-    loops, warp = coplanar.merged(points, loops, size)
+    loops, warp = coplanar.merged(points, loops, size, _MOST_FACES)
     if len(loops) > _MOST_FACES:
-        _wrong(name, f"it has {len(loops)} faces that are not in one plane; at most {_MOST_FACES} are taken")
+        _wrong(
+            name,
+            f"it has more than {_MOST_FACES} plane faces, the most that are taken; make the mesh "
+            "coarser, as by decimation in the program that wrote it",
+        )
     if warp > WELD * size:
         notes.append(f"faces made of several pieces are flat within {warp:.2g} m, and taken as flat")
     points, loops = _untwisted(name, points, loops, size, twisted, notes)

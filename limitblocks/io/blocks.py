@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from copy import copy
 from pathlib import Path
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats
-from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, imported, labels, read_bytes
+from limitblocks.io.imported import (
+    Contents,
+    ImportedBlocks,
+    UnitWeight,
+    foreign,
+    imported,
+    labels,
+    one_line,
+    read_bytes,
+)
 from limitblocks.model import Model
 from limitblocks.written import write
 
@@ -62,8 +72,14 @@ def contents_of(path: Path) -> Contents:
     suffix = path.suffix.lower()
     if suffix not in formats.READ:
         known = ", ".join(sorted(formats.READ))
+        if suffix in formats.INSTEAD:
+            raise ModelError(
+                f"{suffix[1:].upper()} is not read: {formats.INSTEAD[suffix]} (blocks are read from {known})"
+            )
         raise ModelError(f"suffix {suffix!r} is unknown; blocks are read from {known}, models from .json")
-    contents: Contents = formats.module(suffix).contents(path)
+    module = formats.module(suffix)
+    with foreign(suffix[1:]):
+        contents: Contents = module.contents(path)
     return contents
 
 
@@ -96,9 +112,21 @@ def write_blocks(
         raise ModelError(
             f"{path}: suffix {path.suffix!r} is unknown; expected one of {', '.join(formats.WRITTEN)}"
         )
-    supports = set(blocks.supports) if isinstance(blocks, Model | ImportedBlocks) else set[str]()
+    given = blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ()
+    bodies, supports = tuple(map(_plain, bodies)), set(map(one_line, given))
     layers = labels(bodies, supports or None)
     return write(path, formats.module(path.suffix).encoded(bodies, layers, supports), overwrite)
+
+
+def _plain(block: Block) -> Block:
+    """Return a block with its name, layer and material as every format can have them."""
+    words = {key: getattr(block, key) for key in ("name", "layer", "material")}
+    plain = {key: one_line(word) for key, word in words.items()}
+    if plain == words:
+        return block
+    same = copy(block)
+    same.__dict__.update(plain)
+    return same
 
 
 def is_model_file(path: Path) -> bool:

@@ -4,9 +4,17 @@ from __future__ import annotations
 
 from dataclasses import MISSING, fields
 from inspect import getdoc
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, Union, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    create_model,
+    model_validator,
+)
 
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.io.units import Force, Length
@@ -15,11 +23,15 @@ from limitblocks.io.units import Force, Length
 Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
 Vector = tuple[Number, Number, Number]
 Place = tuple[Number, Number]
+T = TypeVar("T")
+#: A list of which the first fault is told; a file of a million zeros would take gigabytes of them otherwise.
+Many = Annotated[list[T], Field(fail_fast=True)]
 _BOUNDED: dict[Any, Any] = {
     float: Number,
     tuple[float, float]: Place,
     tuple[float, float, float]: Vector,
     tuple[float, float, float] | None: Vector | None,
+    tuple[str, ...]: Annotated[tuple[str, ...], Field(fail_fast=True)],
 }
 _ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}]}
 
@@ -52,9 +64,9 @@ class BlockDocument(Document):
     """Layer or group that it is on."""
     material: str = ""
     """What it is made of; a name in `materials` where the file has them."""
-    vertices: list[Vector] | None = None
+    vertices: Many[Vector] | None = None
     """Vertices in global axes, m."""
-    faces: list[list[int]] | None = None
+    faces: Many[Many[int]] | None = None
     """Vertex indices (from 0) of each face, counter-clockwise seen from outside."""
     box: Box | None = None
 
@@ -78,7 +90,7 @@ class InterfaceDocument(Document):
     """Centroid of the polygon, global axes, m."""
     axes: tuple[Vector, Vector, Vector]
     """Right-handed unit vectors s1, s2, n in global axes."""
-    polygon: Annotated[list[Place], Field(min_length=3)]
+    polygon: Annotated[Many[Place], Field(min_length=3)]
     """Vertices along s1, s2 about the centroid, counter-clockwise about n, m."""
     joint: str
     """A name in `joints`."""
@@ -151,7 +163,7 @@ else:  # built from the classes that exist, which a type checker cannot follow
 class MaterialDocument(Document):
     """What blocks are made of."""
 
-    blocks: list[str] = []
+    blocks: Many[str] = []
     """Names, patterns, "layer:PATTERN"; left out, blocks whose layer or material has this name."""
     unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
     """Weight per volume, N/m3; left out for blocks that have one, and for supports."""
@@ -184,7 +196,7 @@ class MaterialsDocument(Document):
     """Units of all numbers of the file; m and N if left out."""
     materials: dict[str, MaterialDocument]
     """The materials by name; a block is of the first that picks it."""
-    pairs: list[PairDocument] = []
+    pairs: Many[PairDocument] = []
     """Joints between two materials; other pairs get the weaker joint of both."""
 
 
@@ -193,7 +205,7 @@ def _form(interfaces: Any) -> str:
 
 
 Interfaces = Annotated[
-    Annotated[list[InterfaceDocument], Tag("list")] | Annotated[Find, Tag("find")], Discriminator(_form)
+    Annotated[Many[InterfaceDocument], Tag("list")] | Annotated[Find, Tag("find")], Discriminator(_form)
 ]
 
 
@@ -210,13 +222,13 @@ class ModelDocument(Document):
     """Title in reports."""
     units: UnitsDocument = UnitsDocument()
     """Units of all numbers of the file; m and N if left out."""
-    blocks: list[BlockDocument]
+    blocks: Many[BlockDocument]
     """All blocks, those of the supports included."""
-    supports: list[str]
+    supports: Many[str]
     """Names of the blocks that do not move."""
     materials: dict[str, MaterialDocument] = {}
     """Unit weights and joints of the blocks, by the name of a material."""
-    pairs: list[PairDocument] = []
+    pairs: Many[PairDocument] = []
     """Joints between two materials; other pairs get the weaker joint of both."""
     joints: dict[str, JointDocument]
     """What interfaces can carry, by name; empty where `materials` say it."""
@@ -224,7 +236,7 @@ class ModelDocument(Document):
     """The interfaces, or how to find them."""
     tolerances: TolerancesDocument | None = None
     """Tolerances that a list of interfaces was found with."""
-    dead: list[TermDocument] = [SelfWeight(type="SelfWeight")]
+    dead: Many[TermDocument] = [SelfWeight(type="SelfWeight")]
     """Terms of the constant loads; self weight if left out."""
-    live: list[TermDocument]
+    live: Many[TermDocument]
     """Terms of the loads that the load factor multiplies."""

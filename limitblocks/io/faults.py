@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
@@ -9,11 +10,11 @@ from functools import cache
 from pathlib import Path
 from reprlib import repr as _value
 from textwrap import shorten
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin
 
 import numpy as np
 
-from limitblocks.errors import ModelError, near
+from limitblocks.errors import MOST_PROBLEMS, ModelError, near
 
 if TYPE_CHECKING:
     from limitblocks.io.documents import Document
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["Faults", "named", "near", "validated"]
 
 _LONGEST_LINE = 500
+#: Faults after which no more are counted.
+_COUNTED = 10_000
 _MORE = re.compile(r"and \d+ more faults")
 D = TypeVar("D", bound="Document")
 
@@ -54,7 +57,55 @@ def validated(form: type[D], text: str, data: Any) -> D:
         return form.model_validate_json(text)
     except ValidationError as error:
         faults = error.errors(include_url=False)
-    raise ModelError(*(f"{_place(fault['loc'], data)}{_said(fault, form)}" for fault in faults))
+    # of a list the first fault alone is told, so its parts are looked at one by one
+    parts = {key: _part_of(form, key) for key in form.model_fields}
+    lists = [
+        key for key in parts if parts[key] and isinstance(data, dict) and isinstance(data.get(key), list)
+    ]
+    lines: list[str] = []
+    for fault in faults:
+        if fault["loc"][:1] not in [(key,) for key in lists] or len(fault["loc"]) == 1:
+            _tell(lines, "", fault, data, form)
+    for key in lists:
+        _tell_parts(lines, key, data[key], parts[key], form)
+    raise ModelError(*lines)
+
+
+def _tell(lines: list[str], place: str, fault: Any, data: Any, form: type[Document]) -> None:
+    """Add the line of a fault; an empty one where it is counted only."""
+    if len(lines) >= MOST_PROBLEMS:
+        lines.append("")
+        return
+    within = _place(fault["loc"], data)
+    dot = "." * bool(place and within and not within.startswith("["))
+    lines.append(f"{place}{dot}{within or (place and ': ')}{_said(fault, form)}")
+
+
+def _part_of(form: type[Document], key: str) -> Any:
+    """Return what checks one part of the list that stands under `key`; None where there is no list."""
+    from pydantic import TypeAdapter
+
+    waiting = [form.model_fields[key].annotation]
+    while waiting:
+        one = waiting.pop()
+        if get_origin(one) is list:
+            return TypeAdapter(get_args(one)[0])
+        waiting += [arg for arg in get_args(one) if get_args(arg)]
+    return None
+
+
+def _tell_parts(lines: list[str], key: str, parts: list[Any], adapter: Any, form: type[Document]) -> None:
+    """Add the lines of the faults of the parts of a list."""
+    from pydantic import ValidationError
+
+    for k, part in enumerate(parts):
+        if len(lines) >= _COUNTED:
+            return
+        try:
+            adapter.validate_json(json.dumps(part))
+        except ValidationError as error:
+            for fault in error.errors(include_url=False):
+                _tell(lines, f"{key}[{k}]", fault, part, form)
 
 
 class Faults(list[str]):

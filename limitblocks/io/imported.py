@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import warnings
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
@@ -10,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, guesses, strict_json
 from limitblocks.io.guesses import Boxes
 from limitblocks.io.made import Made, left_out, made, refused
+from limitblocks.io.solid import Solid
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -31,6 +33,9 @@ MOST_FACES = 1_000_000
 
 #: From axes with Y up to axes with Z up.
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
+
+#: Control characters, and halves of letters.
+_NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 
 UnitWeight = float | Mapping[str, float] | None
 
@@ -64,20 +69,6 @@ class ImportedBlocks:
     def layers(self) -> dict[str, str]:
         """Layer, group or material of each block, by block name; empty text where the file has none."""
         return {block.name: block.layer for block in self.blocks}
-
-
-class Solid(NamedTuple):
-    """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file.
-
-    `support` says whether the file marks it so; None: its layer says it.
-    """
-
-    name: str
-    layer: str
-    vertices: Any
-    faces: Sequence[Sequence[int]]
-    support: bool | None = None
-    material: str = ""
 
 
 class Contents(NamedTuple):
@@ -114,8 +105,8 @@ def refuse_many(solids: int = 0, faces: int = 0) -> None:
 
 
 def one_line(name: str) -> str:
-    """Return a name as one line of a text file, without blanks around it."""
-    return " ".join(name.split())
+    """Return a name as one line of text without blanks around it; what is no letter becomes U+FFFD."""
+    return " ".join(_NO_LETTER.sub("\ufffd", " ".join(name.split())).split())
 
 
 @contextmanager
@@ -248,7 +239,7 @@ def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:
 
     The first of a name keeps it, the others get a number: "stone", "stone 2", "stone 3".
     """
-    given = [" ".join(name.split()) or "block" for name in names]
+    given = [one_line(name) or "block" for name in names]
     times, taken, last = Counter(given), set(given), dict.fromkeys(given, 1)
     unique = []
     for name in given:

@@ -26,7 +26,9 @@ def package(name: str, files: str) -> ModuleType:
 def missing(name: str, user: str) -> MissingDependency:
     """Return the error that says what `user` needs and how to install it, however limitblocks itself was."""
     top = name.partition(".")[0]
-    return MissingDependency(f"{user} needs the package {top}; install it by: pip install '{required(top)}'")
+    return MissingDependency(
+        f"{user}: the package {top} is missing; install it by: pip install '{required(top)}'"
+    )
 
 
 def required(name: str) -> str:

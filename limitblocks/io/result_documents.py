@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from limitblocks.io.documents import Document, Number
+from limitblocks.io.documents import Document, Many, Number
 from limitblocks.problem import ASSOCIATED, Turning
 
 Six = tuple[Number, Number, Number, Number, Number, Number]
@@ -17,7 +17,7 @@ def _form(rows: Any) -> str:
 
 
 Rows = Annotated[
-    Annotated[list[Six], Tag("in order")] | Annotated[dict[str, Six], Tag("by name")], Discriminator(_form)
+    Annotated[Many[Six], Tag("in order")] | Annotated[dict[str, Six], Tag("by name")], Discriminator(_form)
 ]
 
 
@@ -30,13 +30,13 @@ class StateDocument(Document):
     """SHA-256 of the model."""
     stress_resultants: Rows
     """(V1, V2, N, M1, M2, T) of each interface."""
-    generalised_stresses: list[Number] | None = None
+    generalised_stresses: Many[Number] | None = None
     """What the rows of the joints act on."""
     displacement_rates: Rows | None = None
     """(du, dv, dw, dwX, dwY, dwZ) of each block."""
-    flow_multipliers: list[Number] | None = None
+    flow_multipliers: Many[Number] | None = None
     """Of each row of the limit problem."""
-    dead_load_stresses: list[Number] | None = None
+    dead_load_stresses: Many[Number] | None = None
     """Generalised stresses that carry the dead loads alone."""
     # kept for the reader; no check believes a word of it
     residuals: Any = None

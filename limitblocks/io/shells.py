@@ -13,7 +13,7 @@ from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
 from limitblocks.geometry.polyhedron import Faces
-from limitblocks.io.imported import Solid
+from limitblocks.io.solid import Solid
 
 
 def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Sequence[int]]) -> list[Solid]:
@@ -44,7 +44,10 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
 
 def _in_range(points: Array, loops: Faces) -> bool:
     """Return whether the faces can be told apart at all; what is wrong with one solid is said of it later."""
-    corners = np.concatenate([np.asarray(loop, dtype=np.int64) for loop in loops])
+    try:
+        corners = np.concatenate([np.asarray(loop, dtype=np.int64) for loop in loops])
+    except OverflowError:
+        return False
     sound = len(corners) > 0 and corners.min() >= 0 and corners.max() < len(points)
     return (
         bool(sound) and min(map(len, loops)) > 0 and bool((np.abs(points[np.unique(corners)]) < 1e30).all())

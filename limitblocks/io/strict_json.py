@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn
@@ -11,6 +12,9 @@ from limitblocks.errors import ModelError
 
 #: Largest file accepted, bytes.
 LARGEST_FILE = 100_000_000
+#: Most that one file, and one object in it, may have; in memory they are many times their text.
+_MOST = {"lists and objects": 3_000_000, "keys": 5_000_000, "values": 8_000_000}
+_MOST_KEYS = 250_000
 
 
 def plain_bytes(path: Path, expected: str) -> bytes:
@@ -63,6 +67,10 @@ def parse(text: str) -> Any:
     ModelError
         The text is not JSON, nests too deeply, or has a key twice in one object.
     """
+    counts = text.count("[") + text.count("{"), text.count(":"), text.count(",")
+    for (word, most), count in zip(_MOST.items(), counts, strict=True):
+        if count > most:
+            raise ModelError(f"has about {count} {word}; at most {most} are read")
     try:
         return json.loads(text, parse_constant=_refuse_constant, object_pairs_hook=_unique)
     except json.JSONDecodeError as error:
@@ -96,9 +104,10 @@ def _refuse_constant(word: str) -> NoReturn:
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    if len(pairs) > _MOST_KEYS:
+        raise ModelError(f"an object has {len(pairs)} keys; at most {_MOST_KEYS} are read")
     members = dict(pairs)
     if len(members) < len(pairs):
-        keys = [key for key, _ in pairs]
-        twice = next(key for key in keys if keys.count(key) > 1)
+        twice = Counter(key for key, _ in pairs).most_common(1)[0][0]
         raise ModelError(f"key {twice!r} appears twice in one object; keep one of them")
     return members

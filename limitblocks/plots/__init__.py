@@ -14,6 +14,7 @@ except ImportError as error:
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import bracket, convergence, load_path, polar
 from limitblocks.plots.findings import findings
+from limitblocks.plots.sensitivities import sensitivity
 from limitblocks.plots.structures import mechanism, structure
 from limitblocks.plots.surfaces import interaction
 
@@ -27,6 +28,7 @@ __all__ = [
     "load_path",
     "mechanism",
     "polar",
+    "sensitivity",
     "structure",
     "thrust_line",
 ]

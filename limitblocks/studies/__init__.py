@@ -1,5 +1,6 @@
 """Many analyses at once: directions, moving loads, parameters, and the least that stands."""
 
+from limitblocks.analysis.sensitivities import shape_sensitivity
 from limitblocks.studies.results import Directions, MovingLoad, Study, Sweep
 from limitblocks.studies.series import directions, moving_load, sweep
 from limitblocks.studies.threshold import Threshold, maximum, minimum
@@ -14,6 +15,7 @@ __all__ = [
     "maximum",
     "minimum",
     "moving_load",
+    "shape_sensitivity",
     "sweep",
 ]
 

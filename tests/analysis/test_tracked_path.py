@@ -7,8 +7,11 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import path as tracking
+from limitblocks.analysis.nonassociated import ways
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import (
@@ -21,6 +24,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.problem import Flow, Turning
 
 # Ferris & Tin-Loi (2001), non-associated: the reference and another code; not unique, so 1 % about the two
@@ -79,7 +83,43 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
     assert not path.closed
 
 
-def test_increments_of_the_load_path_close_what_the_small_barrier_leaves_open():
+@pytest.fixture(scope="module")
+def lintel():
+    """The begin of an increment of an eccentric lintel that crushes, and 1 / tau of an elastic one."""
+    model = structures.eccentric_lintel(lb.OrdunaLourenco(0.6, compressive_strength=0.3e6), eccentricity=0.1)
+    flow, x0, weights = start(model)
+    power = load_scale(flow.problem, lb.bounds(model).upper) / len(model.free_blocks)
+    path = path_from(flow, x0, weights, Barrier(0.01, floor=0.0), 0, power)
+    return path, weights, float(path.elastic[0] / weights[0])
+
+
+def test_an_increment_far_beyond_the_elastic_part_begins_farther_back(lintel, monkeypatch):
+    path, weights, rho = lintel
+    assert increment(path, weights, 1e-4 * rho, left=1e-5).increment is not None
+    monkeypatch.setattr(increments, "SPANS", increments.SPANS[:1])
+    assert increment(path, weights, 1e-4 * rho, left=1e-5).increment is None
+
+
+def test_what_is_left_of_the_barrier_can_fade_later(lintel):
+    path, weights, rho = lintel
+    coarse = increment(path, weights, 0.1 * rho, left=1e-5)
+    fine = increment(path, weights, 0.1 * rho)
+    assert coarse.increment.left == pytest.approx(1e-5, rel=0.01)
+    assert fine.increment.left == pytest.approx(NO_BARRIER, rel=0.01)
+    assert coarse.factorisations < fine.factorisations
+    later = faded(coarse.increment)
+    assert later.increment.left == pytest.approx(NO_BARRIER, rel=0.01)
+    assert later.increment.end.load_factor == pytest.approx(fine.increment.end.load_factor, rel=1e-6)
+
+
+def test_means_of_the_small_barrier_come_before_increments(monkeypatch):
+    model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    monkeypatch.setattr(ways, "_increments", None)  # not asked for
+    means = (Means(Barrier(), 0, 1), Means(Barrier(0.02, 2.0), 1, 300))
+    assert "small barrier" not in lb.nonassociated(model, means=means).how
+
+
+def test_increments_of_the_load_path_close_what_small_barriers_leave_open():
     door = [(1.2, 0.0, 0.8, 1.2)]
     joint = lb.OrdunaLourenco(0.8, compressive_strength=0.3e6)
     model = structures.facade(

@@ -40,6 +40,13 @@ def test_the_axis_up_is_never_guessed_wrongly(name):
     assert bool(guesses.tilted(lying, "z")) == bool(guesses.tilted(upright, "y")) == (name not in UNTOLD)
 
 
+def test_a_pillar_of_many_slices_is_looked_at_in_part():
+    """Each of 20 000 slices lies above all below it: all pairs would take gigabytes."""
+    low = np.column_stack([np.zeros((20_000, 2)), 0.1 * np.arange(20_000)])
+    pillar = guesses.Boxes(low, low + np.array([1.0, 1.0, 0.1]), np.zeros(20_000, dtype=bool))
+    assert (guesses.tilted(pillar, "z"), bool(guesses.tilted(pillar, "y"))) == ("", True)
+
+
 def test_a_file_that_lies_on_its_side_is_turned_with_a_warning(tmp_path):
     blocks = plain(EXAMPLES["wall"](JOINT))
     assert lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "z.obj")).guesses == ()
@@ -109,6 +116,20 @@ def test_layers_and_materials_are_kept_by_the_model_file(tmp_path):
     assert again.digest == MODEL.digest
     bare = replace(MODEL, blocks=[replace(b, layer="", material="") for b in LABELLED])
     assert not [block for block in bare.to_dict()["blocks"] if {"layer", "material"} & block.keys()]
+
+
+def test_the_material_of_a_layer_in_rhino_is_that_of_its_objects(tmp_path):
+    rhino3dm = pytest.importorskip("rhino3dm")
+    model, material, layer = rhino3dm.File3dm(), rhino3dm.Material(), rhino3dm.Layer()
+    material.Name, layer.Name = "Granite", "Wall"
+    layer.RenderMaterialIndex = model.Materials.Add(material)
+    attributes = rhino3dm.ObjectAttributes()
+    attributes.Name, attributes.LayerIndex = "stone", model.Layers.Add(layer)
+    corners = rhino3dm.BoundingBox(rhino3dm.Point3d(0, 0, 0), rhino3dm.Point3d(1, 2, 3))
+    model.Objects.AddBrep(rhino3dm.Brep.CreateFromBox(rhino3dm.Box(corners)), attributes)
+    assert model.Write(str(tmp_path / "a.3dm"), 7)
+    (block,) = lb.files.read_blocks(tmp_path / "a.3dm").blocks
+    assert (block.name, block.layer, block.material) == ("stone", "Wall", "Granite")
 
 
 def test_layers_and_materials_go_to_paraview_and_to_the_picture_of_a_report(tmp_path):

@@ -185,7 +185,7 @@ def test_without_the_packages_of_the_extra_meshes(package, suffix, write, tmp_pa
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(
         lb.errors.MissingDependency,
-        match=rf"need the package {package}; install it by: pip install '{package}>=",
+        match=rf"the package {package} is missing; install it by: pip install '{package}>=",
     ):
         write(tmp_path / f"a{suffix}")
     assert list(tmp_path.iterdir()) == []

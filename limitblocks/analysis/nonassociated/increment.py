@@ -23,7 +23,9 @@ from limitblocks.analysis.nonassociated.path_newton import REFINED
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array
 
-SPAN = 10.0  # last tau over the first one: the elastic part of an increment needs no points
+# last tau over the first one: the elastic part of an increment needs no points; where tau is large already
+# Newton's method may find no first point so far from the elastic part
+SPANS = (10.0, 1000.0)
 ARRIVED = 1.01  # times the last theta
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
@@ -41,11 +43,20 @@ class Visit(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Increment:
-    """Points from the first tau to the last with the barrier, and the end without it."""
+    """Points from the first tau to the last with the barrier, and the end with as little of it as is left.
+
+    `fading` is the path on which theta is the barrier, at the last tau.
+    """
 
     visits: tuple[Visit, ...]
     end: Point
     rho: float
+    fading: Path
+
+    @property
+    def left(self) -> float:
+        """Size of the barrier at the end."""
+        return self.fading.barrier.size * self.end.theta
 
     @property
     def folds(self) -> tuple[tuple[int, int], ...]:
@@ -125,7 +136,7 @@ class _Stretch(Walk):
 
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
-def increment(path: Path, weights: Array, rho: float) -> Tried:
+def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) -> Tried:
     """Push by 1 / rho from the stresses path.x0.
 
     Parameters
@@ -136,16 +147,21 @@ def increment(path: Path, weights: Array, rho: float) -> Tried:
         Compliance W of the joints.
     rho : float
         One over the displacement on which the live load works, dimensionless.
+    left : float
+        Size of the barrier at the end.
     """
-    first = SPAN * rho
-    curve = replace(path, elastic=first * weights)
-    try:
-        start, used = centred(curve)
-    except (RuntimeError, ValueError, np.linalg.LinAlgError):
-        return Tried(None, 1)
+    for span in SPANS:
+        first = span * rho
+        curve = replace(path, elastic=first * weights)
+        try:
+            start, used = centred(curve)
+        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+            start, used = None, 1
+        if start is not None:
+            break
     if start is None:
         return Tried(None, used)
-    walk = _Stretch(curve, start, 1.0 / SPAN)
+    walk = _Stretch(curve, start, 1.0 / span)
     walk.go()
     used += walk.factorisations
     if not walk.arrived:
@@ -153,7 +169,14 @@ def increment(path: Path, weights: Array, rho: float) -> Tried:
     last = walk.kept[-1]
     size, rho = path.barrier.size * last.theta / FADING, first * last.theta
     fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=rho * weights)
-    fade = _Stretch(fading, replace(last, theta=FADING), NO_BARRIER / size)
+    begun = Increment(walk.visits(first), replace(last, theta=FADING), rho, fading)
+    return faded(begun, left, used)
+
+
+@np.errstate(all="ignore")
+def faded(met: Increment, left: float = NO_BARRIER, used: int = 0) -> Tried:
+    """The increment with no more of the barrier at its end; `used` factorisations are counted with it."""
+    fade = _Stretch(met.fading, met.end, left / met.fading.barrier.size)
     fade.go()
     used += fade.factorisations
-    return Tried(Increment(walk.visits(first), fade.kept[-1], rho) if fade.arrived else None, used)
+    return Tried(replace(met, end=fade.kept[-1]) if fade.arrived else None, used)

@@ -13,7 +13,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.increment import Increment, increment
+from limitblocks.analysis.nonassociated.increment import (
+    ARRIVED,
+    NO_BARRIER,
+    Increment,
+    Tried,
+    faded,
+    increment,
+)
+from limitblocks.analysis.nonassociated.path import state_of
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -94,9 +102,9 @@ def pushed(
     state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
-        met = increment(path, weights, rho)
+        met = increment(path, weights, rho, settings.left)
+        met, proof, closed = _ended(flow, met, tolerance)
         used += met.factorisations
-        proof = None if met.increment is None else _proof(flow, met.increment)
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
@@ -106,30 +114,39 @@ def pushed(
             else:
                 rho *= settings.growth**2
             continue
-        z = met.increment.end
-        state = State(z.load_factor, z.x, z.u, z.y)
+        state = state_of(met.increment.end)
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
             progress(pushes[-1])
-        closed = _closed(flow, pushes[-1], tolerance)
         if closed is not None:
             return tuple(pushes), closed
-        path, failures = replace(path, x0=z.x), 0
+        path, failures = replace(path, x0=state.x), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     return tuple(pushes), polish(flow, state)
 
 
+def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals | None, State | None]:
+    """The increment, residuals of its end, and the collapse; without a barrier where it may be near one.
+
+    Without residuals the end is not in equilibrium within yield; without a collapse there is more to push.
+    """
+    proof = None if met.increment is None else _proof(flow, met.increment)
+    if met.increment is None or proof is None or proof["flow"] > NEAR:
+        return met, proof, None
+    closed = _closed(flow, met.increment, tolerance)
+    if closed is not None or met.increment.left <= ARRIVED * NO_BARRIER:
+        return met, proof, closed
+    return _ended(flow, faded(met.increment, used=met.factorisations), tolerance)
+
+
 def _proof(flow: Flow, met: Increment) -> Residuals | None:
     """Residuals of the end of an increment, None where it is not in equilibrium within yield."""
-    z = met.end
-    residuals = mcp_residuals(flow, State(z.load_factor, z.x, z.u, z.y))
+    residuals = mcp_residuals(flow, state_of(met.end))
     return residuals if max(residuals["equilibrium"], residuals["yield"]) <= ADMISSIBLE else None
 
 
-def _closed(flow: Flow, last: Pushed, tolerance: float) -> State | None:
+def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
     """The collapse that an increment ends at, None if it does not."""
-    if last.residuals["flow"] > NEAR:
-        return None
-    state, before = polish(flow, last.state), last.state.load_factor
+    state, before = polish(flow, state_of(met.end)), met.end.load_factor
     near = abs(state.load_factor - before) <= DRIFT * max(abs(state.load_factor), abs(before))
     return state if near and mcp_residuals(flow, state).worst.value <= tolerance else None

@@ -84,8 +84,8 @@ def nonassociated(
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
         loop ends at another solution, and it may stall.
     means : sequence of Means, optional
-        Paths to follow in turn, until one ends at a solution; after the first of several the increments of
-        :func:`limitblocks.load_path` are tried.
+        Paths to follow in turn, until one ends at a solution; before those of a large barrier the increments
+        of :func:`limitblocks.load_path` are tried, if there is more than one.
     progress : callable, optional
         Called with each Iteration.
     confirm : bool

@@ -20,9 +20,9 @@ class Means(NamedTuple):
     budget: int
 
 
-# The small barrier is the load path. Where it winds, and increments do not close it either, the compliance
-# fades before the barrier (power 2), which cuts most folds; then the barrier is larger, which leads to
-# another solution, mostly at a higher load factor.
+# The small barrier is the load path. Where it winds the compliance fades before the barrier (power 2), which
+# cuts most folds; increments come next; then the barrier is larger, which leads to another solution, mostly
+# at a higher load factor.
 MEANS = (
     Means(Barrier(), 1, 300),
     Means(Barrier(0.02, 2.0), 1, 300),

@@ -18,6 +18,8 @@ class Settings:
     barrier : float
         Size of the barrier along an increment, over the mean load of a block; it is gone at its end. Snaps
         smaller than what it rounds off are not seen.
+    left : float
+        What is left of the barrier at the end of an increment that is far from collapse, as `barrier`.
     budget : int
         Factorisations of all increments together.
     """
@@ -25,4 +27,5 @@ class Settings:
     first: float = 0.05
     growth: float = 1.4
     barrier: float = 1e-2
+    left: float = 1e-10
     budget: int = 4000

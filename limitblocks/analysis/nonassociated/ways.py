@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.means import (
     Means,
     follow,
 )
+from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import polish
@@ -23,7 +24,7 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
-STEPS = Settings(growth=2.0)  # the load path in larger increments than those of `load_path`
+STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
 def first_to_solve(
@@ -78,9 +79,13 @@ def _ways(
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"from the solution that twists about the centroid, {how}"
+    small = [one for one in means[1:] if one.barrier.size <= Barrier().size]
+    for one in small:
+        yield tracked(one, x0)
     yield _increments(flow, x0, scale, tolerance, record)
     for one in means[1:]:
-        yield tracked(one, x0)
+        if one not in small:
+            yield tracked(one, x0)
 
 
 def _increments(

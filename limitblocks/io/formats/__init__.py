@@ -15,6 +15,15 @@ _MODULES = {
 }
 #: Suffixes of files that blocks are read from, and written to.
 READ = tuple(_MODULES)
+#: What to do with files of other formats.
+INSTEAD = {
+    ".ifc": "export meshes, an object an element, as by IfcConvert house.ifc house.obj --use-element-guids",
+    ".dwg": "save it as DXF",
+    ".skp": "export OBJ or DXF, a group a stone",
+    ".blend": "export OBJ, with the option Objects as OBJ Objects",
+    ".step": "export meshes, as OBJ or STL, a solid a stone",
+    ".stp": "export meshes, as OBJ or STL, a solid a stone",
+}
 WRITTEN = tuple(suffix for suffix in _MODULES if suffix != ".gltf")
 
 

@@ -3,16 +3,22 @@
 # trimesh reads triangles alone: it would lose quads, and objects that groups or materials divide.
 from __future__ import annotations
 
+import re
+from array import array
 from collections.abc import Container, Iterator, Mapping, Sequence
 from pathlib import Path
 
+import numpy as np
+
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
+from limitblocks.io.imported import Contents, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
+from limitblocks.io.solid import Solid
 
 _Section = tuple[str, str, str]  # name, layer and material of what is drawn
 _Face = tuple[int, ...]
+_MOST_LINES, _LONGEST_LINE = 6_000_000, 1_000_000
 
 
 def contents(path: Path) -> Contents:
@@ -23,16 +29,16 @@ def contents(path: Path) -> Contents:
     ModelError
         A line cannot be read.
     """
-    vertices: list[list[float]] = []
+    vertices = array("d")
     drawn: dict[_Section, list[_Face]] = {}
     state = {"o": "", "g": "", "usemtl": ""}
     for number, (word, *rest) in _lines(read_bytes(path)):
         try:
             if word == "v":
                 x, y, z = map(float, rest[:3])
-                vertices.append([x, y, z])
+                vertices.extend((x, y, z))
             elif word == "f":
-                drawn.setdefault(_section(state, path), []).append(_face(rest, len(vertices)))
+                drawn.setdefault(_section(state, path), []).append(_face(rest, len(vertices) // 3))
             elif word in state:
                 state[word] = " ".join(rest)
         except ValueError as error:
@@ -40,12 +46,13 @@ def contents(path: Path) -> Contents:
                 f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {error}"
             ) from None
     refuse_many(faces=sum(map(len, drawn.values())))
+    points = np.array(vertices).reshape(-1, 3)
     bodies: list[Solid] = []
     for (name, layer, material), faces in drawn.items():
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
-        found = solids(name, layer, [vertices[vertex] for vertex in used], loops)
+        found = solids(name, layer, points[used], loops)
         bodies += [solid._replace(material=material) for solid in found]
     return Contents(bodies)
 
@@ -58,10 +65,20 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
         text = data.decode("latin-1")
     if "\0" in text:
         raise ModelError("is not text; an OBJ file is")
-    for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").splitlines(), 1):
+    if text.count("\n") > _MOST_LINES:
+        raise ModelError(f"has {text.count(chr(10))} lines; at most {_MOST_LINES} are read, split the file")
+    # a line goes on after a backslash, but in a name it is a letter
+    whole = re.sub(r"(?m)^[ \t]*[vf][^\n]*\\\r?\n(?:[^\n]*\\\r?\n)*", lambda m: _joined(m.group()), text)
+    for number, line in enumerate(whole.splitlines(), 1):
+        if len(line) > _LONGEST_LINE:
+            raise ModelError(f"line {number} has {len(line)} letters; at most {_LONGEST_LINE} are read")
         words = line.split()
         if words and not words[0].startswith("#"):
             yield number, words
+
+
+def _joined(lines: str) -> str:
+    return re.sub(r"\\\r?\n", " ", lines)
 
 
 def _section(state: dict[str, str], path: Path) -> _Section:

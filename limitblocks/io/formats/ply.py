@@ -3,9 +3,7 @@
 # trimesh reads no binary polygons of mixed sizes and writes single precision; meshio reads no face data.
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping, Sequence
-from io import BytesIO
-from itertools import islice
+from collections.abc import Container, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -24,7 +22,8 @@ _TYPES = {
 }
 _FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 _LOOPS = ("vertex_indices", "vertex_index")
-_Take = Callable[[str, int], npt.NDArray[Any]]  # the next so many values of a type
+_Columns = list[npt.NDArray[Any]]
+_LONGEST = 64  # lists that are taken for all items at once
 
 
 class _Property(NamedTuple):
@@ -51,19 +50,24 @@ def contents(path: Path) -> Contents:
     """
     data = read_bytes(path)
     order, elements, start = _header(data)
-    take = _binary(data[start:], order) if order else _text(data[start:])
+    source = _Binary(data[start:], order) if order else _Text(data[start:])
     try:
-        values = {element.name: _values(element, take) for element in elements}
+        values = {element.name: _values(element, source) for element in elements}
         vertices, faces = values.get("vertex", {}), values.get("face", {})
-        loops = next(
-            ([[int(v) for v in loop] for loop in faces[key]] for key in _LOOPS if key in faces), None
-        )
+        loops = next((_whole(faces[key]) for key in _LOOPS if key in faces), None)
     except (ValueError, IndexError, OverflowError, TypeError) as error:
         raise ModelError(f"values end early or are not as the header says: {error}") from None
     if loops is None or not {"x", "y", "z"} <= vertices.keys():
         raise ModelError("has no faces over vertices x, y, z; is it a point cloud?")
     points = np.column_stack([vertices[axis] for axis in "xyz"])
     return Contents(solids(path.stem, "", points, loops))
+
+
+def _whole(loops: Any) -> list[list[int]]:
+    """Return the faces as whole numbers, which those of a text were not yet."""
+    if isinstance(loops, np.ndarray):
+        return [list(map(int, loop)) for loop in loops.tolist()]
+    return [list(map(int, loop.tolist())) for loop in loops]
 
 
 def _header(data: bytes) -> tuple[str, list[_Element], int]:
@@ -103,36 +107,83 @@ def _refuse_claims(elements: list[_Element], left: int) -> None:
         refuse_many(faces=element.number if element.name == "face" else 0)
 
 
-def _text(data: bytes) -> _Take:
-    words = iter(data.decode("latin-1").split())
-    return lambda kind, count: np.array(list(islice(words, count)), dtype=np.float64)
+class _Text:
+    """Numbers in text, taken one after the other from `place` on."""
+
+    def __init__(self, data: bytes) -> None:
+        self.numbers, self.place = np.fromstring(data.decode("latin-1"), dtype=np.float64, sep=" "), 0
+
+    def take(self, kinds: Sequence[str], count: int) -> _Columns:
+        """Return columns of the next `count` rows of values of these types, shorter where they end."""
+        end = self.place + count * len(kinds)
+        table = self.numbers[self.place : end]
+        self.place = end
+        return list(table[: len(table) // len(kinds) * len(kinds)].reshape(-1, len(kinds)).T)
 
 
-def _binary(data: bytes, order: str) -> _Take:
-    stream = BytesIO(data)
+class _Binary:
+    """Binary numbers, taken one after the other from `place` on."""
 
-    def take(kind: str, count: int) -> npt.NDArray[Any]:
-        dtype = np.dtype(order + kind)
-        return np.frombuffer(stream.read(count * dtype.itemsize), dtype)
+    def __init__(self, data: bytes, order: str) -> None:
+        self.data, self.order, self.place = data, order, 0
 
-    return take
+    def take(self, kinds: Sequence[str], count: int) -> _Columns:
+        """Return columns of the next `count` rows of values of these types, shorter where they end."""
+        row = np.dtype([(str(k), self.order + kind) for k, kind in enumerate(kinds)])
+        whole = max(min(count, (len(self.data) - self.place) // row.itemsize), 0)
+        table = np.frombuffer(self.data, row, whole, self.place)
+        self.place += count * row.itemsize
+        return [table[str(k)] for k in range(len(kinds))]
 
 
-def _values(element: _Element, take: _Take) -> dict[str, Any]:
+def _values(element: _Element, source: _Text | _Binary) -> dict[str, Any]:
     """Return the values of each property of an element: a number or a list of numbers per item."""
-    names = [one.name for one in element.properties]
-    kinds = {one.kind for one in element.properties}
-    if len(kinds) == 1 and not any(one.length for one in element.properties):
-        table = take(kinds.pop(), element.number * len(names)).reshape(element.number, len(names))
-        return dict(zip(names, table.T, strict=True))
-    values: dict[str, list[Any]] = {name: [] for name in names}
+    if not element.number:
+        return {one.name: [] for one in element.properties}
+    alike = _alike(element, source)
+    if alike is not None:
+        return alike
+    values: dict[str, list[Any]] = {one.name: [] for one in element.properties}
     for _ in range(element.number):
         for one in element.properties:
-            count = int(take(one.length, 1)[0]) if one.length else 1
-            part = take(one.kind, count)
+            count = int(source.take([one.length], 1)[0][0]) if one.length else 1
+            part = source.take([one.kind], max(count, 0))[0]
             if len(part) != count:
                 raise ValueError("the values end early")
             values[one.name].append(part if one.length else part[0])
+    return values
+
+
+def _alike(element: _Element, source: _Text | _Binary) -> dict[str, Any] | None:
+    """Return the values where the lists of all items are as long as those of the first; None elsewhere."""
+    start, lengths, kinds = source.place, dict[int, int](), list[str]()
+    for one in element.properties:
+        if one.length:
+            lengths[len(kinds)] = max(int(source.take([one.length], 1)[0][0]), 0)
+        count = lengths[len(kinds)] if one.length else 1
+        source.take([one.kind], count)
+        kinds += [one.length] * bool(one.length) + [one.kind] * min(count, _LONGEST + 1)
+        if count > _LONGEST:
+            break
+    source.place = start
+    columns = source.take(kinds, element.number)
+    uniform = all((columns[k] == count).all() for k, count in lengths.items())
+    if max(lengths.values(), default=0) > _LONGEST or len(columns[0]) < element.number or not uniform:
+        source.place = start
+        return None
+    values, place = dict[str, Any](), 0
+    for one in element.properties:
+        if one.length:
+            count = lengths[place]
+            values[one.name] = (
+                np.column_stack(columns[place + 1 : place + 1 + count])
+                if count
+                else np.zeros((element.number, 0))
+            )
+            place += 1 + count
+        else:
+            values[one.name] = columns[place]
+            place += 1
     return values
 
 

@@ -14,8 +14,9 @@ import numpy.typing as npt
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
-from limitblocks.io.imported import Contents, Solid, foreign, read_bytes, refuse_many
+from limitblocks.io.imported import Contents, foreign, read_bytes, refuse_many
 from limitblocks.io.shells import solids
+from limitblocks.io.solid import Solid
 
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -36,9 +37,9 @@ def contents(path: Path) -> Contents:
     data = read_bytes(path)
     with foreign("glTF"):
         document, binary = _parts(data)
-        buffers = [_buffer(one, binary, path) for one in document.get("buffers", [])]
+        buffers = _buffers(document, binary, path)
         bodies: list[Solid] = []
-        faces = 0
+        faces = corners = 0
         for node, placement in _nodes(document):
             if "mesh" in node:
                 _refuse_moved(node)
@@ -46,6 +47,7 @@ def contents(path: Path) -> Contents:
                 name = node.get("name") or mesh.get("name") or path.stem
                 points, triangles = _geometry(document, buffers, mesh)
                 refuse_many(len(bodies), faces := faces + len(triangles))
+                refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
                 points = points @ placement[:3, :3].T + placement[:3, 3]
                 layer, material = _labels(document, node, mesh)
                 found = solids(str(name), layer, points, triangles)
@@ -86,10 +88,19 @@ def _chunks(data: bytes) -> Iterator[tuple[int, bytes]]:
         place += 8 + length
 
 
-def _buffer(buffer: dict[str, Any], binary: bytes, path: Path) -> bytes:
-    uri = buffer.get("uri")
-    if uri is None:
-        return binary
+def _buffers(document: dict[str, Any], binary: bytes, path: Path) -> list[bytes]:
+    """Return the buffers; what several say is read once."""
+    read: dict[str | None, bytes] = {None: binary}
+    uris = [one.get("uri") for one in document.get("buffers", [])]
+    for uri in uris:
+        if uri not in read:
+            read[uri] = _buffer(uri, path)
+            if sum(map(len, read.values())) > strict_json.LARGEST_FILE:
+                raise ModelError(f"its buffers are larger than {strict_json.LARGEST_FILE / 1e6:.0f} MB")
+    return [read[uri] for uri in uris]
+
+
+def _buffer(uri: str, path: Path) -> bytes:
     if uri.startswith("data:"):
         return base64.b64decode(uri.partition(",")[2], validate=True)
     if Path(uri).name != uri:

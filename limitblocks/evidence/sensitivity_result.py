@@ -1,0 +1,136 @@
+"""Result of the sensitivities: derivatives of the load factor by the data of a model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from limitblocks.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class LoadPosition:
+    """Derivative of the load factor by the point at which a load acts.
+
+    Attributes
+    ----------
+    load : str
+        "dead" or "live".
+    term : int
+        Position of the load among the terms of that sum.
+    block : str
+        Block it acts on.
+    gradient : Array, shape (3,)
+        Per m, global axes.
+    """
+
+    load: str
+    term: int
+    block: str
+    gradient: Array
+
+
+@dataclass(frozen=True)
+class Influence:
+    """What one datum does: `elasticity` is the change of the load factor per relative change of the datum."""
+
+    kind: str
+    name: str
+    elasticity: float
+
+    def __str__(self) -> str:
+        return f"{self.kind} of {self.name}: {self.elasticity:+.3g} per unit of relative change"
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivities:
+    """Derivatives of the associated load factor by the data of a model, without solving again.
+
+    Attributes
+    ----------
+    load_factor : float
+        Load factor they belong to, the lower bound.
+    friction : Array, shape (m,)
+        By the friction coefficient of each interface; NaN for joints without friction.
+    cohesion, compressive_strength, tensile_strength : Array, shape (m,)
+        By the strengths of each interface, 1/Pa; NaN where its joint has none, or it is zero.
+    unit_weight : Array, shape (n,)
+        By the unit weight of each block of the model, m3/N; zero for supports.
+    positions : tuple of LoadPosition
+        By the points at which loads act.
+    weights, frictions : Array, shapes (n,) and (m,)
+        Unit weights, N/m3, and friction coefficients of the model, for `governing`.
+    unique : bool
+        Whether the mechanism is the only one, so that derivatives by weights and loads are two-sided.
+    agreed : ndarray of bool, shape (m,)
+        Whether all stress states of the load factor agree on the derivative by the friction of the interface,
+        so that it is two-sided.
+    blocks, interfaces : tuple of str
+        Names.
+    digest : str
+        SHA-256 of the model.
+    """
+
+    load_factor: float
+    friction: Array
+    cohesion: Array
+    compressive_strength: Array
+    tensile_strength: Array
+    unit_weight: Array
+    positions: tuple[LoadPosition, ...]
+    weights: Array
+    frictions: Array
+    unique: bool
+    agreed: npt.NDArray[np.bool_]
+    blocks: tuple[str, ...]
+    interfaces: tuple[str, ...]
+    digest: str
+
+    @property
+    def of_interfaces(self) -> Array:
+        """Change of the load factor per relative change of the friction of each interface, shape (m,)."""
+        return np.asarray(np.nan_to_num(self.friction * self.frictions))
+
+    @property
+    def of_blocks(self) -> Array:
+        """Change of the load factor per relative change of the unit weight of each block, shape (n,)."""
+        return np.asarray(self.unit_weight * self.weights)
+
+    def governing(self, n: int = 10) -> tuple[Influence, ...]:
+        """Return the `n` joints and stones whose friction or unit weight matters most, the largest first."""
+        found = [
+            Influence("friction", *pair) for pair in zip(self.interfaces, self.of_interfaces, strict=True)
+        ]
+        found += [Influence("unit weight", *pair) for pair in zip(self.blocks, self.of_blocks, strict=True)]
+        found = [Influence(one.kind, one.name, float(one.elasticity)) for one in found]
+        return tuple(sorted(found, key=lambda one: -abs(one.elasticity))[:n])
+
+    def __str__(self) -> str:
+        first = "; ".join(map(str, self.governing(3)))
+        sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
+        return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the derivatives as plain numbers (None where there is none), lists and text."""
+        names = ("friction", "cohesion", "compressive_strength", "tensile_strength", "unit_weight")
+        numbers = {name: _plain(getattr(self, name)) for name in names}
+        return {
+            "load_factor": self.load_factor,
+            **numbers,
+            "positions": [
+                {"load": one.load, "term": one.term, "block": one.block, "gradient": one.gradient.tolist()}
+                for one in self.positions
+            ],
+            "unique": self.unique,
+            "agreed": self.agreed.tolist(),
+            "blocks": list(self.blocks),
+            "interfaces": list(self.interfaces),
+            "model_digest": self.digest,
+        }
+
+
+def _plain(values: Array) -> list[float | None]:
+    return [float(value) if np.isfinite(value) else None for value in values]

@@ -1,0 +1,217 @@
+"""Derivatives of the load factor: closed forms, and differences of bounds solved again."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.studies import shape_sensitivity
+
+WIDTH, HEIGHT, MU = 1.0, 2.0, 0.7
+JOINTS = {"points": lb.PointContact, "circle": lb.OrdunaLourenco}
+
+
+def block(joint, **sizes):
+    return structures.block(joint, **({"width": WIDTH, "height": HEIGHT} | sizes))
+
+
+def of(model):
+    return lb.sensitivities(model, lb.bounds(model))
+
+
+def differences(build, value, step):
+    """Central difference of the load factor of models solved again."""
+    ahead, back = (lb.bounds(build(value + t * step)).lower for t in (1.0, -1.0))
+    return (ahead - back) / (2.0 * step)
+
+
+@pytest.mark.parametrize("joint", JOINTS.values(), ids=JOINTS)
+def test_a_block_that_slides_follows_its_friction_alone(joint):
+    """a = mu: da/dmu = 1; of the weight and of the shape it is independent."""
+    model = block(joint(0.3))
+    found = of(model)
+    assert found.friction == pytest.approx([1.0], rel=1e-6)
+    assert np.abs(found.of_blocks).max() < 1e-6
+    wider = shape_sensitivity(model, lb.bounds(model), lambda r: r * [1.0, 0.0, 0.0])
+    assert wider == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("joint", JOINTS.values(), ids=JOINTS)
+def test_a_block_that_rocks_follows_its_shape_alone(joint):
+    """a = b / h (Housner 1963): da/db = 1 / h, da/dh = -b / h^2; friction and weight do not matter."""
+    model = block(joint(MU))
+    bounds = lb.bounds(model)
+    found = lb.sensitivities(model, bounds)
+    assert np.abs(found.of_interfaces).max() < 1e-6
+    assert np.abs(found.of_blocks).max() < 1e-6
+    assert found.unique
+    # all x scaled by 1 + t: db/dt = b
+    wider = shape_sensitivity(model, bounds, lambda r: r * [1.0, 0.0, 0.0])
+    assert wider == pytest.approx(WIDTH / HEIGHT, rel=1e-6)
+    base = 0.0  # the block stands on z = 0
+    higher = shape_sensitivity(model, bounds, lambda r: (r - [0, 0, base]) * [0.0, 0.0, 1.0])
+    assert higher == pytest.approx(-WIDTH / HEIGHT, rel=1e-6)
+
+
+def test_a_push_at_a_point_of_a_rocking_block():
+    """a P z = W b / 2: da/dz = -W b / (2 P z^2), da/dW = b / (2 P z)."""
+    z, push = 1.5, 1000.0
+    model = block(lb.PointContact(2.0))
+    name = model.free_blocks[0].name
+    model = replace(model, live=lb.loads.force(name, (push, 0.0, 0.0), (0.0, 0.0, z)))
+    found, weight = of(model), model.free_blocks[0].weight
+    alpha = weight * WIDTH / (2.0 * push * z)
+    assert found.load_factor == pytest.approx(alpha, rel=1e-6)
+    (position,) = found.positions
+    assert (position.load, position.block) == ("live", name)
+    assert position.gradient == pytest.approx([0.0, 0.0, -alpha / z], rel=1e-6, abs=1e-6 * alpha)
+    assert found.of_blocks.sum() == pytest.approx(alpha, rel=1e-6)
+
+
+def test_a_block_that_slides_on_mortar():
+    """a W = mu W + A c: da/dc = A / W, da/dmu = 1, da/d(unit weight) = -A c / (W unit weight)."""
+    c = 3e3
+    model = block(lb.OrdunaLourenco(0.2, cohesion=c, tensile_strength=1e6), height=0.5)
+    found, stone = of(model), model.free_blocks[0]
+    area = stone.volume / 0.5
+    assert found.cohesion == pytest.approx([area / stone.weight], rel=1e-5)
+    assert found.friction == pytest.approx([1.0], rel=1e-5)
+    assert found.of_blocks.sum() == pytest.approx(-area * c / stone.weight, rel=1e-4)
+
+
+def test_a_block_that_crushes_at_its_toe():
+    """a W h / 2 = W (b - W / (t f)) / 2, the stress block at the toe (t the depth): da/df = W / (h t f^2)."""
+    f, depth = 3e5, 1.0
+    model = block(lb.OrdunaLourenco(MU, compressive_strength=f), depth=depth)
+    weight = model.free_blocks[0].weight
+    found = of(model)
+    assert found.load_factor == pytest.approx((WIDTH - weight / (depth * f)) / HEIGHT, rel=1e-6)
+    assert found.compressive_strength == pytest.approx([weight / (HEIGHT * depth * f**2)], rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    "joint", [lb.OrdunaLourenco(0.65), lb.OrdunaLourenco(0.65, slip="paper"), lb.PointContact(0.65)]
+)
+def test_differences_of_bounds_solved_again(joint):
+    """A wall that slides and rocks: derivatives against two more solutions, 1e-4 relative."""
+    model = structures.ferris_tin_loi_wall(1, joint)
+    found = of(model)
+    assert found.unique
+
+    def rougher(mu):
+        return structures.ferris_tin_loi_wall(1, replace(joint, friction=mu))
+
+    # the load factor as a function of one friction for all joints
+    assert found.friction.sum() == pytest.approx(differences(rougher, 0.65, 1e-3), rel=1e-4)
+    b = int(np.abs(found.of_blocks).argmax())
+
+    def heavier(weight):
+        blocks = [replace(one, unit_weight=weight) if k == b else one for k, one in enumerate(model.blocks)]
+        return replace(model, blocks=blocks)
+
+    weight = model.blocks[b].unit_weight
+    assert found.unit_weight[b] == pytest.approx(differences(heavier, weight, 1e-2 * weight), rel=1e-4)
+
+
+def test_a_friction_that_stresses_do_not_agree_on_has_a_kink():
+    """Forces may pass one joint or another of a wall: the derivatives to both sides enclose the one given."""
+    model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    found = of(model)
+    assert found.unique
+
+    def other(k, mu):
+        changed = list(model.interfaces)
+        changed[k] = replace(changed[k], joint=replace(changed[k].joint, friction=mu))
+        return lb.bounds(replace(model, interfaces=changed)).lower
+
+    step, seen = 1e-3, set()
+    for k in np.argsort(-np.abs(found.friction))[:3].tolist():
+        left, right = (
+            (found.load_factor - other(k, 0.65 - step)) / step,
+            (other(k, 0.65 + step) - found.load_factor) / step,
+        )
+        low, high = sorted((left, right))
+        noise = 1e-5 / step * 1e-2
+        assert low - noise <= found.friction[k] <= high + noise
+        if found.agreed[k]:
+            assert high - low <= 1e-2 * max(abs(high), 1e-2)
+        seen.add(bool(found.agreed[k]))
+    assert False in seen
+
+
+def test_weights_of_all_blocks_together_do_not_matter_without_strengths():
+    """A load factor of mass-proportional loads is without unit: the elasticities add up to zero."""
+    model = structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
+    found = of(model)
+    assert abs(found.of_blocks.sum()) < 1e-5 * found.load_factor
+    assert np.abs(found.of_blocks).max() > 1e-2 * found.load_factor
+
+
+def test_a_shape_moves_as_the_model_built_anew():
+    """An arch grown by a field from its mid-surface outwards is the arch of another thickness."""
+    radius, thickness = 1.0, 0.2
+
+    def arch(t):
+        return structures.arch(lb.PointContact(0.9), voussoirs=9, radius=radius, thickness=t, depth=0.5)
+
+    def outwards(points):
+        flat = points * [1.0, 0.0, 1.0]
+        r = np.linalg.norm(flat, axis=1, keepdims=True)
+        return np.where(r > 0.0, flat / np.maximum(r, 1e-12), 0.0) * np.sign(r - radius) / 2.0
+
+    model = arch(thickness)
+    found = shape_sensitivity(model, lb.bounds(model), outwards)
+    assert found == pytest.approx(differences(arch, thickness, 1e-4), rel=1e-4)
+
+
+def test_a_mechanism_that_is_not_the_only_one_is_told():
+    """Two equal blocks on one base, pushed alike: either may rock alone."""
+    stones = [lb.Block.box("base", (4.0, 1.0, 1.0), (0.0, 0.0, -0.5))]
+    stones += [
+        lb.Block.box(n, (0.5, 1.0, 1.0), (x, 0.0, 0.5), unit_weight=2e4) for n, x in (("a", -1.0), ("b", 1.0))
+    ]
+    joint = lb.PointContact(2.0)
+    push = lb.mass_proportional(direction=(1.0, 0.0, 0.0))
+    for chosen, unique in ((stones, False), (stones[:2], True)):
+        model = lb.Model(chosen, ["base"], lb.find_interfaces(chosen, joint), lb.self_weight(), push)
+        found = of(model)
+        assert found.unique is unique
+        assert ("not unique" in str(found)) is not unique
+
+
+def test_governing_joints_and_stones_come_first():
+    found = of(structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65)))
+    first = found.governing(5)
+    sizes = [abs(one.elasticity) for one in first]
+    assert sizes == sorted(sizes, reverse=True)
+    everything = np.concatenate([found.of_interfaces, found.of_blocks])
+    assert sizes[0] == np.abs(everything).max()
+    assert {one.kind for one in first} <= {"friction", "unit weight"}
+    assert str(first[0]).startswith(f"{first[0].kind} of {first[0].name}")
+
+
+def test_bounds_of_another_model_are_refused():
+    model, other = block(lb.PointContact(0.3)), block(lb.PointContact(0.4))
+    with pytest.raises(ModelError, match="bounds belong to model"):
+        lb.sensitivities(model, lb.bounds(other))
+    with pytest.raises(LimitBlocksError, match="another model"):
+        lb.plots.sensitivity(model, of(other))
+
+
+def test_the_picture_says_what_the_largest_changes_are():
+    model = structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
+    found = of(model)
+    ax = lb.plots.sensitivity(model, found)
+    assert f"{np.abs(found.of_interfaces).max():.3g}" in ax.get_title() or "10^" in ax.get_title()
+
+
+def test_a_dictionary_of_numbers_and_text():
+    found = of(block(lb.OrdunaLourenco(0.3)))
+    written = json.loads(json.dumps(found.to_dict()))
+    assert written["friction"] == pytest.approx([1.0])
+    assert written["cohesion"] == [None]
+    assert written["unique"] is found.unique
