@@ -39,16 +39,12 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
         What makes an interface a good way: its distance to yield.
     """
     n = len(problem.blocks)
-<<<<<<< HEAD
     stresses = np.bincount(problem.stress_interface, minlength=len(room))
-    room = np.where(stresses < 6, -np.inf, room)  # ties and dowels cannot carry any force
-    order = np.argsort(-room, kind="stable")
-=======
+    room = np.where(stresses < min(6, int(stresses.max())), 0.0, room)  # ties cannot carry any force
     most = float(room.max(initial=0.0))
     share = np.where(np.isfinite(room) & (most > 0.0), room / (most if most > 0.0 else 1.0), LEAST)
     length = 1.0 / np.clip(share, LEAST, 1.0)
     order = np.argsort(length, kind="stable")
->>>>>>> main
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
     best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
     i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
