@@ -6,17 +6,20 @@ finds both together. The kinematic program by itself comes where the dual is too
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from limitblocks.analysis.certified import certified
+from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
+    DIRECT,
     ROUNDS,
     jamming_program,
     kinematic_program,
@@ -43,6 +46,7 @@ UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
 )
+Tell = Callable[[str], None]
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
 
@@ -65,7 +69,9 @@ class _Pair:
         return bounds_residuals(Flow(self.problem, ASSOCIATED), self.state, self.upper)
 
 
-def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
+def bounds(
+    model: Model, *, tolerance: float = TOLERANCE, progress: Callable[[str], None] | None = None
+) -> Bounds:
     """Return the static (lower) and the kinematic (upper) bound on the associated load factor.
 
     Parameters
@@ -75,6 +81,8 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     tolerance : float
         Largest gap and residual accepted: every block measured by what acts on it, see
         :mod:`limitblocks.evidence.residuals`.
+    progress : callable, optional
+        Called with the name of each stage as it begins.
 
     Raises
     ------
@@ -89,12 +97,16 @@ def bounds(model: Model, *, tolerance: float = TOLERANCE) -> Bounds:
     -----
     Solved once for each model and tolerance: asked for again, the same result comes back.
     """
-    return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance))
+    return known(
+        model, ("bounds", tolerance), lambda: _bounds(model, tolerance, progress or (lambda _: None))
+    )
 
 
-def _bounds(model: Model, tolerance: float) -> Bounds:
-    dead = dead_load_state(model.problem)  # a live load that holds up what would fall gives a load factor too
-    pair, proof = _proven(pair_of_bounds(model.problem, dead, tolerance), dead, tolerance)
+def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
+    # a live load that holds up what would fall gives a load factor, too
+    dead, pair, proof = _directly(model.problem, tolerance, tell) or _with_care(
+        model.problem, tolerance, tell
+    )
     problem, si = pair.problem, pair.problem.in_si(pair.state)
     upper = proof.upper if proof.complete else pair.upper / problem.units.live
     return Bounds(
@@ -113,6 +125,36 @@ def _bounds(model: Model, tolerance: float) -> Bounds:
         tolerance=tolerance,
         digest=model.digest,
     )
+
+
+def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof] | None:
+    """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
+    tell("dead loads")
+    dead = carried(problem)
+    if dead is None:
+        return None
+    tell("load factor")
+    plane = in_plane(problem)
+    form = form_of(scaled(problem if plane is None else plane.problem))
+    state = form.limit_state(solved(form.limit(), DIRECT))
+    if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
+        return None
+    tell("proof")
+    state, name = form.problem.in_problem(state), DIRECT.name
+    if plane is not None:
+        state, name = plane.lifted(state), f"{name} in the plane"
+    state, proof = certified(problem, state, dead, patience=form.patience)
+    pair = _Pair(problem, state, name)
+    good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
+    return (dead, pair, proof) if good else None
+
+
+def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof]:
+    """Dead-load stresses and a pair of bounds by one solver after the other."""
+    tell("dead loads, again with care")
+    dead = dead_load_state(problem)
+    tell("load factor, again with care")
+    return dead, *_proven(pair_of_bounds(problem, dead, tolerance), dead, tolerance)
 
 
 def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:

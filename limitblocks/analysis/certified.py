@@ -6,13 +6,17 @@ stresses with those of the dead loads of largest margin, a mechanism with one th
 
 from __future__ import annotations
 
-import cvxpy as cp
-import numpy as np
+from dataclasses import dataclass, replace
+from functools import cached_property
 
+import numpy as np
+from scipy import sparse
+
+from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import Program, in_cone, solved, solvers
-from limitblocks.analysis.scales import Scaled, balanced, compatible, scaled
+from limitblocks.analysis.programs import NEARLY, solved, solvers
+from limitblocks.analysis.scales import Projection, Scaled, compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
 from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
@@ -24,10 +28,15 @@ MOST = 0.1  # of the strictly admissible state
 ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
 MORE = 4.0
 LEAST = 1e-15
+EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is opened
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
+NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
+POLISHED = 1e-12  # residual of a state whose bounds no further polish brings closer than CLOSE
 
 
-def certified(problem: LimitProblem, state: State, dead: Array) -> tuple[State, Proof]:
+def certified(
+    problem: LimitProblem, state: State, dead: Array, *, patience: int | None = None
+) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
 
     Where they leave more than CLOSE between them, those of the polished state are taken if closer. A side
@@ -41,121 +50,145 @@ def certified(problem: LimitProblem, state: State, dead: Array) -> tuple[State, 
         A pair of bounds, dimensionless.
     dead : Array, shape (s,)
         Stresses strictly within yield that carry the dead loads, dimensionless.
+    patience : int, optional
+        Of a polish that comes first. Left out: the state is polished, thoroughly, where it must be.
     """
     own = own_units(problem, state)
-    given = own.dimensionless(problem.in_si(state))
-    p = scaled(own)
-    strict = State(0.0, dead * problem.stress_units / own.stress_units, *_opened(problem, p))
+    given, p = own.dimensionless(problem.in_si(state)), scaled(own)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        found, proof = _certified(problem, p, given, strict)
-        if proof.width > CLOSE:
-            polished = _polished(problem, own, given)
-            closer, better = _certified(problem, p, polished, strict)
+        mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units)
+        if patience is not None:
+            given = _polished(problem, own, given, patience)
+        found, proof = mixture.proven(given)
+        if patience is None and not proof.width <= CLOSE:
+            closer, better = mixture.proven(_polished(problem, own, given))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
 
 
-def _certified(problem: LimitProblem, p: Scaled, state: State, strict: State) -> tuple[State, Proof]:
-    """Both sides proven with a little of the strictly admissible state."""
-    static, moving = _static(problem, p, state, strict), _kinematic(problem, p, state, strict)
-    both = State(static.load_factor, static.x, moving.u, moving.y)
-    return both, _proof(problem, p, both, strict)
+@dataclass(frozen=True, eq=False)
+class _Mixture:
+    """States mixed with a little of strictly admissible ones, in units `p` of their own."""
+
+    problem: LimitProblem
+    p: Scaled
+    dead: Array
+
+    def proven(self, state: State) -> tuple[State, Proof]:
+        """Both sides proven with the least part of strict states; as they were where none does."""
+        x, y = self._balanced(state.load_factor, state.x), following(self.p, state.u, state.y)
+        reach = kinematic_reach(self.p.problem, state.u, y)
+        static, (kinematic, v, z) = self._static_part(state.load_factor, x), self._opened(reach)
+        for _ in range(ROUNDS):
+            a, u = state.load_factor, state.u
+            mixed = State(a, state.x, u, state.y)
+            if static <= MOST:
+                mixed = replace(mixed, load_factor=(1.0 - static) * a, x=x + static * (self.inner - x))
+            if kinematic <= MOST:
+                work = 1.0 + kinematic * float(self.p.problem.live @ v)  # of the live load, Eq. (55)
+                mixed = replace(mixed, u=(u + kinematic * v) / work, y=(y + kinematic * z) / work)
+            proof = self._proof(mixed)
+            again = (bool(proof.static) and static <= MOST, bool(proof.kinematic) and kinematic <= MOST)
+            if not any(again):
+                break
+            static = max(MORE * static, LEAST) if again[0] else static
+            kinematic = max(MORE * kinematic, LEAST) if again[1] else kinematic
+        return mixed, proof
+
+    @cached_property
+    def inner(self) -> Array:
+        """The stresses strictly within yield, in equilibrium with the dead loads to rounding."""
+        return self._balanced(0.0, self.dead)
+
+    @cached_property
+    def projection(self) -> Projection:
+        """Onto equilibrium."""
+        return Projection(self.p.C)
+
+    def _proof(self, state: State) -> Proof:
+        own = self.p.problem
+        return proof_of(self.problem, own.in_si(state), self.inner * own.stress_units, RESERVE)
+
+    def _balanced(self, load_factor: float, x: Array) -> Array:
+        """The nearest stresses that balance the loads, to rounding."""
+        p = self.p
+        return p.stress * self.projection.onto(p.dead + load_factor / p.load_factor * p.live, x / p.stress)
+
+    def _static_part(self, load_factor: float, x: Array) -> float:
+        """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
+        own = self.p.problem
+        reach = static_reach(own, load_factor, x, spanning_tree(own, room_of(own, self.inner)))
+        lack = _lack(reach)
+        gain = (own.cones.margin(own.F @ self.inner + own.g) - reach.room)[lack > 0.0]
+        parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
+        return float(parts.max(initial=0.0))
+
+    def _opened(self, reach: Reach) -> tuple[float, Array, Array]:
+        """Part, rates and multipliers of a mechanism that opens every joint by what its multipliers lack.
+
+        The part is infinite where there is no such mechanism.
+        """
+        p, lack = self.p, _lack(reach)
+        most = float(lack.max(initial=0.0))
+        if not most < np.inf:
+            return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
+        amount = np.zeros(p.F.shape[0])
+        amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
+        u, y = _opened(self.problem, p, amount)
+        room = p.cones.margin(y)
+        return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
 
 
-def _opened(problem: LimitProblem, p: Scaled) -> tuple[Array, Array]:
-    """A mechanism that opens every joint, in the plane if there is one: where one exists, one does there."""
+def _lack(reach: Reach) -> Array:
+    """What each linear row and each cone lacks of the room that is needed."""
+    return np.asarray(np.nan_to_num(np.maximum(NEEDED * reach.need - reach.room, 0.0), nan=np.inf))
+
+
+def _opened(problem: LimitProblem, p: Scaled, amount: Array) -> tuple[Array, Array]:
+    """A mechanism that opens every joint by about `amount` (R,); in the plane if there is one.
+
+    Where one exists, one does in the plane.
+    """
     plane = in_plane(problem, every_row=True)
     if plane is None:
-        return opening(p)
+        return opening(p, amount * p.row / p.load_factor)
     plane = plane.measured(p.problem)
-    u, y = opening(scaled(plane.problem))
+    flat = scaled(plane.problem)
+    least = sparse.csr_array(abs(plane.multipliers).multiply(amount[:, None])).max(axis=0).toarray().ravel()
+    u, y = opening(flat, least * flat.cones.identity * flat.row / flat.load_factor)
     found = plane.lifted(State(0.0, np.zeros(plane.problem.C.shape[0]), u, y))
-    return found.u, found.y
+    return found.u, following(p, found.u, found.y)
 
 
-def _polished(problem: LimitProblem, own: LimitProblem, state: State) -> State:
+def _polished(problem: LimitProblem, own: LimitProblem, state: State, patience: int | None = None) -> State:
     """The state polished, in the plane if there is one."""
     plane = in_plane(problem)
     if plane is None:
-        return polish(Flow(own, ASSOCIATED), state)
+        return polish(Flow(own, ASSOCIATED), state, until=POLISHED, patience=patience)
     plane = plane.measured(own)
-    return plane.lifted(polish(Flow(plane.problem, ASSOCIATED), plane.averaged(state)))
+    flow = Flow(plane.problem, ASSOCIATED)
+    return plane.lifted(polish(flow, plane.averaged(state), until=POLISHED, patience=patience))
 
 
-def _proof(problem: LimitProblem, p: Scaled, state: State, strict: State) -> Proof:
-    return proof_of(problem, p.problem.in_si(state), strict.x * p.problem.stress_units, RESERVE)
-
-
-def _static(problem: LimitProblem, p: Scaled, state: State, strict: State) -> State:
-    """Stresses that prove a load factor hardly below that of the state; the state itself if none do."""
-    own, a = p.problem, state.load_factor
-    x, inner = _in_equilibrium(p, a, state.x), _in_equilibrium(p, 0.0, strict.x)
-    tree = spanning_tree(own, room_of(own, inner))
-    part = _part(static_reach(own, a, x, tree), static_reach(own, 0.0, inner, tree))
-    for _ in range(ROUNDS):
-        if not part <= MOST:
-            break
-        mixed = State((1.0 - part) * a, x + part * (inner - x), state.u, state.y)
-        if not _proof(problem, p, mixed, strict).static:
-            return mixed
-        part = max(MORE * part, LEAST)
-    return state
-
-
-def _kinematic(problem: LimitProblem, p: Scaled, state: State, strict: State) -> State:
-    """A mechanism that proves a load factor hardly above that of the state; the state itself if none does."""
-    if not (np.isfinite(strict.u).all() and np.isfinite(strict.y).all()):
-        return state
-    own, u, v = p.problem, state.u, strict.u
-    y, z = _following(p, u, state.y), _following(p, v, strict.y)
-    part = _part(kinematic_reach(own, u, y), kinematic_reach(own, v, z))
-    for _ in range(ROUNDS):
-        if not part <= MOST:
-            break
-        work = 1.0 + part * float(own.live @ v)  # of the live load, Eq. (55)
-        mixed = State(state.load_factor, state.x, (u + part * v) / work, (y + part * z) / work)
-        if not _proof(problem, p, mixed, strict).kinematic:
-            return mixed
-        part = max(MORE * part, LEAST)
-    return state
-
-
-def _part(reach: Reach, inner: Reach) -> float:
-    """Least part of the inner state whose room pays for what both need; infinite where it has none."""
-    need = reach.need + inner.need
-    short = ~(reach.room >= need)
-    gain = inner.room[short] - reach.room[short]
-    parts = np.where(gain > 0.0, (need - reach.room)[short] / gain, np.inf)
-    return float(parts.max(initial=0.0))
-
-
-def _in_equilibrium(p: Scaled, load_factor: float, x: Array) -> Array:
-    """The nearest stresses that balance the loads, to rounding."""
-    loads = p.dead + load_factor / p.load_factor * p.live
-    return np.asarray(p.stress * balanced(p, loads, x / p.stress))
-
-
-def _following(p: Scaled, u: Array, y: Array) -> Array:
+def following(p: Scaled, u: Array, y: Array) -> Array:
     """The nearest multipliers that satisfy the flow rule with the rates, to rounding."""
     rates, multipliers = u * p.equation / p.load_factor, y * p.row / p.load_factor
+    if not (np.isfinite(rates).all() and np.isfinite(multipliers).all()):
+        return np.full_like(y, np.nan)
     return np.asarray(compatible(p, rates, multipliers) * p.load_factor / p.row)
 
 
-def opening(p: Scaled) -> tuple[Array, Array]:
-    """Rates and multipliers of a mechanism that opens every joint; not finite where there is none."""
-    u, y = solved(opening_program(p), solvers(bool(p.cones.second_order))[0]).values
-    state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
-    return state.u, state.y
+def opening(p: Scaled, amount: Array) -> tuple[Array, Array]:
+    """Rates and multipliers of a mechanism that opens the joints by about `amount` (R,) at the least power.
 
-
-def opening_program(problem: Scaled) -> Program:
-    """The mechanism that opens every joint by at least one at the least power. Variables: u, y.
-
-    Infeasible exactly where the structure can be wedged: where C^T x = 0 with F x in K, F x not zero
-    (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
+    Not finite where there is none, exactly where the structure can be wedged: where C^T x = 0 with F x in K,
+    F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
     """
-    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(problem.F.shape[0])
-    flow = problem.C @ u + problem.F.T @ y == 0
-    power = problem.g @ y - problem.dead @ u
-    opened = in_cone(y - problem.cones.identity, problem.cones)
-    return Program(cp.Problem(cp.Minimize(power), [flow, *opened]), (u, y))
+    form = form_of(p)
+    for solver in (NEARLY, solvers(bool(p.cones.second_order))[0]):
+        u, y = form.mechanism(solved(form.opening(amount), solver), amount)
+        state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
+        y = following(p, state.u, state.y)
+        if p.cones.margin(y).min() > 0.0:  # not where it is NaN
+            return state.u, y
+    return np.full(p.C.shape[1], np.nan), np.full(p.F.shape[0], np.nan)

@@ -80,7 +80,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
 
 
 @np.errstate(all="ignore")  # a state that ran away is not kept
-def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
+def polish(flow: Flow, state: State, *, until: float = ROUNDING, patience: int | None = None) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
     Parameters
@@ -91,12 +91,15 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
         A state near a solution, dimensionless.
     until : float
         Residual that is small enough.
+    patience : int, optional
+        Proximal steps in turn that may fail to better the best state. Left out: a few, and then as many of
+        least norm, which take ten times as long.
     """
     best, least = state, defect(flow, state)
     if least <= until:
         return best
-    for solution in (_proximal_solution, _least_solution):
-        for iterate in _steps(flow, state, solution):
+    for solution in (_proximal_solution, _least_solution)[: 1 if patience else 2]:
+        for iterate in _steps(flow, state, solution, patience or PATIENCE):
             worst = defect(flow, iterate)
             if worst < least:
                 best, least = iterate, worst
@@ -105,7 +108,7 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING) -> State:
     return best
 
 
-def _steps(flow: Flow, state: State, solution: Solution) -> Iterator[State]:
+def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Iterator[State]:
     """States of a semismooth Newton method, until they get worse."""
     p, now, least, failed = flow.problem, state, defect(flow, state), 0
     for _ in range(STEPS):
@@ -122,7 +125,7 @@ def _steps(flow: Flow, state: State, solution: Solution) -> Iterator[State]:
         failed = failed + 1 if worst >= least else 0
         least = min(least, worst)
         yield iterate
-        if failed == PATIENCE:
+        if failed == patience:
             return
 
 

@@ -147,15 +147,26 @@ def frictional(problem: LimitProblem) -> Array:
     pressing = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(problem.interfaces))
     tangential = abs(problem.resultants).T @ pressing == 0.0
     friction = unit(np.clip(problem.friction, ROUNDING, 1.0))
+    tangential &= (problem.friction > 0.0)[problem.stress_interface]  # not that of dowels and guides
     return np.where(tangential, friction[problem.stress_interface], 1.0)
+
+
+class Projection:
+    """Onto the stresses in equilibrium, every one in its own unit: C^T x = loads."""
+
+    def __init__(self, C: sparse.csr_array) -> None:
+        self.C, self.lu = C, _factors(C.T @ C)
+
+    def onto(self, loads: Array, x: Array) -> Array:
+        """Return the nearest stresses in equilibrium; the residuals judge them."""
+        for _ in range(2):
+            x = x + self.C @ self.lu.solve(loads - self.C.T @ x)
+        return np.asarray(x)
 
 
 def balanced(p: Scaled, loads: Array, x: Array) -> Array:
     """Return the nearest stresses in equilibrium, every one in its own unit; the residuals judge them."""
-    lu = _factors(p.C.T @ p.C)
-    for _ in range(2):
-        x = x + p.C @ lu.solve(loads - p.C.T @ x)
-    return np.asarray(x)
+    return Projection(p.C).onto(loads, x)
 
 
 def compatible(p: Scaled, u: Array, y: Array) -> Array:

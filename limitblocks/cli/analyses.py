@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from limitblocks.cli.progress import of_iterations
+from limitblocks.cli.progress import of_iterations, of_stages
 from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
@@ -26,12 +26,12 @@ def stability(model: Model) -> Stability:
         return solve(model)
 
 
-def bounds(model: Model, **settings: float) -> Bounds:
+def bounds(model: Model, **settings: Any) -> Bounds:
     """Associated bounds."""
     from limitblocks.analysis.bounds import bounds as solve
 
-    with of_iterations("bounds"):
-        return solve(model, **settings)
+    with of_stages("bounds") as show:
+        return solve(model, **settings, progress=show)
 
 
 def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:

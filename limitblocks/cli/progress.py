@@ -28,6 +28,13 @@ def of_iterations(verb: str) -> Iterator[Callable[[Iteration], None]]:
 
 
 @contextmanager
+def of_stages(verb: str) -> Iterator[Callable[[str], None]]:
+    """Give a callback for the stages of an analysis."""
+    with _told(verb) as tell:
+        yield lambda stage: tell(stage, None)
+
+
+@contextmanager
 def of_a_count(verb: str) -> Iterator[Callable[[int, int], None]]:
     """Give a callback for the number of analyses that are done, and of all."""
     with _told(verb) as tell:

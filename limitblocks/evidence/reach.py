@@ -102,7 +102,11 @@ def made_up(problem: LimitProblem, defect: Array) -> Array:
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:
     """Right inverses R of a stack of matrices A, and |e| / (1 - |e|) of the error e = A R - 1, row sums."""
-    right: Array = np.asarray(np.linalg.pinv(matrix), dtype=float)
+    across = np.swapaxes(matrix, 1, 2)
+    try:
+        right = across @ np.linalg.inv(matrix @ across)
+    except np.linalg.LinAlgError:  # one of them has no right inverse
+        right = np.asarray(np.linalg.pinv(matrix), dtype=float)
     identity, off = products(matrix, right)
     error = (np.abs(identity - np.eye(matrix.shape[1])) + off).sum(axis=2).max(axis=1) * UP
     share = np.where(error < POOREST, error / (1.0 - np.minimum(error, POOREST)) * UP, np.inf)

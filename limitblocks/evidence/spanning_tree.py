@@ -11,6 +11,8 @@ from scipy.sparse import csgraph
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem
 
+LEAST = 1e-6  # of the largest room: interfaces with less are equally bad ways
+
 
 @dataclass(frozen=True, eq=False)
 class Tree:
@@ -25,7 +27,9 @@ class Tree:
 
 
 def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
-    """Return the tree of the interfaces with most room that ties every block to a support.
+    """Return the tree of the shortest ways to a support; an interface is the longer the less room it has.
+
+    What a block leaves unbalanced acts on every interface of its way: few of them, and none that is tight.
 
     Parameters
     ----------
@@ -35,16 +39,20 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
         What makes an interface a good way: its distance to yield.
     """
     n = len(problem.blocks)
-    order = np.argsort(-room, kind="stable")
+    stresses = np.bincount(problem.stress_interface, minlength=len(room))
+    room = np.where(stresses < min(6, int(stresses.max())), 0.0, room)  # ties cannot carry any force
+    most = float(room.max(initial=0.0))
+    share = np.where(np.isfinite(room) & (most > 0.0), room / (most if most > 0.0 else 1.0), LEAST)
+    length = 1.0 / np.clip(share, LEAST, 1.0)
+    order = np.argsort(length, kind="stable")
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
     best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
-    rank = np.empty(len(room))
-    rank[order] = np.arange(1.0, len(room) + 1.0)
-    i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no trees of graphs of longer indices
-    graph = sparse.coo_array((rank[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
-    sequence, before = csgraph.breadth_first_order(csgraph.minimum_spanning_tree(graph), n, directed=False)
+    i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
+    graph = sparse.coo_array((length[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
+    distances, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
+    distance, before = distances[0], ways[0]
     depth = np.zeros(n + 1, dtype=np.int64)
-    for k in sequence[1:]:
+    for k in np.argsort(distance, kind="stable")[1:]:
         depth[k] = depth[before[k]] + 1
     interface = sparse.coo_array((best + 1, (i, j)), shape=(n + 1, n + 1)).tocsr()
     parent = np.asarray(before[:n], dtype=np.int64)

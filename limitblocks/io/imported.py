@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, guesses, strict_json
 from limitblocks.io.guesses import Boxes
 from limitblocks.io.made import Made, left_out, made, refused
+from limitblocks.io.solid import Solid
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
@@ -68,20 +69,6 @@ class ImportedBlocks:
     def layers(self) -> dict[str, str]:
         """Layer, group or material of each block, by block name; empty text where the file has none."""
         return {block.name: block.layer for block in self.blocks}
-
-
-class Solid(NamedTuple):
-    """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file.
-
-    `support` says whether the file marks it so; None: its layer says it.
-    """
-
-    name: str
-    layer: str
-    vertices: Any
-    faces: Sequence[Sequence[int]]
-    support: bool | None = None
-    material: str = ""
 
 
 class Contents(NamedTuple):

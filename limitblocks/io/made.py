@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, NamedTuple, get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 
@@ -14,9 +14,7 @@ from limitblocks.geometry import Block
 from limitblocks.geometry.accuracy import Accuracy, block_length, millimetres
 from limitblocks.geometry.mend import TwistedFaces, mended
 from limitblocks.geometry.twisted import Twisted, rounding
-
-if TYPE_CHECKING:
-    from limitblocks.io.imported import Solid
+from limitblocks.io.solid import Solid
 
 #: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.
 _TWIST = 4.0

@@ -13,7 +13,7 @@ from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
 from limitblocks.geometry.polyhedron import Faces
-from limitblocks.io.imported import Solid
+from limitblocks.io.solid import Solid
 
 
 def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Sequence[int]]) -> list[Solid]:

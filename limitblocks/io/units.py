@@ -3,14 +3,9 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal, TypeVar
+from typing import Any, Literal, Protocol, TypeVar
 
 from limitblocks.errors import ModelError
-
-if TYPE_CHECKING:
-    from limitblocks.io.documents import MaterialsDocument, ModelDocument
-
-D = TypeVar("D", "ModelDocument", "MaterialsDocument")
 
 Length = Literal["m", "cm", "mm", "in", "ft"]
 Force = Literal["N", "kN", "MN", "kgf", "lbf", "kip"]
@@ -49,7 +44,22 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
 }
 
 
-def in_si(document: D) -> D:
+class _Units(Protocol):
+    length: Length
+    force: Force
+
+
+class _InUnits(Protocol):
+    """A document that says its units, as a model file does."""
+
+    @property
+    def units(self) -> _Units: ...
+
+
+Document = TypeVar("Document", bound=_InUnits)
+
+
+def in_si(document: Document) -> Document:
     """Return the document with all its numbers in m and N.
 
     Raises
@@ -60,7 +70,7 @@ def in_si(document: D) -> D:
     units = document.units
     if (units.length, units.force) == ("m", "N"):
         return document
-    converted: D = _part(document, METRES[units.length], NEWTONS[units.force])
+    converted: Document = _part(document, METRES[units.length], NEWTONS[units.force])
     return converted
 
 

@@ -84,6 +84,29 @@ def joint_of(interface: Interface) -> Joint:
     return interface.joint
 
 
+def friction_words(friction: float) -> str:
+    """Return a friction coefficient as text, with its angle."""
+    return (
+        f"friction coefficient {friction:g} ({np.degrees(np.arctan(friction)):.1f} degrees)"
+        if friction
+        else "no friction"
+    )
+
+
+def strength_words(cohesion: float, tensile: float, compressive: float | None) -> str:
+    """Return the strengths of a joint, Pa, as text."""
+    parts = [f"cohesion {stress_words(cohesion)}"] if cohesion else []
+    parts.append(f"tensile strength {stress_words(tensile)}" if tensile else "no tension")
+    limit = "no limit of compression"
+    parts.append(limit if compressive is None else f"compressive strength {stress_words(compressive)}")
+    return ", ".join(parts)
+
+
+def stress_words(stress: float) -> str:
+    """Return a stress, Pa, as text."""
+    return f"{stress / 1e6:.4g} MPa" if stress >= 1e5 else f"{stress / 1e3:.4g} kPa"
+
+
 def checked_friction(friction: float) -> float:
     """Return `friction` as a float if it is a finite number >= 0, else raise ModelError."""
     if not (np.isfinite(friction) and friction >= 0.0):

@@ -18,6 +18,8 @@ from limitblocks.joints.base import (
     checked_count,
     checked_friction,
     checked_stress,
+    friction_words,
+    strength_words,
 )
 from limitblocks.joints.interaction import effective_areas
 from limitblocks.joints.limit_surface import (
@@ -89,6 +91,26 @@ class ExactTorsion(Queries):
         checked_choice("side", self.side, ("inner", "outer"))
         if self.compressive_strength is not None:
             checked_stress("compressive strength", self.compressive_strength, positive=True)
+
+    @property
+    def _from(self) -> str:
+        return "within" if self.side == "inner" else "without"
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        side = f"from {self._from}, {'safe' if self.side == 'inner' else 'unsafe'}"
+        strengths = strength_words(0.0, 0.0, self.compressive_strength)
+        return f"{friction_words(self.friction)}, {strengths}, torsion by the exact limit surface {side}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Shear and torsion are limited by the exact limit surface of uniform pressure (Goyal, Ruina & "
+            f"Papadopoulos 1991), by {8 * self.fineness**2} planes from {self._from}.",
+            "Torsion under bending is that of the effective area, Eqs (19)-(20), by planes from there, too.",
+            "Shear and bending reduce torsion independently of each other; there is no cohesion.",
+            "Torsion and shear are not reduced by crushing.",
+        )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""

@@ -17,6 +17,8 @@ from limitblocks.joints.base import (
     checked_count,
     checked_friction,
     checked_stress,
+    friction_words,
+    strength_words,
 )
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinging, shear_directions, stacked
@@ -27,6 +29,23 @@ SIGNS = (1.0, -1.0)
 TWIST = np.array([(0, 0, 1, 0, 0, t) for t in SIGNS])  # Eq. (23)
 MOMENT_TWIST = np.array([(0, 0, 1, a, b, t) for a, b, t in product(SIGNS, SIGNS, SIGNS)])  # Eq. (30)
 SLIP_FORCE = 1.3  # of V0: where the planes (27)-(29) meet the axis T = 0
+
+
+_SLIP_WORDS = {
+    "exact": "Coulomb's circle",
+    "paper": "the paper's octagon",
+    "inner": "a polygon of {} sides within Coulomb's circle",
+    "outer": "a polygon of {} sides around Coulomb's circle",
+}
+_POLYGON = "without dilatancy a polygon has an interval of load factors, on neither side of the circle's"
+_SLIP_ASSUMED = {
+    "exact": "Shear is limited by Coulomb's circle, which is exact.",
+    "paper": "Shear is limited by the paper's octagon around Coulomb's circle: up to 8.2 % too strong; "
+    f"{_POLYGON}.",
+    "inner": f"Shear is limited by a polygon within Coulomb's circle, safe with associated flow; {_POLYGON}.",
+    "outer": "Shear is limited by a polygon around Coulomb's circle, unsafe with associated flow; "
+    f"{_POLYGON}.",
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -101,6 +120,35 @@ class OrdunaLourenco(Queries):
             )
         checked_stress("cohesion", self.cohesion)
         checked_stress("tensile strength", self.tensile_strength)
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        strengths = strength_words(self.cohesion, self.tensile_strength, self.compressive_strength)
+        shear = f"shear and torsion by {_SLIP_WORDS[self.slip].format(self.sides)}"
+        return f"{friction_words(self.friction)}, {strengths}, {shear}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        crushing = (
+            "Joints do not crush: a hinge is at the very edge of a contact area."
+            if self.compressive_strength is None
+            else "Crushing reduces the moment that a joint carries, Eq. (39), not its shear or torsion; the "
+            "equation is the exact stress block for bending about one axis of a rectangle."
+        )
+        cohesion = "Cohesion acts on the whole area whatever the eccentricity, which overestimates it."
+        return (
+            "Joints slide, twist and hinge by the yield surface of Orduña & Lourenço (2005), Part I, "
+            "Eqs (23)-(30) and (36) or (39).",
+            _SLIP_ASSUMED[self.slip],
+            "Near pure shear torsion is overestimated by up to 0.3 of the torsional strength under uniform "
+            "pressure on a rectangle; in between it may be underestimated by up to 0.18 of it, "
+            "Eqs (27)-(29).",
+            "Under bending torsion is overestimated, except where a hinge forms, by up to 31 % of the "
+            "strength of the effective rectangle, Eqs (23) and (30).",
+            "Shear and bending reduce torsion independently of each other.",
+            crushing,
+            *((cohesion,) if self.cohesion else ()),
+        )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""

@@ -8,7 +8,14 @@ from typing import Literal
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.joints.base import YieldRows, checked_choice, checked_count, checked_friction
+from limitblocks.joints.base import (
+    YieldRows,
+    checked_choice,
+    checked_count,
+    checked_friction,
+    friction_words,
+    strength_words,
+)
 from limitblocks.joints.cutting_planes import farthest
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.question import OUTSIDE, Question
@@ -58,6 +65,30 @@ class PointContact(Queries):
         checked_count("points", self.points, 1)
         checked_choice("cone", self.cone, ("exact", "inner", "outer"))
         checked_count("sides", self.sides, 3)
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        shape = {"exact": "", "inner": " by an inner polygon", "outer": " by an outer polygon"}[self.cone]
+        sides = f" of {self.sides} sides" if shape else ""
+        where = "forces at the corners" if self.points == 1 else f"{self.points} forces on each side"
+        strengths = strength_words(0.0, 0.0, None)
+        return f"{friction_words(self.friction)}{shape}{sides}, {strengths}, {where} of each contact area"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        polygons = {
+            "exact": "Each force is limited by Coulomb's cone itself.",
+            "inner": "Each force is limited by a polygon within Coulomb's cone, safe with associated flow.",
+            "outer": "Each force is limited by a polygon around Coulomb's cone, unsafe with associated flow.",
+        }
+        return (
+            "Joints carry forces at points of their contact areas (Livesley 1978): shear and hinging are "
+            "exact where nothing crushes.",
+            "Torsion is overestimated, because the pressure is free to gather at the corners: 1.85 to 1.94 "
+            "times that under uniform pressure on rectangles of aspect ratios 1 to 4.",
+            polygons[self.cone],
+            "Joints do not crush and have no cohesion.",
+        )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`.

@@ -15,7 +15,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints.base import YieldRows
+from limitblocks.joints.base import YieldRows, friction_words
 from limitblocks.joints.question import OUTSIDE, Question
 from limitblocks.joints.torsion import as_region
 from limitblocks.problem import Flow, Turning, checked_dilatancy, turning_of
@@ -50,6 +50,14 @@ class Queries:
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows of the yield set; see :class:`limitblocks.joints.base.Joint`."""
         raise NotImplementedError
+
+    def in_words(self) -> str:
+        """Return the joint as an engineer would say it, with units."""
+        return f"{friction_words(float(getattr(self, 'friction', 0.0)))}, {self!r}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption that the joint makes with these settings."""
+        return ()
 
     def __repr__(self) -> str:
         """Name the settings that differ from their defaults."""

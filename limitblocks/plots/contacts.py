@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import Counter
 from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.chains import chains, crowded
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
 from limitblocks.evidence.load_path_result import LoadPath
@@ -135,31 +136,15 @@ def thrust_line(
 
 def chain(model: Model) -> list[int]:
     """Positions of the interfaces in the order of a chain of blocks; ModelError if they are none."""
-    free = {block.name for block in model.free_blocks}
-    touching = defaultdict(list)
-    for k, interface in enumerate(model.interfaces):
-        for name in free & {interface.block_i, interface.block_j}:
-            touching[name].append(k)
-    crowded = [name for name in touching if len(touching[name]) > 2]
-    if crowded:
+    if block := crowded(model):
         raise ModelError(
-            f"block {crowded[0]!r} has {len(touching[crowded[0]])} interfaces; "
+            f"block {block[0]!r} has {block[1]} interfaces; "
             "a line of thrust needs a chain of blocks, at most two each"
         )
-    starts = [(k, name) for name, ks in touching.items() for k in ks if _other(model, k, name) not in free]
-    starts += [(ks[0], _other(model, ks[0], name)) for name, ks in touching.items() if len(ks) == 1]
-    order, name = ([starts[0][0]], starts[0][1]) if starts else ([], "")
-    while onward := [k for k in touching.get(name, []) if k not in order]:
-        order.append(onward[0])
-        name = _other(model, onward[0], name)
-    if len(order) < len(model.interfaces):
+    lines = chains(model)
+    if len(lines) != 1 or len(lines[0]) < len(model.interfaces):
         raise ModelError("the blocks form more than one chain, or a ring; a line of thrust needs one chain")
-    return order
-
-
-def _other(model: Model, k: int, name: str) -> str:
-    interface = model.interfaces[k]
-    return interface.block_j if interface.block_i == name else interface.block_i
+    return lines[0]
 
 
 def interface_states(

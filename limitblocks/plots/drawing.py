@@ -8,7 +8,6 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-import shapely
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
 from matplotlib.ticker import MaxNLocator
@@ -16,8 +15,9 @@ from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.painter import painting_order, placed
+from limitblocks.drawing.silhouette import hulls, outlines
 from limitblocks.geometry import polyhedron
-from limitblocks.geometry.painter import painting_order, placed
 from limitblocks.plots.style import EDGE, SUPPORT, legend_below, plain
 
 LIGHT = np.array([-0.35, -0.6, 0.72])
@@ -62,13 +62,10 @@ class Canvas:
         order = np.argsort([(p @ self.view[2]).max() for p in points], kind="stable").tolist()
         for hatch in ("", "/////"):
             these = [k for k in order if (colours[k] == SUPPORT) == bool(hatch)]
-            hulls = [
-                shapely.get_coordinates(shapely.MultiPoint(self.flat(points[k])).convex_hull)[:-1]
-                for k in these
-            ]
+            shapes = hulls([points[k] for k in these], self.view)
             fill = [to_rgb("white" if hatch else colours[k]) for k in these]
             lines = {"hatch": hatch, "zorder": 0.9} if hatch else {"zorder": 1.0}
-            self._add(PolyCollection(hulls, facecolors=fill, **(lines | style)))
+            self._add(PolyCollection(shapes, facecolors=fill, **(lines | style)))
 
     def polygons(self, polygons: Sequence[Array], **style: Any) -> None:
         """Draw plane polygons (n, 3) over the blocks; in elevation those seen from the edge are lines."""
@@ -107,11 +104,8 @@ class Canvas:
 
     def outline(self, points: Sequence[Array], **style: Any) -> None:
         """Draw the outline of bodies as seen, as one."""
-        hulls = [shapely.MultiPoint(self.flat(p)).convex_hull for p in points]
         size = float(np.ptp(np.concatenate(points), axis=0).max())
-        whole = shapely.union_all(shapely.buffer(hulls, 1e-4 * size, join_style="mitre"))
-        rings = [ring for part in shapely.get_parts(whole) for ring in (part.exterior, *part.interiors)]
-        self.lines([shapely.get_coordinates(ring) @ self.view[:2] for ring in rings], **style)
+        self.lines([ring @ self.view[:2] for ring in outlines(points, self.view, 1e-4 * size)], **style)
 
     def frame(self, points: Array) -> None:
         """Label the axes, in m, with equal scales and the limits of `points` (n, 3)."""

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.motion import STILL, displaced, magnification, travel
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.evidence.load_path_result import LoadPath
@@ -15,10 +16,7 @@ from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import EDGE, MOVING, STONE, SUPPORT, VERMILION, number
 from limitblocks.plots.views import canvas
 
-DRAWN = 0.08  # largest displacement drawn, over the diagonal of the structure
-TURN = 0.25  # largest rotation drawn, rad: the drawing is linear in it
 LIVE = 0.12  # length of the arrow of the live load, over the diagonal
-STILL = 1e-3  # of the largest displacement rate: less counts as standing still
 
 
 def structure(
@@ -124,22 +122,21 @@ def mechanism(
         plane does not fit `ax`.
     """
     rates = collapse_of(model, result).displacement_rates
-    shifts = [
-        rate[:3] + np.cross(rate[3:], block.vertices - block.centroid)
-        for block, rate in zip(model.blocks, rates, strict=True)
-    ]
-    sizes = np.array([np.linalg.norm(shift, axis=1).max() for shift in shifts])
+    sizes = travel(model.blocks, rates)
     if not (np.isfinite(sizes).all() and sizes.max() > 0.0):
         raise LimitBlocksError(
             f"this {type(result).__name__} has no mechanism to draw: no block has a displacement rate"
         )
-    factor = _default_scale(model, sizes, rates) if scale is None else scale
+    factor = magnification(model.blocks, rates) if scale is None else scale
     if not (np.isfinite(factor) and factor > 0.0):
         raise LimitBlocksError(f"scale is {scale!r}, expected a finite number > 0")
-    drawn = canvas(model, ax, plane)
+    drawn = canvas(model, ax, plane, rates)
     moving = sizes > STILL * sizes.max()
     before = [block.vertices for block in model.blocks]
-    after = [p + factor * shift for p, shift in zip(before, shifts, strict=True)]
+    after = [
+        block.vertices + displaced(block, factor * rate)
+        for block, rate in zip(model.blocks, rates, strict=True)
+    ]
     colours = np.where(moving, MOVING, STONE)
     colours[[block.name in model.supports for block in model.blocks]] = SUPPORT
     drawn.blocks(after, [block.faces for block in model.blocks], colours.tolist())
@@ -149,10 +146,3 @@ def mechanism(
     largest = f"{factor * sizes.max():.2g} m"
     drawn.title(f"mechanism: largest displacement drawn {largest},\ndisplacement rates × {number(factor)}")
     return drawn.ax
-
-
-def _default_scale(model: Model, sizes: Array, rates: Array) -> float:
-    points = np.concatenate([block.vertices for block in model.blocks])
-    diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
-    turn = float(np.linalg.norm(rates[:, 3:], axis=1).max())
-    return min(DRAWN * diagonal / float(sizes.max()), TURN / turn if turn > 0.0 else np.inf)

@@ -7,24 +7,18 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.view import PLANES, towards, view_of
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import new_axes
 
-# Directions on the page to the right, up, and towards the eye.
-PLANES = {
-    "xz": np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]),
-    "yz": np.array([[0, 1.0, 0], [0, 0, 1], [1, 0, 0]]),
-    "xy": np.array([[1.0, 0, 0], [0, 1, 0], [0, 0, 1]]),
-}
 
-
-def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
+def canvas(model: Model, ax: Any, plane: str | None, rates: Array | None = None) -> Canvas:
     """Return `ax`, or new Axes, with the view of `model`.
 
     Without a plane, `ax` decides; without `ax` too, models whose contacts and loads lie in one vertical plane
-    are drawn in elevation, others axonometrically.
+    are drawn in elevation, others axonometrically, from the side to which displacement `rates` move them.
     """
     if plane not in (None, "3d", *PLANES):
         known = ", ".join(map(repr, (*PLANES, "3d")))
@@ -39,13 +33,12 @@ def canvas(model: Model, ax: Any, plane: str | None) -> Canvas:
     own = ax is None
     if own:
         ax = new_axes("3d")
-        wide, deep, _ = np.ptp(_vertices(model), axis=0)
-        ax.view_init(elev=22.0, azim=-60.0 if wide >= deep else -30.0)
+        x, y, _ = towards(model, rates)
+        ax.view_init(elev=22.0, azim=float(np.degrees(np.arctan2(y, x))))
     ax.computed_zorder = False
     elev, azim = np.radians([ax.elev, ax.azim])
     eye = np.array([np.cos(elev) * np.cos(azim), np.cos(elev) * np.sin(azim), np.sin(elev)])
-    right = np.array([-np.sin(azim), np.cos(azim), 0.0])
-    return Canvas(ax, np.array([right, np.cross(eye, right), eye]), True, own)
+    return Canvas(ax, view_of(eye), True, own)
 
 
 def _plane(model: Model, flat: bool) -> str:

@@ -8,11 +8,12 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.sheet import WIDTH, Dot, Group, Label, Shape, Sheet
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
 
-WIDTH, HEIGHT = 1000.0, 360.0  # user units of the SVG
+HEIGHT = 360.0  # user units of the SVG
 LEFT, RIGHT, TOP, BOTTOM = 110.0, 30.0, 20.0, 60.0
 AXES = "XYZ"
 SNAPPING = ("before snap", "unstable", "after snap")
@@ -37,6 +38,23 @@ class Curve(NamedTuple):
     dots: tuple[tuple[float, float, str], ...]
     x_ticks: tuple[Tick, ...]
     y_ticks: tuple[Tick, ...]
+
+    def sheet(self) -> Sheet:
+        """Return the curve as a drawing."""
+        right, foot, turn = WIDTH - RIGHT, HEIGHT - BOTTOM, (LEFT + WIDTH - RIGHT) / 2
+        level = [f"M{LEFT:g},{tick.place:g} {right:g},{tick.place:g}" for tick in self.y_ticks]
+        upright = [f"M{tick.place:g},{TOP:g} {tick.place:g},{foot:g}" for tick in self.x_ticks]
+        labels = [Label(tick.place, foot + 22.0, tick.text) for tick in self.x_ticks]
+        labels += [Label(LEFT - 10.0, tick.place + 5.0, tick.text, "end") for tick in self.y_ticks]
+        labels += [Label(turn, foot + 50.0, self.x_label)]
+        labels += [Label(24.0, (TOP + foot) / 2, self.y_label, upwards=True)]
+        text = f"Line through {len(self.dots)} dots, from {self.dots[0][2]}, to {self.dots[-1][2]}."
+        groups = (
+            Group("grid", "", tuple(map(Shape, (*level, *upright)))),
+            Group("line", "", (Shape(self.line),)),
+        )
+        dots = tuple(Dot(*dot) for dot in self.dots)
+        return Sheet("curve", self.title, text, HEIGHT, groups, tuple(labels), dots)
 
 
 def path_curve(model: Model, path: LoadPath) -> Curve | None:

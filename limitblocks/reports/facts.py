@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Iterable, Iterator
-from dataclasses import asdict
-from inspect import getdoc
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from limitblocks.analysis.diagnosis import diagnose
 from limitblocks.analysis.magnitudes import questions
+from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.geometry.polygon import areas
-from limitblocks.mechanics import Load
 from limitblocks.model import Model
-
-_SHOWN = 8
+from limitblocks.reports.words import (
+    assumed,
+    counted,
+    joint_words,
+    load_words,
+    resultant_words,
+    some,
+    times,
+)
 
 
 def facts(model: Model) -> dict[str, Any]:
@@ -24,6 +28,7 @@ def facts(model: Model) -> dict[str, Any]:
     diagnosis = diagnose(model)
     corners = np.concatenate([block.vertices for block in model.blocks])
     free = model.free_blocks
+    heights = np.concatenate([block.vertices[:, 2] for block in free])
     return {
         "name": model.name,
         "digest": model.digest,
@@ -33,17 +38,24 @@ def facts(model: Model) -> dict[str, Any]:
         "interfaces": len(model.interfaces),
         "weight": sum(block.weight for block in free if block.unit_weight is not None),
         "volume": sum(block.volume for block in free),
+        "unit_weights": _unit_weights(model),
+        "dimensions": dimensions(model),
+        "heights": [float(heights.min()), float(heights.max())],
         "interface_area": float(sum(areas(interface.polygon) for interface in model.interfaces)),
         "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
-        "joints": _counted(_joint_words(model)),
-        "layers": _counted(block.layer for block in model.blocks if block.layer),
+        "joints": counted(_joints(model)),
+        "layers": counted(block.layer for block in model.blocks if block.layer),
         "materials": _materials(model),
-        "block_types": _counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
-        "interface_types": _counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
+        "block_types": counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
+        "interface_types": counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
         "live": load_words(model.live),
+        "dead_resultant": resultant_words(model, model.dead),
+        "live_resultant": resultant_words(model, model.live),
         "contacts": "; ".join([diagnosis.accuracy, *diagnosis.nothing]),
+        "tolerances": diagnosis.accuracy,
         "diagnosis": diagnosis.to_dict(),
+        "findings": findings(model, diagnosis),
         "warnings": warnings(model) + diagnosis.warnings,
     }
 
@@ -52,38 +64,62 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     """Return the facts as rows to read: quantity and value with its unit."""
     low, high = known["bounding_box"]
     size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
+    overall = ", ".join(f"{name} {length(value)}" for name, value in known["dimensions"].items())
+    foot, top = known["heights"]
     labels = [
-        ("Layers", _times(known["layers"])),
+        ("Layers", times(known["layers"])),
         ("Materials", "; ".join(map(_made_of, known["materials"]))),
     ]
     return (
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
-        ("Supports", _some(known["supports"])),
+        ("Supports", some(known["supports"])),
         *(row for row in labels if row[1]),
-        ("Block types", _times(known["block_types"])),
-        ("Interfaces", f"{known['interfaces']} ({_times(known['interface_types'])})"),
+        ("Size of the free blocks", overall),
+        ("Height of the free blocks", f"{length(top - foot)}, from Z = {foot:.4g} m to {top:.4g} m"),
+        ("Block types", times(known["block_types"])),
+        ("Interfaces", f"{known['interfaces']} ({times(known['interface_types'])})"),
         ("Interface area", f"{known['interface_area']:.4g} m²"),
         ("Contacts", known["contacts"]),
-        ("Joints", _times(known["joints"])),
+        ("Joints", times(known["joints"])),
         ("Weight of the free blocks", f"{known['weight'] / 1e3:.4g} kN"),
         ("Volume of the free blocks", f"{known['volume']:.4g} m³"),
+        *((f"Unit weight {row[0]}", f"{row[1]} blocks, {row[2]}, {row[3]}") for row in known["unit_weights"]),
         ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
-        ("Dead load", _some(known["dead"]) or "none"),
-        ("Live load", _some(known["live"])),
+        ("Dead load", some(known["dead"]) or "none"),
+        ("Its resultant", known["dead_resultant"]),
+        ("Live load", some(known["live"])),
+        ("Its resultant", f"{known['live_resultant']}, at load factor 1"),
     )
 
 
-def _joint_words(model: Model) -> Iterator[str]:
+def findings(model: Model, diagnosis: Any) -> list[list[str]]:
+    """Return what was looked for and what was found, "none" where nothing was."""
+    looked = (
+        ("Blocks that touch without an interface between them", [i.name for i in diagnosis.interfaces]),
+        ("Faces that nearly touch", diagnosis.near_misses),
+        ("Blocks that overlap", diagnosis.overlaps),
+        ("Blocks without any interface", diagnosis.isolated),
+        ("Contacts left out because they are too small", diagnosis.slivers),
+        ("Strips left out because they are too narrow", diagnosis.strips),
+        ("Contacts left out because a third block lies between", diagnosis.through),
+        ("Blocks without weight", _weightless(model)),
+        ("Numbers that look like slips in their unit", questions(model)),
+    )
+    return [[words, some([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
+
+
+def _joints(model: Model) -> Iterator[str]:
     """Yield the joint of each interface, after the materials that it joins where they are known."""
     material = {block.name: block.material for block in model.blocks}
+    words = {joint: joint_words(joint) for joint in dict.fromkeys(i.joint for i in model.interfaces)}
     for one in model.interfaces:
         pair = "|".join(sorted((material[one.block_i], material[one.block_j])))
-        yield f"{pair}: {one.joint!r}" if pair != "|" else repr(one.joint)
+        yield f"{pair}: {words[one.joint]}" if pair != "|" else words[one.joint]
 
 
 def _materials(model: Model) -> list[dict[str, Any]]:
     """Return the number of blocks, volume (m3) and unit weights (N/m3) of each material."""
-    names = _counted(block.material for block in model.blocks if block.material)
+    names = counted(block.material for block in model.blocks if block.material)
     made = {name: [block for block in model.blocks if block.material == name] for name in names}
     return [
         {
@@ -103,34 +139,36 @@ def _made_of(one: dict[str, Any]) -> str:
     return f"{one['blocks']} × {one['material']}, {one['volume']:.4g} m³, {weights}"
 
 
-def load_words(load: Load) -> list[str]:
-    """Return a line a term: its factor, kind and settings."""
-    lines = []
-    for factor, term in load.terms:
-        settings = ", ".join(f"{key} {_plain(v)}" for key, v in asdict(term).items() if v not in (None, ()))
-        lines.append(f"{factor:g} × {type(term).__name__}: {settings}")
-    return lines
-
-
-def assumptions(model: Model) -> dict[str, list[dict[str, Any]]]:
-    """Return what the joints assume, from their docstrings: paragraphs with `text`, or `items` of a list."""
-    classes = dict.fromkeys(type(interface.joint) for interface in model.interfaces)
-    return {cls.__name__: _paragraphs((getdoc(cls) or "").split("\nParameters\n")[0]) for cls in classes}
+def assumptions(model: Model) -> dict[str, list[str]]:
+    """Return what each kind of joint of the model assumes, sentences by the words for the joint."""
+    joints = dict.fromkeys(interface.joint for interface in model.interfaces)
+    return {joint_words(joint): list(assumed(joint)) for joint in joints}
 
 
 def warnings(model: Model) -> list[str]:
     """Return what is no error but may not be meant, less what the contacts show."""
     said = []
-    weightless = [block.name for block in model.free_blocks if not block.unit_weight]
+    weightless = _weightless(model)
     if weightless:
-        said.append(f"blocks without weight: {_some(weightless)}")
+        said.append(f"blocks without weight: {some(weightless)}")
     if not model.dead.terms:
         said.append("no dead load: the structure has no weight to stabilise it")
     return said + questions(model)
 
 
-def _counted(words: Iterable[str]) -> dict[str, int]:
-    return dict(Counter(words).most_common())
+def _weightless(model: Model) -> list[str]:
+    return [block.name for block in model.free_blocks if not block.unit_weight]
+
+
+def _unit_weights(model: Model) -> list[list[str]]:
+    """A row a unit weight of the free blocks: it, how many blocks have it, their volume and weight."""
+    groups: dict[float, list[float]] = {}
+    for block in model.free_blocks:
+        groups.setdefault(block.unit_weight or 0.0, []).append(block.volume)
+    return [
+        [f"{one / 1e3:.4g} kN/m³", str(len(v)), f"{sum(v):.4g} m³", f"{one * sum(v) / 1e3:.4g} kN"]
+        for one, v in sorted(groups.items())
+    ]
 
 
 def _shape(faces: int, vertices: int) -> str:
@@ -139,29 +177,3 @@ def _shape(faces: int, vertices: int) -> str:
 
 def _polygon(sides: int) -> str:
     return {3: "triangle", 4: "quadrilateral"}.get(sides, f"{sides}-sided polygon")
-
-
-def _some(names: list[str]) -> str:
-    return ", ".join(names[:_SHOWN]) + (f" and {len(names) - _SHOWN} more" if len(names) > _SHOWN else "")
-
-
-def _plain(value: Any) -> str:
-    if not isinstance(value, tuple):
-        return str(value)
-    return "(" + ", ".join(f"{part:g}" if isinstance(part, float) else str(part) for part in value) + ")"
-
-
-def _times(counts: dict[str, int]) -> str:
-    return _some([f"{count} × {word}" for word, count in counts.items()])
-
-
-def _paragraphs(text: str) -> list[dict[str, Any]]:
-    parts: list[dict[str, Any]] = []
-    for paragraph in text.strip().split("\n\n"):
-        plain = paragraph.replace("`", "")
-        if plain.startswith("- "):
-            items = [" ".join(item.split()) for item in plain[2:].split("\n- ")]
-            parts.append({"text": "", "items": items})
-        else:
-            parts.append({"text": " ".join(plain.split()), "items": []})
-    return parts

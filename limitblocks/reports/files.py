@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from limitblocks.errors import LimitBlocksError
-from limitblocks.reports.content import content
+from limitblocks.reports.as_json import FORMAT
 from limitblocks.reports.markdown import MARK
-from limitblocks.reports.pdf import CREATOR, pdf
+from limitblocks.reports.pdf import CREATOR
 from limitblocks.written import write
 
-if TYPE_CHECKING:
-    from limitblocks.reports.report import Report
-
-FORMAT = "limitblocks report"
 #: Suffixes of the formats, and what is in files of ours and in no others.
 MARKS = {
     ".html": b'<meta name="generator" content="limitblocks ',
@@ -43,10 +38,9 @@ def suffix(file: str | Path) -> str:
     return ending
 
 
-def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) -> Path:
-    """Write `report` to `file` in the format of suffix `kind`; see :meth:`results.Report.save`."""
+def save(file: str | Path, data: str | bytes, kind: str, overwrite: bool | None) -> Path:
+    """Write a report in the format of suffix `kind` to a file; see :meth:`Report.save`."""
     path = Path(file)
-    data = _bytes(report, kind)
     if overwrite is None and path.is_file():
         if not _ours(path, kind):
             raise LimitBlocksError(
@@ -54,13 +48,6 @@ def save(report: Report, file: str | Path, kind: str, overwrite: bool | None) ->
             )
         overwrite = True
     return write(path, data, bool(overwrite))
-
-
-def _bytes(report: Report, kind: str) -> bytes:
-    if kind == ".pdf":
-        return pdf(content(report), report.title)
-    text = {".html": lambda: report.html, ".json": lambda: report.json + "\n", ".md": lambda: report.markdown}
-    return text[kind]().encode("utf-8")
 
 
 def _ours(path: Path, kind: str) -> bool:

@@ -7,22 +7,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.load_path_result import LoadPath
-from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.reports.scene import short, without_noise
+from limitblocks.reports.document import Cell
+from limitblocks.reports.scene import in_scene, short, without_noise
+from limitblocks.reports.words import joint_words
 
-#: Interfaces listed, those first that use most of their strength and are compressed most.
-MOST = 200
-
-
-class Cell(NamedTuple):
-    """Text of a cell, and the number it sorts by; None for text."""
-
-    text: str
-    value: float | None = None
+#: Interfaces listed, those first that move most.
+MOST = 40
 
 
 class Active(NamedTuple):
@@ -33,36 +25,61 @@ class Active(NamedTuple):
     rows: tuple[tuple[Cell, ...], ...]
     active: int
     interfaces: int
+    note: str = "Moves: how far its two sides move apart or along one another, over the largest."
+    right: tuple[int, ...] = tuple(range(2, 10))
 
 
 HEADS = (
-    "Interface", "State", "Utilisation", "N, kN", "V1, kN", "V2, kN", "M1, kN m", "M2, kN m", "T, kN m",
-    "Active modes",
+    "Interface", "State", "Moves", "Utilisation", "N, kN", "V1, kN", "V2, kN", "M1, kN m", "M2, kN m",
+    "T, kN m", "Active modes",
 )  # fmt: skip
 
 
 def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
     """Return the interfaces that do not stick at collapse; None for a result without a mechanism."""
-    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+    if not in_scene(result):
         return None
     states = interface_states(model, result)
     active = np.array([word != "stick" for word in states.state], dtype=bool)
-    order = np.lexsort((states.stress_resultants[:, 2], -states.utilisation.round(3)))  # then most compressed
+    moves = relative_motion(model, result.collapse.displacement_rates)
+    moves = moves / max(float(moves.max(initial=0.0)), 1e-300)
+    # then those that use most of their strength, then the most compressed
+    order = np.lexsort((states.stress_resultants[:, 2], -states.utilisation.round(3), -moves.round(3)))
     shown = [k for k in order.tolist() if active[k]]
     resultants = without_noise(states.stress_resultants)
-    rows = tuple(_row(states, resultants[k], k) for k in shown[:MOST])
+    rows = tuple(_row(states, resultants[k], float(moves[k]), k) for k in shown[:MOST])
     return Active(title, HEADS, rows, len(shown), len(states.names))
+
+
+def relative_motion(model: Model, rates: Array) -> Array:
+    """Return by how much the two blocks of each interface move apart or along one another, (m,).
+
+    The largest over the corners of its polygon of the difference of v + w x r of both blocks, m, for
+    displacement rates (n, 6).
+    """
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    centroids = np.array([block.centroid for block in model.blocks])
+    largest = np.zeros(len(model.interfaces))
+    for k, interface in enumerate(model.interfaces):
+        i, j = place[interface.block_i], place[interface.block_j]
+        if not (rates[i].any() or rates[j].any()):
+            continue
+        corners = interface.centroid + interface.polygon @ interface.axes[:2]
+        shift = [rates[b, :3] + np.cross(rates[b, 3:], corners - centroids[b]) for b in (i, j)]
+        largest[k] = float(np.linalg.norm(shift[1] - shift[0], axis=1).max())
+    return largest
 
 
 def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
     """Return a dictionary an interface, SI units, for JSON; empty for a result without a mechanism."""
-    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+    if not in_scene(result):
         return []
     states = interface_states(model, result)
+    words = {joint: joint_words(joint) for joint in dict.fromkeys(i.joint for i in model.interfaces)}
     return [
         {
             "name": name,
-            "joint": repr(interface.joint),
+            "joint": words[interface.joint],
             "state": states.state[k],
             "utilisation": float(states.utilisation[k]),
             "active_modes": list(states.active_modes[k]),
@@ -74,12 +91,13 @@ def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
     ]
 
 
-def _row(states: InterfaceStates, resultants: Array, k: int) -> tuple[Cell, ...]:
+def _row(states: InterfaceStates, resultants: Array, moves: float, k: int) -> tuple[Cell, ...]:
     V1, V2, N, M1, M2, T = (resultants / 1e3).tolist()
     used = float(states.utilisation[k])
     return (
         Cell(states.names[k]),
         Cell(states.state[k]),
+        Cell(f"{moves:.3f}", moves),
         Cell(f"{used:.3f}", used),
         *(Cell(f"{value:.4g}", value) for value in (N, V1, V2, M1, M2, T)),
         Cell(", ".join(states.active_modes[k]) or "none"),

@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from functools import singledispatch
-from itertools import chain
+from collections.abc import Iterator
 
-from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.reports.section import Table
+from limitblocks.reports.document import (
+    Document,
+    Figure,
+    Heading,
+    Headline,
+    Items,
+    Part,
+    Table,
+    Text,
+)
 
 MARK = "<!-- limitblocks report -->"
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$&])")
 _LIST = re.compile(r"^(\s*)([-+]|\d+[.)])(?=\s|$)")  # what would begin a list at the start of a line
 
 
-def markdown(parts: Iterable[Part]) -> str:
-    """Return the parts as GitHub-flavoured Markdown; nothing in a name acts as markup."""
-    return "\n\n".join(chain([MARK], (text for text in map(_written, parts) if text))) + "\n"
+def markdown(document: Document) -> str:
+    """Return the report as GitHub-flavoured Markdown; nothing in a name acts as markup."""
+    return "\n\n".join(_paragraphs(document)) + "\n"
 
 
 def escaped(text: str) -> str:
@@ -26,35 +32,38 @@ def escaped(text: str) -> str:
     return _LIST.sub(r"\1\\\2", line)
 
 
-@singledispatch
-def _written(part: Part) -> str:
-    return escaped(str(part))
+def written(part: Part) -> str:
+    """Return a part as Markdown."""
+    match part:
+        case Text():
+            return f"**Warning:** {escaped(part.text)}" if part.warning else escaped(part.text)
+        case Heading():
+            return f"### {escaped(part.text)}"
+        case Items():
+            return "\n".join(f"- {escaped(line)}" for line in part.lines)
+        case Headline():
+            return f"**{escaped(part.number)}** {escaped(part.quantity)}"
+        case Figure():
+            legend = ", ".join(escaped(word) for _, word in part.legend)
+            colours = f" (colours: {legend})" if legend else ""
+            return f"*Figure.* {escaped(part.sheet.text)} {escaped(part.caption)}{colours}"
+        case Table():
+            return _table(part)
 
 
-@_written.register
-def _(part: Heading) -> str:
-    return f"{'#' * part.level} {escaped(part.text)}"
+def _paragraphs(document: Document) -> Iterator[str]:
+    yield MARK
+    yield f"# {escaped(document.title)}"
+    about = (*document.about, ("Date", document.dated))
+    yield "\n".join(f"- {escaped(name)}: {escaped(value)}" for name, value in about)
+    yield from (escaped(line) for line in document.notes.splitlines() if line.strip())
+    for chapter in document.chapters:
+        yield f"## {escaped(chapter.title)}"
+        yield from map(written, chapter.parts)
 
 
-@_written.register
-def _(part: Headline) -> str:
-    return f"**{escaped(part.number)}** {escaped(part.quantity)}"
-
-
-@_written.register
-def _(part: Bullets) -> str:
-    return "\n".join(f"- {escaped(line)}" for line in part.lines)
-
-
-@_written.register
-def _(_part: Figure) -> str:
-    return ""
-
-
-@_written.register
-def _(part: Table) -> str:
-    rule = ["---:" if head.startswith(("Value", "Load factor")) else "---" for head in part.heads]
-    lines = [part.heads, rule, *part.rows]
-    cells = [[cell if cells is rule else escaped(cell) for cell in cells] for cells in lines]
-    table = "\n".join(f"| {' | '.join(row)} |" for row in cells)
-    return f"{escaped(part.caption)}:\n\n{table}"
+def _table(table: Table) -> str:
+    rule = ["---:" if k in table.right else "---" for k in range(len(table.heads))]
+    rows = [[escaped(cell.text) for cell in row] for row in table.rows]
+    lines = [[escaped(head) for head in table.heads], rule, *rows]
+    return f"{escaped(table.caption)}:\n\n" + "\n".join(f"| {' | '.join(line)} |" for line in lines)

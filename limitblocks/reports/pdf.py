@@ -2,33 +2,34 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable
-from functools import singledispatch
+from collections.abc import Iterator
 from io import BytesIO
 from typing import Any
 from xml.sax.saxutils import escape
 
 from limitblocks.io.packages import missing
-from limitblocks.reports.content import Bullets, Figure, Heading, Headline, Part
-from limitblocks.reports.picture import WIDTH, Drawn, Picture
-from limitblocks.reports.section import Table
+from limitblocks.reports.document import (
+    Chapter,
+    Document,
+    Figure,
+    Heading,
+    Headline,
+    Items,
+    Part,
+    Table,
+    Text,
+)
 
 CREATOR = "limitblocks report"
 _MARGIN = 51.0  # points
 _PAGE = (595.3, 841.9)  # A4, points
-_TALLEST = 330.0  # of the drawing, points
-_SAFE = str.maketrans({"−": "-", "≤": "<=", "≥": ">=", "✓": "", "✗": ""})
-#: Hue, saturation and the lightness of the four shades, as on the screen.
-_TINTS = {
-    "moving": (24, 72, (84, 74, 62, 50)),
-    "still": (212, 16, (84, 74, 62, 50)),
-    "support": (212, 8, (58, 50, 42, 34)),
-}
+_WIDE = _PAGE[0] - 2 * _MARGIN - 12
+_GAP, _PADDING = 7.0, 8.0  # between columns, points; and a little for rounding
+_SAFE = str.maketrans({"−": "-", "≤": "<=", "≥": ">="})
 
 
-def pdf(parts: Iterable[Part], title: str) -> bytes:
-    """Return the parts as a PDF document of A4 pages.
+def pdf(document: Document) -> bytes:
+    """Return the report as a PDF document of A4 pages: title above, hash and number of the page below.
 
     Raises
     ------
@@ -39,18 +40,67 @@ def pdf(parts: Iterable[Part], title: str) -> bytes:
         from reportlab.platypus import SimpleDocTemplate
     except ImportError:
         raise missing("reportlab", "a PDF") from None
+    from limitblocks.reports.pdf_pages import numbered
+
     stream = BytesIO()
     sides = dict.fromkeys(("leftMargin", "rightMargin", "topMargin", "bottomMargin"), _MARGIN)
-    document = SimpleDocTemplate(stream, pagesize=_PAGE, title=title, creator=CREATOR, **sides)
-    story = [flowable for part in parts for flowable in _flowables(part)]
-    document.build(story, onFirstPage=_number, onLaterPages=_number)
+    author = dict(document.about).get("Author", "")
+    named = {"title": document.title, "author": author, "creator": CREATOR}
+    template = SimpleDocTemplate(stream, pagesize=_PAGE, **named, **sides)
+    template.build(list(_story(document)), canvasmaker=numbered(latin(document.title), document.digest))
     return stream.getvalue()
+
+
+def latin(text: str) -> str:
+    """Return `text` in the characters of the standard fonts; others appear by their code."""
+    return text.translate(_SAFE).encode("cp1252", "backslashreplace").decode("cp1252")
 
 
 def marked(text: str) -> str:
     """Return `text` as reportlab's markup shows it; characters the fonts lack appear by their code."""
-    latin = text.translate(_SAFE).replace("α", "\0").encode("cp1252", "backslashreplace").decode("cp1252")
-    return escape(latin).replace("\0", "<greek>a</greek>")
+    return escape(latin(text.replace("α", "\0"))).replace("\0", "<greek>a</greek>")
+
+
+def _story(document: Document) -> Iterator[Any]:
+    yield _paragraph(document.title, 18.0, bold=True)
+    about = (*document.about, ("Date", document.dated))
+    yield from (_paragraph(f"{name}: {value}", space=1.0) for name, value in about)
+    yield from (_paragraph(line) for line in document.notes.splitlines() if line.strip())
+    for chapter in document.chapters:
+        yield from _chapter(chapter)
+
+
+def _chapter(chapter: Chapter) -> Iterator[Any]:
+    from reportlab.platypus import CondPageBreak, Spacer
+
+    # room for what follows the title; reportlab's keepWithNext would move a whole table with it
+    yield CondPageBreak(150.0)
+    yield Spacer(1, 8)
+    yield _paragraph(chapter.title, 13.0, bold=True)
+    for part in chapter.parts:
+        yield from flowables(part)
+
+
+def flowables(part: Part) -> list[Any]:
+    """Return a part as reportlab lays it out."""
+    from reportlab.platypus import CondPageBreak
+
+    match part:
+        case Text():
+            return [_paragraph(part.text, bold=part.warning)]
+        case Heading():
+            return [CondPageBreak(60.0), _paragraph(part.text, 10.0, bold=True)]
+        case Items():
+            return [_paragraph(f"• {line}", space=2.0) for line in part.lines]
+        case Headline():
+            number = f'<font color="#8a2f00"><b>{marked(part.number)}</b></font>'
+            if not part.main:
+                return [_paragraph(f"{number} {marked(part.quantity)}", 11.0, raw=True)]
+            return [_paragraph(number, 26.0, space=1.0, raw=True), _paragraph(part.quantity, 10.0)]
+        case Figure():
+            return _figure(part)
+        case Table():
+            return _table(part)
 
 
 def _paragraph(
@@ -60,124 +110,73 @@ def _paragraph(
     bold: bool = False,
     space: float = 4.0,
     raw: bool = False,
-    stays: bool = False,
+    right: bool = False,
 ) -> Any:
-    """A paragraph of `size` points; `raw` text is markup already, `stays` with what follows."""
+    """A paragraph of `size` points; `raw` text is markup already."""
+    from reportlab.lib.enums import TA_LEFT, TA_RIGHT
     from reportlab.lib.styles import ParagraphStyle
     from reportlab.platypus import Paragraph
 
-    font = "Helvetica-Bold" if bold else "Helvetica"
     style = ParagraphStyle(
         "",
-        fontName=font,
+        fontName="Helvetica-Bold" if bold else "Helvetica",
         fontSize=size,
         leading=1.3 * size,
         spaceAfter=space,
         splitLongWords=1,
-        keepWithNext=stays,
+        alignment=TA_RIGHT if right else TA_LEFT,
     )
     return Paragraph(text if raw else marked(text), style)
 
 
-@singledispatch
-def _flowables(part: Part) -> list[Any]:
-    return [_paragraph(str(part))]
+def _figure(part: Figure) -> list[Any]:
+    from reportlab.platypus import KeepTogether
+
+    from limitblocks.reports.pdf_drawing import drawing, legend
+
+    parts = [drawing(part.sheet, _WIDE, latin)]
+    parts += [legend(part.legend, _WIDE, latin)] if part.legend else []
+    parts += [_paragraph(text, 8.0, space=2.0) for text in (part.sheet.text, part.caption)]
+    return [KeepTogether(parts)]
 
 
-@_flowables.register
-def _(part: Heading) -> list[Any]:
-    from reportlab.platypus import Spacer
-
-    size = {1: 18.0, 2: 13.0}.get(part.level, 10.0)
-    return [Spacer(1, 0.6 * size), _paragraph(part.text, size, bold=True, stays=True)]
-
-
-@_flowables.register
-def _(part: Headline) -> list[Any]:
-    text = f'<font color="#8a2f00"><b>{marked(part.number)}</b></font>'
-    return [_paragraph(f'{text} <font size="9">{marked(part.quantity)}</font>', 24.0, raw=True)]
-
-
-@_flowables.register
-def _(part: Bullets) -> list[Any]:
-    return [_paragraph(f"• {line}", space=2.0) for line in part.lines]
-
-
-@_flowables.register
-def _(part: Figure) -> list[Any]:
-    return [_drawing(part.picture), _paragraph(part.caption, 8.0)]
-
-
-@_flowables.register
-def _(part: Table) -> list[Any]:
+def _table(part: Table) -> list[Any]:
     from reportlab.lib.colors import HexColor
-    from reportlab.platypus import LongTable, Spacer
+    from reportlab.platypus import CondPageBreak, LongTable, Spacer
 
     wide = len(part.heads) > 5
     size = 6.0 if wide else 8.0
-    cells = [[_paragraph(head, size, bold=True, space=0.0) for head in part.heads]]
-    cells += [[_paragraph(cell, size, space=0.0) for cell in row] for row in part.rows]
-    width = _PAGE[0] - 2 * _MARGIN - 12
-    table = LongTable(cells, colWidths=[width * share for share in _shares(part)], repeatRows=1)
-    rules = [("LINEBELOW", (0, 0), (-1, -1), 0.4, HexColor("#999999")), ("VALIGN", (0, 0), (-1, -1), "TOP")]
-    table.setStyle([*rules, ("LEFTPADDING", (0, 0), (-1, -1), 0), ("RIGHTPADDING", (0, 0), (-1, -1), 5)])
-    return [Spacer(1, 4), _paragraph(part.caption, 8.0, space=2.0, stays=True), table, Spacer(1, 6)]
-
-
-def _shares(table: Table) -> list[float]:
-    """Widths of the columns over that of the table, by the longest of their texts."""
-    columns = zip(*(table.heads, *table.rows), strict=True)
-    lengths = [min(max(map(len, column)), 60) + 2.0 for column in columns]
-    return [length / sum(lengths) for length in lengths]
-
-
-def _drawing(picture: Picture) -> Any:
-    from reportlab.graphics.shapes import Drawing, Group
-
-    scale = min((_PAGE[0] - 2 * _MARGIN - 12) / WIDTH, _TALLEST / picture.height)
-    group = Group(transform=(scale, 0, 0, -scale, 0, scale * picture.height))
-    for layer in (picture.ghosts, picture.blocks):
-        for block in layer:
-            for polygon in _polygons(block, scale):
-                group.add(polygon)
-    for points in _points(picture.outline):
-        group.add(_polygon(points, None, 1.2 / scale, dashed=6 / scale))
-    return Drawing(scale * WIDTH, scale * picture.height, group, hAlign="CENTER")
-
-
-def _polygons(block: Drawn, scale: float) -> list[Any]:
-    ghost = block.kind == "ghost"
-    return [
-        _polygon(points, None if ghost else _tint(block.kind, face.shade), 0.5 / scale, 3 / scale * ghost)
-        for face in block.faces
-        for points in _points(face.path)
+    numbers = [k in part.right for k in range(len(part.heads))]
+    cells = [
+        [
+            _paragraph(head, size, bold=True, space=0.0, right=r)
+            for head, r in zip(part.heads, numbers, strict=True)
+        ]
     ]
+    cells += [
+        [_paragraph(cell.text, size, space=0.0, right=r) for cell, r in zip(row, numbers, strict=True)]
+        for row in part.rows
+    ]
+    table = LongTable(cells, colWidths=_widths(part, size), repeatRows=1)
+    rules = [("LINEBELOW", (0, 0), (-1, -1), 0.4, HexColor("#999999")), ("VALIGN", (0, 0), (-1, -1), "TOP")]
+    table.setStyle([*rules, ("LEFTPADDING", (0, 0), (-1, -1), 0), ("RIGHTPADDING", (0, 0), (-1, -1), _GAP)])
+    caption = _paragraph(part.caption, 8.0, space=2.0)
+    # the caption, the heads and two rows stay on one page
+    return [Spacer(1, 4), CondPageBreak(5 * 1.6 * size + 16), caption, table, Spacer(1, 6)]
 
 
-def _polygon(points: list[float], fill: Any, width: float, dashed: float = 0.0) -> Any:
-    from reportlab.graphics.shapes import Polygon
-    from reportlab.lib.colors import HexColor
+def _widths(table: Table, size: float) -> list[float]:
+    """Widths of the columns, points: as wide as their texts, the widest ones less where that is too much."""
+    from reportlab.pdfbase.pdfmetrics import stringWidth
 
-    dash = [dashed, dashed] if dashed else None
-    return Polygon(
-        points, fillColor=fill, strokeColor=HexColor("#22262c"), strokeWidth=width, strokeDashArray=dash
-    )
-
-
-def _tint(kind: str, shade: int) -> Any:
-    from colorsys import hls_to_rgb
-
-    from reportlab.lib.colors import Color
-
-    hue, saturation, lightness = _TINTS[kind]
-    return Color(*hls_to_rgb(hue / 360, lightness[shade] / 100, saturation / 100))
-
-
-def _points(path: str) -> list[list[float]]:
-    """Vertices x, y, x, y, ... of each closed polygon of an SVG path."""
-    return [[float(number) for number in re.findall(r"-?[\d.]+", ring)] for ring in path.split("z") if ring]
-
-
-def _number(canvas: Any, document: Any) -> None:
-    canvas.setFont("Helvetica", 8)
-    canvas.drawRightString(_PAGE[0] - _MARGIN, _MARGIN / 2, str(document.page))
+    columns = zip(*(table.heads, *([cell.text for cell in row] for row in table.rows)), strict=True)
+    wanted = [
+        max(stringWidth(latin(text), "Helvetica-Bold", size) for text in column) + _PADDING
+        for column in columns
+    ]
+    left, widths = _WIDE, [0.0] * len(wanted)
+    for rank, k in enumerate(sorted(range(len(wanted)), key=wanted.__getitem__)):
+        widths[k] = min(wanted[k], left / (len(wanted) - rank))
+        left -= widths[k]
+    widths[-1] += left  # what is to spare, so that the rules run across the page
+    return widths

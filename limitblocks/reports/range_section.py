@@ -7,7 +7,8 @@ from collections.abc import Callable
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.reports.section import Check, Section, Table
+from limitblocks.reports.document import Table
+from limitblocks.reports.section import Check, Section
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
@@ -55,7 +56,9 @@ def range_section(
         rates=shown.solution.displacement_rates if shown else None,
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
-        steps=Table("Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows),
+        steps=Table.of(
+            "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
+        ),
     )
 
 

@@ -1,34 +1,48 @@
-"""A report: one HTML file that needs nothing else, and the same content as JSON, Markdown and PDF."""
+"""A report: one document, and its formats HTML, PDF, Markdown, JSON and text."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from limitblocks.drawing.picture import Picture, mechanism_picture
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.evidence.stability_result import Stability
 from limitblocks.io import strict_json
-from limitblocks.io.result_file import versions
 from limitblocks.model import Model
 from limitblocks.reports import files
-from limitblocks.reports.comparison import comparison
-from limitblocks.reports.content import content
-from limitblocks.reports.facts import assumptions, facts
+from limitblocks.reports.answer import answer, verdict
+from limitblocks.reports.as_json import as_dict
+from limitblocks.reports.chapters import document
+from limitblocks.reports.claims import CheckedClaim, checked
+from limitblocks.reports.document import Document
+from limitblocks.reports.facts import facts
 from limitblocks.reports.interfaces import interface_rows
 from limitblocks.reports.labels import Labels
 from limitblocks.reports.markdown import markdown
 from limitblocks.reports.page import page
-from limitblocks.reports.picture import Picture, mechanism_picture
+from limitblocks.reports.pdf import pdf
+from limitblocks.reports.scene import in_scene, scene
 from limitblocks.reports.section import Section
 from limitblocks.reports.sections import section
+from limitblocks.reports.terminal import text
 
-REPORT_SCHEMA_VERSION = 1
-_DRAWN = (Nonassociated, LoadPath, Bounds)  # the mechanism of the first kind there is; one says enough
+_DRAWN = (
+    Nonassociated,
+    LoadPath,
+    LoadFactorRange,
+    CheckedClaim,
+    Bounds,
+    Stability,
+)  # the mechanism of the first kind there is; one says enough
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,18 +71,51 @@ class Report:
         """What the report says of each result."""
         return tuple(section(self.model, result) for result in self.results)
 
+    @property
+    def title(self) -> str:
+        """Title of the report."""
+        return self.document.title
+
+    @cached_property
+    def facts(self) -> dict[str, Any]:
+        """What the model is, in numbers and words."""
+        return facts(self.model)
+
+    @cached_property
+    def drawn(self) -> Section | None:
+        """The section whose mechanism is drawn: one says enough."""
+        kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
+        shown = (kinds[kind] for kind in _DRAWN if kind in kinds and kinds[kind].rates is not None)
+        return next(shown, None)
+
+    @cached_property
+    def picture(self) -> Picture | None:
+        """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
+        rates = self.drawn.rates if self.drawn else None
+        return None if rates is None else mechanism_picture(self.model, rates)
+
+    @cached_property
+    def document(self) -> Document:
+        """What all formats show."""
+        made = self.sections, self.labels, self.date, self.facts, self.drawn, self.picture
+        return document(self.model, self.results, *made)
+
+    @cached_property
+    def scene(self) -> dict[str, Any]:
+        """What the viewer shows."""
+        return scene(self.model, self.results, self.title)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the content as plain numbers, lists and text, SI units; see :func:`report_schema`."""
+        found = answer(self.results)
+        demand = self.labels.demand
+        said = verdict(found, demand) if demand is not None else None
         return {
-            "format": files.FORMAT,
-            "schema_version": REPORT_SCHEMA_VERSION,
-            "title": self.title,
-            "date": self.date.isoformat(timespec="seconds"),
-            "versions": versions(),
-            "model": facts(self.model),
-            "assumptions": assumptions(self.model),
-            "comparison": [list(row) for row in comparison(self.results)],
-            "warnings": [warning for one in self.sections for warning in one.warnings],
+            **as_dict(self.document),
+            "answer": {"load_factor": found.load_factor, "certified": found.certified},
+            "demand": demand,
+            "ratio": said.ratio if said else None,
+            "model": self.facts,
             "results": [result.to_dict() for result in self.results],
             "interfaces": [interface_rows(self.model, result) for result in self.results],
         }
@@ -78,32 +125,33 @@ class Report:
         """The content as JSON text."""
         return strict_json.text(self.to_dict())
 
-    @property
-    def title(self) -> str:
-        """Title of the report."""
-        return self.labels.title or self.model.name or "Limit analysis of a rigid-block structure"
-
     @cached_property
     def html(self) -> str:
         """The report as one HTML document without references to other files."""
-        return page(self)
-
-    @cached_property
-    def drawn(self) -> Section | None:
-        """The section whose mechanism is drawn: one says enough."""
-        kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
-        return next((kinds[kind] for kind in _DRAWN if kind in kinds), None)
-
-    @cached_property
-    def picture(self) -> Picture | None:
-        """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
-        rates = self.drawn.rates if self.drawn else None
-        return None if rates is None else mechanism_picture(self.model, rates)
+        return page(self.document, self.scene, self._chosen)
 
     @property
     def markdown(self) -> str:
-        """The report as Markdown, without drawings."""
-        return markdown(content(self))
+        """The report as Markdown; of drawings it has the words."""
+        return markdown(self.document)
+
+    @property
+    def text(self) -> str:
+        """The report as on a terminal."""
+        return text(self.document)
+
+    def __repr__(self) -> str:
+        return f"<report {self.title!r}: {len(self.results)} results; save it as .html, .pdf, .md or .json>"
+
+    def __str__(self) -> str:
+        found = answer(self.results)
+        return f"report {self.title!r}: {found.number} {found.quantity(self.model)}"
+
+    @property
+    def _chosen(self) -> int:
+        """Place in the viewer of the result that is drawn."""
+        moving = [one for one, result in zip(self.sections, self.results, strict=True) if in_scene(result)]
+        return moving.index(self.drawn) if self.drawn in moving else 0
 
     def pdf(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
         """Write the report as PDF, whatever the suffix, and return its path; see :meth:`save`.
@@ -113,7 +161,7 @@ class Report:
         MissingDependency
             reportlab is not installed.
         """
-        return files.save(self, file, ".pdf", overwrite)
+        return self._write(file, ".pdf", overwrite)
 
     def save(self, file: str | Path, *, overwrite: bool | None = None) -> Path:
         """Write the report as its suffix says, .html, .json, .md or .pdf, and return its path.
@@ -132,7 +180,16 @@ class Report:
         MissingDependency
             reportlab, which a PDF needs, is not installed.
         """
-        return files.save(self, file, files.suffix(file), overwrite)
+        return self._write(file, files.suffix(file), overwrite)
+
+    def _write(self, file: str | Path, kind: str, overwrite: bool | None) -> Path:
+        made: dict[str, Callable[[], str | bytes]] = {
+            ".html": lambda: self.html,
+            ".json": lambda: self.json + "\n",
+            ".md": lambda: self.markdown,
+            ".pdf": lambda: pdf(self.document),
+        }
+        return files.save(file, made[kind](), kind, overwrite)
 
 
 def report(
@@ -151,7 +208,8 @@ def report(
     model : Model
         The structure.
     *results
-        What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`.
+        What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`, or what
+        :func:`limitblocks.read_result` read; a claim is checked first.
     title : str
         Title; by default the name of the model.
     author, project, notes : str
@@ -165,7 +223,8 @@ def report(
     LimitBlocksError
         A result is of an unknown kind or belongs to another model, or the demand is no finite number > 0.
     """
-    made = Report(model, results, labels=Labels(title, author, project, notes, demand))
+    labels = Labels(title, author, project, notes, demand)
+    made = Report(model, tuple(checked(model, result) for result in results), labels=labels)
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
     return made
 

@@ -10,14 +10,16 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.associated import Bounds
+from limitblocks.drawing.chains import chains
+from limitblocks.drawing.motion import magnification
+from limitblocks.drawing.view import towards
+from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
-from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.reports.picture import magnification
+from limitblocks.reports.words import joint_words
 
-SCENE_VERSION = 1
+SCENE_VERSION = 2
 DIGITS = 6  # of coordinates and stress resultants
 DRAWN_DIGITS = 4  # of what is drawn more than read: displacements, and forces before collapse
 NOISE = 1e-7  # of the largest of its kind: shown as zero
@@ -28,7 +30,7 @@ UNKNOWN = "not evaluated"
 
 def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     """Return what the viewer shows: shapes, blocks, interfaces and each result with a mechanism."""
-    shown = [result for result in results if isinstance(result, Bounds | Nonassociated | LoadPath)]
+    shown = [result for result in results if in_scene(result)]
     states = [interface_states(model, result) for result in shown]
     words = _Words.of(states, any(isinstance(result, LoadPath) for result in shown))
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
@@ -36,14 +38,21 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     return {
         "schema_version": SCENE_VERSION,
         "title": title,
+        "eye": short(towards(model)),
         "live": short(live / size) if size > 0.0 else None,
         "states": words.states,
         "modes": words.modes,
         **_blocks(model),
         **_interfaces(model),
-        "chains": chains(model),
+        "chains": [chain for chain in chains(model) if len(chain) > 1],
         "results": [_result(model, *pair, words) for pair in zip(shown, states, strict=True)],
     }
+
+
+def in_scene(result: Any) -> bool:
+    """Whether the viewer shows a result."""
+    collapse = getattr(result, "collapse", None)
+    return collapse is not None and all(getattr(collapse, name, None) is not None for name in ARRAYS)
 
 
 def short(values: Any, noise: float = 0.0, digits: int = DIGITS) -> list[float | None]:
@@ -61,33 +70,6 @@ def without_noise(resultants: Array) -> Array:
     sizes = np.abs(resultants)
     forces, moments = sizes[:, :3].max(initial=0.0), sizes[:, 3:].max(initial=0.0)
     return np.where(sizes > NOISE * np.repeat([forces, moments], 3), resultants, 0.0)
-
-
-def chains(model: Model) -> list[list[int]]:
-    """Return the interfaces of each chain of blocks, from a support on; none if the blocks branch."""
-    supports, at = set(model.supports), dict[str, list[int]]()
-    for k, interface in enumerate(model.interfaces):
-        for name in {interface.block_i, interface.block_j} - supports:
-            at.setdefault(name, []).append(k)
-    if any(len(known) > 2 for known in at.values()):
-        return []
-    lines, seen = [], set[int]()
-    for k, interface in enumerate(model.interfaces):
-        if k not in seen and supports & {interface.block_i, interface.block_j}:
-            lines.append(_chain(model, k, at))
-            seen.update(lines[-1])
-    return [chain for chain in lines if len(chain) > 1]
-
-
-def _chain(model: Model, first: int, at: dict[str, list[int]]) -> list[int]:
-    chain = [first]
-    while True:
-        interface = model.interfaces[chain[-1]]
-        around = {k for name in (interface.block_i, interface.block_j) for k in at.get(name, ())}
-        beyond = sorted(around - set(chain))
-        if not beyond:
-            return chain
-        chain.append(beyond[0])
 
 
 @dataclass(frozen=True)
@@ -135,7 +117,7 @@ def _interfaces(model: Model) -> dict[str, Any]:
         corners = tuple(short(interface.polygon @ interface.axes[:2], 1e-9))
         axes = tuple(short(interface.axes, 1e-9))
         kinds.append(outlines.setdefault((corners, axes), len(outlines)))
-        laws.append(joints.setdefault(repr(interface.joint), len(joints)))
+        laws.append(joints.setdefault(joint_words(interface.joint), len(joints)))
     return {
         "joints": list(joints),
         "outlines": [{"corners": corners, "axes": axes} for corners, axes in outlines],
@@ -152,19 +134,13 @@ def _interfaces(model: Model) -> dict[str, Any]:
 def _result(model: Model, result: Any, states: InterfaceStates, words: _Words) -> dict[str, Any]:
     if isinstance(result, LoadPath):
         return _path(model, result, states, words)
-    named = (
-        ("Associated bounds", result.lower)
-        if isinstance(result, Bounds)
-        else (
-            "Non-associated",
-            result.load_factor,
-        )
-    )
+    rates = result.collapse.displacement_rates
     return {
-        "title": named[0],
+        "title": result.title,
         "moves": "Displacement rates, for live work 1 N m",
-        "magnification": magnification(model, result.displacement_rates),
-        "steps": [_collapse(f"load factor {named[1]:.6g}", result.displacement_rates, states, words)],
+        "magnification": magnification(model.blocks, rates),
+        "eye": short(towards(model, rates)),
+        "steps": [_collapse(f"load factor {result.load_factor:.6g}", rates, states, words)],
     }
 
 
@@ -181,9 +157,10 @@ def _path(model: Model, path: LoadPath, states: InterfaceStates, words: _Words) 
         else:
             steps.append(_before(model, label, step, words))
     return {
-        "title": "Load path",
+        "title": path.title,
         "moves": "Displacement since the permanent loads",
-        "magnification": magnification(model, path.steps[-1].displacements),
+        "magnification": magnification(model.blocks, path.steps[-1].displacements),
+        "eye": short(towards(model, path.collapse.displacement_rates)),
         "steps": steps,
     }
 

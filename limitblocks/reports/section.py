@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from limitblocks.arrays import Array
 from limitblocks.reports.curve import Curve
+from limitblocks.reports.document import Table
 
 
 class Check(NamedTuple):
@@ -16,14 +17,6 @@ class Check(NamedTuple):
     value: float
     meaning: str
     passed: bool
-
-
-class Table(NamedTuple):
-    """Rows of text under a caption."""
-
-    caption: str
-    heads: tuple[str, ...]
-    rows: tuple[tuple[str, ...], ...]
 
 
 @dataclass(frozen=True, eq=False)

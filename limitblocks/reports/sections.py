@@ -10,6 +10,7 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
@@ -18,9 +19,11 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
+from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.curve import convergence_curve, path_curve
+from limitblocks.reports.document import Table
 from limitblocks.reports.range_section import range_section
-from limitblocks.reports.section import Check, Section, Table
+from limitblocks.reports.section import Check, Section
 
 _ACTIVE_SHOWN = 4
 USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
@@ -36,12 +39,17 @@ def section(model: Model, result: Any) -> Section:
     """
     make = _SECTIONS.get(type(result))
     if make is None:
-        known = ", ".join(sorted(kind.__name__ for kind in _SECTIONS))
+        known = ", ".join(sorted(kind.__name__ for kind in _SECTIONS if kind is not CheckedClaim))
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
     if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
         kind = type(result).__name__
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
     return make(model, result)
+
+
+def shown(result: Any) -> bool:
+    """Whether reports know this kind of result; a claim they check first."""
+    return isinstance(result, (*_SECTIONS, Claim))
 
 
 def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
@@ -158,7 +166,8 @@ def _steps(path: LoadPath) -> Table:
         )
         for k, step in enumerate(path.steps)
     )
-    return Table("Steps of the load path", ("Step", "Load factor", *names, "Begins to flow"), rows)
+    heads = ("Step", "Load factor", *names, "Begins to flow")
+    return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
 
 
 def _check(_model: Model, check: mcp.Check) -> Section:
@@ -178,6 +187,29 @@ def _check(_model: Model, check: mcp.Check) -> Section:
         checks=_checks(check.residuals, check.tolerance),
         tolerance=check.tolerance,
         warnings=check.remarks + _loose(check.tolerance),
+    )
+
+
+def _claim(model: Model, claim: CheckedClaim) -> Section:
+    check = _check(model, claim.check)
+    associated = not isfinite(claim.claim.dilatancy)
+    flow = "associated: joints dilate by the friction angle" if associated else f"{claim.claim.dilatancy:g}"
+    source = "by the checker, from the claimed state alone"
+    return Section(
+        title=f"Claimed solution, check {check.headline}",
+        meaning=f"A load factor and a state that were read, not computed here. {check.meaning}",
+        headline=f"{claim.load_factor:#.4g}" if claim.check.accepted else "not proven",
+        quantity="load factor α as claimed",
+        values=(
+            ("Load factor", _number(claim.load_factor), "as claimed"),
+            ("Check", check.headline, source),
+            ("Dilatancy", flow, "tangent of the dilatancy angle"),
+            *check.values,
+        ),
+        checks=check.checks,
+        tolerance=check.tolerance,
+        rates=claim.displacement_rates,
+        warnings=check.warnings,
     )
 
 
@@ -255,4 +287,5 @@ _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
     mcp.Check: _check,
     Stability: _stability,
     LoadFactorRange: _range,
+    CheckedClaim: _claim,
 }

@@ -1,18 +1,39 @@
-"""The same sections as tables on a terminal."""
+"""The report on a terminal, and results one by one."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
+from io import StringIO
 from typing import Any
 
 from rich.console import Console
-from rich.table import Table
+from rich.table import Table as RichTable
 from rich.text import Text
 
 from limitblocks.model import Model
+from limitblocks.reports.chapters import chapter
+from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table
+from limitblocks.reports.document import Text as Text_
 from limitblocks.reports.sections import section
 
 _TO_THE_RIGHT = ("Value", "Step", "Load factor")
+_WIDTH = 100  # of the report as text
+
+
+def text(document: Document, width: int = _WIDTH) -> str:
+    """Return the report as on a terminal `width` letters wide."""
+    stream = StringIO()
+    console = Console(file=stream, width=width, color_system=None, highlight=False, soft_wrap=False)
+    console.print(Text(document.title, style="bold"))
+    for name, value in (*document.about, ("Date", document.dated)):
+        console.print(Text(f"{name}: {value}"))
+    for line in document.notes.splitlines():
+        console.print(Text(line))
+    for one in document.chapters:
+        console.print(Text(f"\n{one.title}\n{'=' * len(one.title)}", style="bold"))
+        for part in one.parts:
+            console.print(_renderable(part))
+    return stream.getvalue()
 
 
 def print_result(model: Model, result: Any) -> None:
@@ -20,15 +41,9 @@ def print_result(model: Model, result: Any) -> None:
     said = section(model, result)
     headline = f"\n  [bold]{said.headline}[/bold]  {said.quantity}, {said.title}\n"
     Console(soft_wrap=True).print(headline, highlight=False)
-    print_table("", ("Quantity", "Value", "From"), said.values)
-    checks = [
-        (name, f"{value:.1e}", meaning, "pass" if passed else "fail")
-        for name, value, meaning, passed in said.checks
-    ]
-    title = f"\nResiduals, each at most {said.tolerance:.1e}"
-    print_table(title, ("Residual", "Value", "Meaning", "Check"), checks)
-    if said.steps:
-        print_table(f"\n{said.steps.caption}", said.steps.heads, said.steps.rows)
+    for part in chapter(said, None, "").parts:
+        if isinstance(part, Table):
+            Console().print(_table(part))
     print_warnings(said.warnings)
 
 
@@ -40,18 +55,40 @@ def print_warnings(warnings: Iterable[str]) -> None:
 
 def print_table(title: str, heads: tuple[str, ...], rows: Any) -> None:
     """Print rows of text in columns; without heads, the first column is the name of each row."""
-    table = Table(
-        title=Text(title) if title else None,
+    right = tuple(k for k, head in enumerate(heads) if head in _TO_THE_RIGHT)
+    Console().print(_table(Table.of(title, heads, rows, right)))
+
+
+def _renderable(part: Part) -> Any:
+    match part:
+        case Text_():
+            return Text(f"Warning: {part.text}" if part.warning else part.text, style="bold" * part.warning)
+        case Heading():
+            return Text(part.text, style="bold")
+        case Items():
+            return Text("\n".join(f"- {line}" for line in part.lines))
+        case Headline():
+            return Text(f"  {part.number}  {part.quantity}", style="bold")
+        case Figure():
+            legend = f" Colours: {', '.join(word for _, word in part.legend)}." if part.legend else ""
+            return Text(f"Figure. {part.sheet.text} {part.caption}{legend}")
+        case Table():
+            return _table(part)
+
+
+def _table(part: Table) -> RichTable:
+    table = RichTable(
+        title=Text(f"\n{part.caption}") if part.caption else None,
         title_justify="left",
-        show_header=bool(heads),
+        show_header=bool(part.heads),
         box=None,
         pad_edge=False,
     )
-    for head in heads:
-        table.add_column(head, justify="right" if head in _TO_THE_RIGHT else "left", overflow="fold")
-    if not heads:
+    for k, head in enumerate(part.heads):
+        table.add_column(head, justify="right" if k in part.right else "left", overflow="fold")
+    if not part.heads:
         table.add_column(no_wrap=True)
         table.add_column(overflow="fold")
-    for row in rows:
-        table.add_row(*(Text(cell) for cell in row))  # Text: a name in brackets is not markup
-    Console().print(table)
+    for row in part.rows:
+        table.add_row(*(Text(cell.text) for cell in row))  # Text: a name in brackets is not markup
+    return table

@@ -254,3 +254,11 @@ def test_numbers_far_apart_and_singular_are_factorised():
     right = matrix @ np.arange(6.0)
     solution = scales._factors(sparse.csr_array(matrix)).solve(right)
     assert np.abs(matrix @ solution - right) == pytest.approx(0.0, abs=1e-6 * np.abs(right).max())
+
+
+def test_progress_is_told_of_every_stage():
+    model, said = lb.structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), []
+    lb.bounds(model, progress=said.append)
+    assert said == ["dead loads", "load factor", "proof"]
+    lb.bounds(model, progress=said.append)  # known
+    assert len(said) == 3

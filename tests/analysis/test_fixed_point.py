@@ -7,6 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import loop
+from limitblocks.analysis.nonassociated.fixed_point import OSQP, by_cones, by_planes, permanent_state
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
 from limitblocks.evidence.residuals import mcp_residuals
@@ -192,3 +193,23 @@ def test_without_cohesion_open_contacts_leave_a_round_without_solution():
     model = lb.structures.ferris_tin_loi_wall(3, lb.PointContact(0.65))
     assert rounds_of(model)[1] <= 1e-8
     assert rounds_of(model, cohesion=0.0)[1] > 1e-3
+
+
+@pytest.mark.parametrize(
+    "joint", [lb.OrdunaLourenco(MU, slip="paper"), lb.PointContact(MU, cone="inner"), lb.PointContact(0.0)]
+)
+def test_permanent_state_by_planes_is_that_by_cones(joint):
+    problem = lb.structures.wall(joint, length=1.2, courses=4, direction=(1.0, 0.0, 0.0)).problem
+    x, expected = by_planes(problem, problem.compliance), by_cones(problem, problem.compliance)
+    assert problem.C.T @ x == pytest.approx(problem.dead, abs=1e-8)
+    assert (problem.F @ x + problem.g).min() > -1e-8
+    assert x @ (problem.compliance * x) == pytest.approx(expected @ (problem.compliance * expected), rel=1e-7)
+    assert permanent_state(problem, problem.compliance) == pytest.approx(x, abs=1e-9)
+
+
+def test_permanent_state_that_does_not_hold_is_refused():
+    problem = lb.structures.wall(
+        lb.PointContact(MU, cone="inner"), length=1.2, courses=4, direction=(1.0, 0.0, 0.0)
+    ).problem
+    rough = OSQP | {"eps_abs": 1e-2, "eps_rel": 1e-2, "polishing": False}
+    assert by_planes(problem, problem.compliance, rough) is None

@@ -107,7 +107,7 @@ def test_a_stranger_gets_to_a_report(drawing):
     with open("portal.md", encoding="utf-8") as stream:
         report = stream.read()
     assert "8 × granite, 2 m³, 26 kN/m³" in report
-    assert "2 × granite\\|limestone: OrdunaLourenco(friction=0.6" in report
+    assert "2 × granite\\|limestone: friction coefficient 0.6 (31.0 degrees)" in report
 
 
 def test_a_table_of_materials_and_a_joint_are_not_taken_together(drawing):

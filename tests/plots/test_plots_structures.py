@@ -11,8 +11,8 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from plotted import arch, bounds, corner, inked, path, rocking
 
 import limitblocks as lb
+from limitblocks.drawing.painter import painting_order, placed
 from limitblocks.evidence.interface_states import interface_states
-from limitblocks.geometry.painter import painting_order, placed
 
 DRAWINGS = ["structure", "mechanism", "forces", "interface_states"]
 UNITS = {"xz": "XZ", "yz": "YZ", "xy": "XY"}

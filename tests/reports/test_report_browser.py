@@ -296,6 +296,26 @@ def test_print_shows_the_drawing_in_place_of_the_canvas(page):
     assert page.locator("figure.static svg").is_visible()
 
 
+def test_printed_pages_have_number_title_and_hash_and_no_head_alone(page, model, results):
+    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+    page.emulate_media(media="print")
+    data = page.pdf(prefer_css_page_size=True)
+    sheets = [one.extract_text() for one in pypdf.PdfReader(BytesIO(data)).pages]
+    titles = [chapter.title for chapter in lb.report(model, *results).document.chapters]
+    assert len(sheets) > 3
+    for k, sheet in enumerate(sheets, start=1):
+        assert f"Page {k} of {len(sheets)}" in sheet
+        assert model.digest in sheet
+        assert sheet.count("alert(1)") > 0  # the title, which is hostile, above
+        margins = "Model [0-9a-f]{64}|Page |limitblocks"
+        lines = [line for line in sheet.splitlines() if not re.match(margins, line)]
+        assert lines[-1] not in titles
+    assert page.locator("table.sortable").count() == 2
+    for sheet in sheets:  # rows never stand without their heads
+        if re.search(r"(?<!-)hinge", sheet) and "Orduña" not in sheet:
+            assert re.search("Utilisation|Begins to", sheet)
+
+
 def test_model_without_results_is_shown(open_page, model, tmp_path):
     page = open_page.context.browser.new_page()
     watch(page)

@@ -1,6 +1,7 @@
 import builtins
 import json
 import re
+from dataclasses import replace
 
 import jsonschema
 import pytest
@@ -8,9 +9,8 @@ import pytest
 import limitblocks as lb
 from limitblocks.cli import app
 from limitblocks.reports import pdf
-from limitblocks.reports.content import Bullets, Heading, Headline
-from limitblocks.reports.markdown import escaped, markdown
-from limitblocks.reports.section import Table
+from limitblocks.reports.document import Chapter, Heading, Headline, Items, Table, Text
+from limitblocks.reports.markdown import escaped, written
 
 JOINT = lb.OrdunaLourenco(0.6)
 
@@ -32,11 +32,11 @@ def test_schema_describes_the_json_of_every_result(report):
     jsonschema.Draft202012Validator.check_schema(schema)
     content = json.loads(report.json, parse_constant=pytest.fail)
     jsonschema.validate(content, schema)
-    assert content["schema_version"] == 1
+    assert content["schema_version"] == 2
     kinds = ["bounds", "nonassociated", "path", "check", "stability"]
     assert [one["analysis"] for one in content["results"]] == kinds
     assert [len(one) for one in content["interfaces"]] == [10, 10, 10, 0, 0]
-    for broken in ({"schema_version": 2}, {"results": [{}]}, {"extra": 1}, {"format": "another"}):
+    for broken in ({"schema_version": 1}, {"results": [{}]}, {"extra": 1}, {"format": "another"}):
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(content | broken, schema)
 
@@ -53,7 +53,7 @@ def test_markdown_says_what_the_page_says(report, model):
         "Interfaces that do not stick: 4 of 10",
         model.digest,
         lb.__version__,
-        "8.2 %",
+        "(31.0 degrees)",
     ):
         assert part in text, part
     for table in re.findall(r"(?:^\|.*\n)+", text, re.MULTILINE):
@@ -73,16 +73,16 @@ def test_names_are_no_markup_in_markdown(text):
 
 
 def test_parts_have_their_markdown():
-    parts = [Heading(3, "A"), Headline("0.5", "load factor"), Bullets(("x", "y")), "text"]
-    parts.append(Table("Caption", ("Name", "Value"), (("a", "1"),)))
-    assert markdown(parts).split("\n\n")[1:] == [
+    table = Table.of("Caption", ("Name", "Value"), (("a", "1"),), right=(1,))
+    parts = [Heading("A"), Headline("0.5", "load factor"), Items(("x", "y")), Text("text"), table]
+    assert list(map(written, parts)) == [
         "### A",
         "**0.5** load factor",
         "- x\n- y",
         "text",
-        "Caption:",
-        "| Name | Value |\n| --- | ---: |\n| a | 1 |\n",
+        "Caption:\n\n| Name | Value |\n| --- | ---: |\n| a | 1 |",
     ]
+    assert written(Text("text", warning=True)) == "**Warning:** text"
 
 
 def test_pdf_holds_title_and_pages(report, tmp_path):
@@ -97,13 +97,14 @@ def test_pdf_holds_title_and_pages(report, tmp_path):
         report.save(tmp_path / "other.pdf")
 
 
-def test_every_text_can_be_printed():
+def test_every_text_can_be_printed(report):
     assert pdf.marked("a<b> & α ≤ 2 – Orduña") == "a&lt;b&gt; &amp; <greek>a</greek> &lt;= 2 – Orduña"
     assert pdf.marked("石") == r"\u77f3"  # the standard fonts lack it: its code, not a box
     name = "<b>&\x00石" + "x" * 300
-    table = Table("<i>", ("Interface", "State"), ((name, name),))
-    parts = [Heading(1, name), Headline(name, name), Bullets((name,)), table, name]
-    assert pdf.pdf(parts, name).startswith(b"%PDF-")
+    table = Table.of("<i>", ("Interface", "State"), ((name, name),))
+    parts = (Heading(name), Headline(name, name), Items((name,)), table, Text(name))
+    document = replace(report.document, title=name, chapters=(Chapter(name, parts),))
+    assert pdf.pdf(document).startswith(b"%PDF-")
 
 
 def test_pdf_names_the_package_it_needs(report, tmp_path, monkeypatch):

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.drawing.chains import chains
+from limitblocks.drawing.view import towards
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.reports import assets, files
 from limitblocks.reports.interfaces import MOST, active_interfaces, interface_rows
-from limitblocks.reports.scene import chains, scene, short, without_noise
+from limitblocks.reports.scene import scene, short, without_noise
 
 JOINT = lb.OrdunaLourenco(0.6)
-FOLDER = Path(lb.__file__).parent / "report" / "viewer"
+FOLDER = assets.FOLDER / "viewer"
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +103,13 @@ def test_largest_movement_is_drawn_at_eight_hundredths_of_the_size(arch, results
     assert np.abs(rates[:, 3:]).max() <= 0.25 * (1 + 1e-3)
 
 
+def test_the_viewer_looks_from_the_side_to_which_the_mechanism_moves(arch, results, shown):
+    for result, one in zip(results, shown["results"], strict=True):
+        moved = getattr(result, "collapse", result).displacement_rates
+        assert one["eye"] == pytest.approx(towards(arch, moved), abs=1e-5)
+    assert shown["eye"] == pytest.approx(towards(arch), abs=1e-5)
+
+
 def test_thrust_line_runs_from_support_to_support(arch):
     (chain,) = chains(arch)
     assert len(chain) == len(arch.interfaces)
@@ -123,14 +132,15 @@ def test_numbers_are_short_and_noise_is_zero():
     assert without_noise(Q).tolist() == expected
 
 
-def test_interfaces_that_stick_are_left_out_and_the_most_used_come_first(arch, results):
+def test_interfaces_that_stick_are_left_out_and_those_that_move_most_come_first(arch, results):
     states = interface_states(arch, results[0])
     table = active_interfaces(arch, results[0], "bounds")
     moving = {name for name, word in zip(states.names, states.state, strict=True) if word != "stick"}
     assert {row[0].text for row in table.rows} == moving
     assert table.active == len(moving) <= MOST
-    keys = [(-round(row[2].value, 3), row[3].value) for row in table.rows]  # utilisation, then compression
+    keys = [(-round(row[2].value, 3), -round(row[3].value, 3)) for row in table.rows]  # moves, utilisation
     assert keys == sorted(keys)
+    assert table.rows[0][2].value == 1.0
     assert active_interfaces(arch, lb.check_mcp(arch, results[1].collapse), "check") is None
     assert [row["name"] for row in interface_rows(arch, results[0])] == list(states.names)
 
@@ -155,4 +165,5 @@ def test_all_scripts_are_in_the_page():
     own = {file.stem for file in FOLDER.glob("*.js")} - {"three.min"}
     for name in own:
         assert (FOLDER / f"{name}.js").read_text(encoding="utf-8") in assets.scripts()[1]
+    assert len(own) > 10
     assert set(files.MARKS) == {".html", ".json", ".md", ".pdf"}

@@ -12,8 +12,9 @@ import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
+from limitblocks.io.imported import Contents, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
+from limitblocks.io.solid import Solid
 
 _Section = tuple[str, str, str]  # name, layer and material of what is drawn
 _Face = tuple[int, ...]

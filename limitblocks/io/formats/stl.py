@@ -12,8 +12,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, Solid, one_line, read_bytes, refuse_many
+from limitblocks.io.imported import Contents, one_line, read_bytes, refuse_many
 from limitblocks.io.shells import solids
+from limitblocks.io.solid import Solid
 
 _HEADER = 84  # bytes: 80 of text, 4 for the number of triangles
 _RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])

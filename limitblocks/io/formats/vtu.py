@@ -12,11 +12,11 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.motion import displaced, motion
 from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
-from limitblocks.io.motion import displaced, motion
 from limitblocks.io.packages import package
 from limitblocks.model import Model
 from limitblocks.written import refuse_existing, write

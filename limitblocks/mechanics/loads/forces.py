@@ -10,7 +10,17 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.mechanics.loads.load import Load, Vector, number, of, position, unit_vector, vector
+from limitblocks.mechanics.loads.load import (
+    Load,
+    Vector,
+    along,
+    number,
+    of,
+    position,
+    triple,
+    unit_vector,
+    vector,
+)
 from limitblocks.units import gravity
 
 DOWN = (0.0, 0.0, -1.0)
@@ -27,6 +37,10 @@ class MassProportional:
         load = np.zeros((len(blocks), 6))
         load[:, :3] = np.outer([block.weight for block in blocks], self.direction)
         return load
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        return f"the weight of every block, {along(self.direction)}"
 
 
 @dataclass(frozen=True)
@@ -47,6 +61,11 @@ class AddedMass:
         """Return forces and moments at the centroids, shape (n, 6)."""
         return _at_point(self.block, np.multiply(self.weight, self.direction), self.at, blocks)
 
+    def in_words(self) -> str:
+        """Return the term in words."""
+        where = f"fixed to block {self.block!r} at {triple(self.at)} m"
+        return f"a mass that weighs {self.weight / 1e3:.4g} kN, {where}, {along(self.direction)}"
+
 
 @dataclass(frozen=True)
 class PointForce:
@@ -59,6 +78,10 @@ class PointForce:
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces and moments at the centroids, shape (n, 6)."""
         return _at_point(self.block, np.array(self.force), self.at, blocks)
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        return f"a force {triple(self.force, 1e3)} kN on block {self.block!r} at {triple(self.at)} m"
 
 
 @dataclass(frozen=True)
@@ -73,6 +96,10 @@ class Moment:
         load = np.zeros((len(blocks), 6))
         load[position(self.block, blocks), 3:] = self.moment
         return load
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        return f"a moment {triple(self.moment, 1e3)} kN m on block {self.block!r}"
 
 
 def self_weight(added: Sequence[AddedMass] = ()) -> Load:
@@ -90,8 +117,8 @@ def mass_proportional(direction: Sequence[float], added: Sequence[AddedMass] = (
     ModelError
         If the direction is not three finite numbers or is zero.
     """
-    along = unit_vector(direction, "mass-proportional load: direction")
-    return of(MassProportional(along), *(replace(mass, direction=along) for mass in added))
+    unit = unit_vector(direction, "mass-proportional load: direction")
+    return of(MassProportional(unit), *(replace(mass, direction=unit) for mass in added))
 
 
 def added_mass(

@@ -24,6 +24,9 @@ class Term(Protocol):
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces (N) and moments (N m) at the centroids of `blocks`, global axes, shape (n, 6)."""
 
+    def in_words(self) -> str:
+        """Return the term as an engineer would say it, with units."""
+
 
 @dataclass(frozen=True)
 class Load:
@@ -87,6 +90,26 @@ def number(value: float, word: str, unit: str, *, least: float = -np.inf, above:
         return real
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     raise ModelError(f"{word} is {value!r}, expected a finite number{wanted} in {unit}")
+
+
+def along(direction: Sequence[float]) -> str:
+    """Return a direction as text: +X, -Y, downwards, or its components."""
+    named = {(0.0, 0.0, -1.0): "downwards", (0.0, 0.0, 1.0): "upwards"}
+    named |= {(s, 0.0, 0.0): f"along {w}X" for s, w in ((1.0, "+"), (-1.0, "-"))}
+    named |= {(0.0, s, 0.0): f"along {w}Y" for s, w in ((1.0, "+"), (-1.0, "-"))}
+    x, y, z = (round(float(part), 9) + 0.0 for part in direction)
+    return named.get((x, y, z), f"along {triple(direction)}")
+
+
+def triple(values: Sequence[float], size: float = 1.0) -> str:
+    """Return numbers as text, in units of `size`: (0, 1.5, -2)."""
+    return f"({', '.join(f'{value / size + 0.0:.4g}' for value in values)})"
+
+
+def some(names: Sequence[str], most: int = 8) -> str:
+    """Return the first of some names of blocks as text."""
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return f"block{'s' * (len(names) > 1)} {', '.join(map(repr, names[:most]))}{more}"
 
 
 def position(name: str, blocks: Sequence[Block]) -> int:

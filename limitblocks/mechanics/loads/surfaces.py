@@ -12,7 +12,17 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
 from limitblocks.mechanics.loads.faces import face_through, face_towards, integrals, part_where
-from limitblocks.mechanics.loads.load import Load, Vector, number, of, position, unit_vector, vector
+from limitblocks.mechanics.loads.load import (
+    Load,
+    Vector,
+    number,
+    of,
+    position,
+    some,
+    triple,
+    unit_vector,
+    vector,
+)
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -70,6 +80,13 @@ class Pressure:
             )
         return load
 
+    def in_words(self) -> str:
+        """Return the term in words."""
+        where = f"at {triple(self.at)} m" if self.at else f"facing {triple(self.facing or ())}"
+        linear = f"{self.unit_weight / 1e3:.4g} kN/m³ times the depth below Z = {self.level:.4g} m"
+        parts = [f"{self.pressure / 1e3:.4g} kPa"] * bool(self.pressure) + [linear] * bool(self.unit_weight)
+        return f"a pressure of {' plus '.join(parts)} on the face {where} of {some(self.blocks)}"
+
     def _face(self, block: Block) -> int:
         if self.at is not None:
             return face_through(block, self.at)
@@ -109,6 +126,12 @@ class Fill:
                 f"lowest at {lowest:g} m) or below other blocks"
             )
         return load
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {self.level:.4g} m"
+        earth = f", coefficient of horizontal earth pressure {self.coefficient:.4g}" * bool(self.coefficient)
+        return f"{said} on {some(self.blocks) if self.blocks else 'all blocks'}{earth}"
 
     def _on_face(
         self, block: Block, face: int, blocks: Sequence[Block], bounds: tuple[Array, Array]

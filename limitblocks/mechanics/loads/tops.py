@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, vector
+from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, triple, vector
 
 _SIDE = 1e-9  # of a face normal's length: a smaller Z component counts as vertical
 _TOUCH = 1e-9  # of the blocks' size: an edge belongs to both its blocks, and the first of them counts
@@ -26,6 +26,10 @@ class TopForce:
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces and moments at the centroids, shape (n, 6)."""
         return _on_tops(np.array([self.force]), np.array([self.at]), blocks)
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        return f"a force {triple(self.force, 1e3)} kN on top of the structure at {triple(self.at)} m in plan"
 
 
 @dataclass(frozen=True)
@@ -48,6 +52,11 @@ class LineLoad:
         length = float(np.linalg.norm(end - start)) * np.diff(s)
         middles = start + np.outer((s[1:] + s[:-1]) / 2.0, end - start)
         return _on_tops(np.outer(length, self.force_per_length), middles, blocks)
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        line = f"from {triple(self.start)} m to {triple(self.end)} m in plan"
+        return f"a line load {triple(self.force_per_length, 1e3)} kN/m on top of the structure, {line}"
 
 
 def top_force(force: Sequence[float], at: Sequence[float]) -> Load:

@@ -7,6 +7,7 @@ function readScene() {
   const scene = {
     title: data.title,
     live: data.live,
+    eye: data.eye,
     chains: data.chains,
     joints: data.joints,
     stateNames: data.states,

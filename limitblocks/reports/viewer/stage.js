@@ -1,7 +1,6 @@
 // Camera, light and drawing: renders when something changed, never otherwise.
 
 const VIEWS = {
-  iso: [0.5, -0.78, 0.38],
   front: [0, -1, 0],
   side: [1, 0, 0],
   top: [0, -1e-4, 1],
@@ -9,9 +8,10 @@ const VIEWS = {
 const FIELD_OF_VIEW = 20; // degrees
 
 class Stage {
-  constructor(canvas, box) {
+  constructor(canvas, box, eye) {
     this.canvas = canvas;
     this.box = box;
+    this.eye = eye;
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     this.scene = new THREE.Scene();
@@ -49,8 +49,7 @@ class Stage {
   look(name) {
     this.view = name;
     const { low, high } = this.box;
-    const towards = new THREE.Vector3(...VIEWS[name]).normalize();
-    if (name === "iso" && high[1] - low[1] > high[0] - low[0]) towards.set(0.78, -0.5, 0.38).normalize();
+    const towards = new THREE.Vector3(...(name === "iso" ? this.eye : VIEWS[name])).normalize();
     const right = new THREE.Vector3(0, 0, 1).cross(towards).normalize();
     const up = towards.clone().cross(right);
     const middle = new THREE.Vector3(...low.map((value, k) => (value + high[k]) / 2));

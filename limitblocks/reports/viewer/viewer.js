@@ -15,7 +15,7 @@ class Viewer {
     this.bodies = new Bodies(scene);
     this.contacts = new Contacts(scene, box.diagonal);
     this.marker = new Marker(scene, this.bodies);
-    this.stage = new Stage(root.querySelector("canvas"), box);
+    this.stage = new Stage(root.querySelector("canvas"), box, (scene.results[resultAt] || scene).eye);
     const { mesh, edges, before } = this.bodies;
     const { arrows, thrust, letters } = this.contacts;
     this.objects = {
@@ -66,6 +66,7 @@ class Viewer {
 
   setResult(at) {
     this.resultAt = at;
+    this.stage.eye = this.result.eye;
     this.stepAt = this.result.steps.length - 1;
     this.refresh();
   }

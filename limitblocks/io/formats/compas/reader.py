@@ -27,7 +27,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
 from limitblocks.io.formats.compas.geometry import frame, polygons, transformation
-from limitblocks.io.imported import SUPPORT_LAYERS, Contents, Solid, foreign
+from limitblocks.io.imported import SUPPORT_LAYERS, Contents, foreign
+from limitblocks.io.solid import Solid
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
 _HOLDERS = {"graph", "model"}  # keys of what holds blocks: assemblies, problems of compas_dem

@@ -14,8 +14,9 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
-from limitblocks.io.formats.dxf.reader import Part
-from limitblocks.io.imported import Contents, ImportedBlocks, Solid, UnitWeight, foreign, frame, imported
+from limitblocks.io.formats.dxf.part import Part
+from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, foreign, frame, imported
+from limitblocks.io.solid import Solid
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
 CLOSING = 1e-2

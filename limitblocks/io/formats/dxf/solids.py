@@ -7,9 +7,9 @@ from typing import Any
 
 from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.io.formats.dxf.reader import Part
-from limitblocks.io.imported import Solid
+from limitblocks.io.formats.dxf.part import Part
 from limitblocks.io.shells import solids, soup
+from limitblocks.io.solid import Solid
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 

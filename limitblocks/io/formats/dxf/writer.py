@@ -7,7 +7,7 @@ import re
 from collections.abc import Container, Mapping, Sequence
 
 from limitblocks.geometry import Block
-from limitblocks.io.formats.dxf.reader import APPLICATION
+from limitblocks.io.formats.dxf.part import APPLICATION
 from limitblocks.io.packages import package
 
 _METRES = 6  # $INSUNITS

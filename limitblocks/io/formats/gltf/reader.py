@@ -14,8 +14,9 @@ import numpy.typing as npt
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
-from limitblocks.io.imported import Contents, Solid, foreign, read_bytes, refuse_many
+from limitblocks.io.imported import Contents, foreign, read_bytes, refuse_many
 from limitblocks.io.shells import solids
+from limitblocks.io.solid import Solid
 
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}

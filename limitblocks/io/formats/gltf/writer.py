@@ -14,10 +14,10 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.motion import motion
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.io.imported import Z_UP, labels
-from limitblocks.io.motion import motion
 from limitblocks.io.packages import package
 from limitblocks.model import Model
 from limitblocks.written import write

@@ -14,8 +14,9 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import shells
 from limitblocks.io.formats.rhino import breps, chunks, trial
-from limitblocks.io.imported import MOST_FACES, Contents, Solid, foreign, read_bytes
+from limitblocks.io.imported import MOST_FACES, Contents, foreign, read_bytes
 from limitblocks.io.packages import package
+from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # instances within instances
 #: Metres per unit of Rhino's unit systems.

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.drawing.view import view_of
 from limitblocks.geometry import polyhedron
 
 TOUCHING = 1e-6  # of a body's size: less overlap on the page is none
@@ -63,8 +64,7 @@ def painting_order(bodies: Sequence[Body], eye: Array) -> list[int]:
 
 def _hiding(bodies: Sequence[Body], eye: Array, depth: Array) -> Indices:
     """Pairs (back, front) of bodies that overlap on the page, shape (p, 2)."""
-    right = np.cross([0.0, 0.0, 1.0], eye)
-    plane = np.array([right, np.cross(eye, right)]).T
+    plane = view_of(eye)[:2].T
     hulls = shapely.convex_hull([shapely.multipoints(body.points @ plane) for body in bodies])
     # bodies that only touch on the page hide nothing: as pairs they could close rings
     size = np.array([np.ptp(body.points, axis=0).max() for body in bodies])

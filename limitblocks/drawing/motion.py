@@ -16,6 +16,8 @@ from limitblocks.model import Model
 
 #: Largest displacement shown, over the diagonal of the structure, and largest rotation shown, rad.
 SHOWN, TURN = 0.08, 0.25
+#: Of the largest displacement rate: a block that moves less counts as standing still.
+STILL = 1e-3
 
 
 class Motion(NamedTuple):
@@ -57,7 +59,7 @@ def motion(model: Model, result: Any) -> Motion:
         raise ModelError(
             f"the result has displacements of shape {states.shape[1:]}; the model has {n} blocks"
         )
-    factor = _magnification(model.blocks, states)
+    factor = magnification(model.blocks, states)
     return Motion(factor * states, factor)
 
 
@@ -66,12 +68,19 @@ def displaced(block: Block, moved: Array) -> Array:
     return np.asarray(moved[:3] + np.cross(moved[3:], block.vertices - block.centroid))
 
 
-def _magnification(blocks: Sequence[Block], states: Array) -> float:
-    points = np.concatenate([block.vertices for block in blocks])
-    shifts = (displaced(block, moved) for state in states for block, moved in zip(blocks, state, strict=True))
-    largest = max(float(np.linalg.norm(shift, axis=1).max()) for shift in shifts)
-    turn = float(np.linalg.norm(states[..., 3:], axis=-1).max())
+def travel(blocks: Sequence[Block], moved: Array) -> Array:
+    """Return the largest displacement of a vertex of each block, (n,), for displacements (n, 6)."""
+    shifts = (displaced(block, one) for block, one in zip(blocks, moved, strict=True))
+    return np.array([float(np.linalg.norm(shift, axis=1).max()) for shift in shifts])
+
+
+def magnification(blocks: Sequence[Block], moved: Array) -> float:
+    """Return by how much displacements (n, 6) or (k, n, 6) are drawn larger; 0 where nothing moves."""
+    states = moved.reshape(-1, len(blocks), 6)
+    largest = max(float(travel(blocks, state).max()) for state in states)
     if largest == 0.0:
         return 0.0
+    turn = float(np.linalg.norm(states[..., 3:], axis=-1).max())
+    points = np.concatenate([block.vertices for block in blocks])
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
     return min(SHOWN * diagonal / largest, TURN / turn if turn > 0.0 else np.inf)

@@ -1,0 +1,193 @@
+"""Forms of the programs of the bounds: in stresses, or in rates alone where the joints let multipliers go.
+
+A contact point has as many stresses as rows that matter: F^T y = -C u then says what y is, and the
+kinematic program is left with rates alone; its dual is the stress state. Other joints have more rows than
+stresses: for them the static program is the smallest. Figures: docs/solvers.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar
+
+import cvxpy as cp
+import numpy as np
+from scipy import sparse
+
+from limitblocks.analysis.programs import Program, Solution, in_cone, static_program
+from limitblocks.analysis.scales import Scaled
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem import Cones, State
+
+
+@dataclass(frozen=True, eq=False)
+class Stresses:
+    """The static programs; rates and multipliers are their duals."""
+
+    problem: Scaled
+    patience: ClassVar[int] = 4  # of the polish: duals follow the flow rule as far as the solver has it
+
+    def limit(self) -> Program:
+        """Largest load factor in equilibrium within the yield set."""
+        return static_program(self.problem)
+
+    def carrying(self) -> Program:
+        """Any stresses within yield that carry the dead loads. Variable: x."""
+        p, x = self.problem, cp.Variable(self.problem.C.shape[0])
+        inside = in_cone(p.F @ x + p.g, p.cones)
+        return Program(cp.Problem(cp.Minimize(0.0), [p.C.T @ x == p.dead, *inside]), (x,))
+
+    def opening(self, amount: Array) -> Program:
+        """Stresses that carry the dead loads with the largest sum of distances to yield times `amount`.
+
+        Its dual is the mechanism that opens every joint by at least that (R,) at the least power.
+        """
+        p, x = self.problem, cp.Variable(self.problem.C.shape[0])
+        rows = p.F @ x + p.g
+        balance = p.dead - p.C.T @ x == 0  # so that its dual is u
+        return Program(cp.Problem(cp.Maximize(amount @ rows), [balance, *in_cone(rows, p.cones)]), (x,))
+
+    def limit_state(self, solution: Solution) -> State:
+        """The state of a solution of `limit`, NaN where there is none."""
+        (load_factor, x), (u, *rows) = solution.values, solution.duals
+        return State(float(load_factor), x, u, np.concatenate(rows))
+
+    def stresses(self, solution: Solution) -> Array:
+        """Stresses of a solution of `carrying`."""
+        return solution.values[0]
+
+    def mechanism(self, solution: Solution, amount: Array) -> tuple[Array, Array]:
+        """Rates and multipliers of a solution of `opening`."""
+        u, *rows = solution.duals
+        return u, np.concatenate(rows) + amount
+
+
+@dataclass(frozen=True, eq=False)
+class Rates:
+    """The kinematic programs without multipliers; stresses are their duals."""
+
+    problem: Scaled
+    kept: Indices  # rows of F that matter, shape (s,)
+    dropped: Indices  # rows that the head of a cone among them implies
+    head: Indices  # of that cone, shape (dropped,)
+    patience: ClassVar[int] = 1  # where one step fails, as on facades, the others do
+
+    @cached_property
+    def entry(self) -> tuple[Indices, Array]:
+        """Stress that each kept row acts on, and its factor, shapes (s,)."""
+        rows = _without_zeros(self.problem.F[self.kept])
+        return np.asarray(rows.indices, dtype=np.int64), np.asarray(rows.data)
+
+    @cached_property
+    def B(self) -> sparse.csr_array:
+        """Multipliers of the kept rows as a function of the rates, shape (s, 6 n)."""
+        stress, factor = self.entry
+        return sparse.csr_array(sparse.diags_array(-1.0 / factor) @ self.problem.C[stress])
+
+    @cached_property
+    def cones(self) -> Cones:
+        """K of the kept rows."""
+        cones = self.problem.cones
+        return Cones(cones.linear - len(self.dropped), cones.second_order)
+
+    def limit(self) -> Program:
+        """Least load factor over all mechanisms. Variable: u."""
+        p, u = self.problem, cp.Variable(self.B.shape[1])
+        constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
+        return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
+
+    def carrying(self) -> Program:
+        """No mechanism at all; its dual are stresses within yield that carry the dead loads. Variable: u."""
+        u = cp.Variable(self.B.shape[1])
+        return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), in_cone(self.B @ u, self.cones)), (u,))
+
+    def opening(self, amount: Array) -> Program:
+        """The mechanism that opens every joint by at least `amount` (R,) at the least power. Variable: u."""
+        u = cp.Variable(self.B.shape[1])
+        opened = in_cone(self.B @ u - self._enough(amount), self.cones)
+        return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), opened), (u,))
+
+    def limit_state(self, solution: Solution) -> State:
+        """The state of a solution of `limit`, NaN where there is none."""
+        (u,), (work, *rows) = solution.values, solution.duals
+        return State(-float(work.ravel()[0]), self._stresses(rows), u, self.multipliers(u))
+
+    def stresses(self, solution: Solution) -> Array:
+        """Stresses of a solution of `carrying`."""
+        return self._stresses(solution.duals)
+
+    def mechanism(self, solution: Solution, amount: Array) -> tuple[Array, Array]:
+        """Rates and multipliers of a solution of `opening`."""
+        (u,) = solution.values
+        return u, self.multipliers(u)
+
+    def multipliers(self, u: Array) -> Array:
+        """Multipliers that follow the rates: dropped rows take half of what their cone has.
+
+        Taken from the head, which acts on the same stress, it leaves both within K.
+        """
+        p = self.problem
+        y = np.zeros(p.F.shape[0])
+        y[self.kept] = self.B @ u
+        if len(self.dropped):
+            room = np.zeros_like(y)
+            room[p.cones.heads] = p.cones.margin(y)
+            half = np.maximum(room[self.head], 0.0) / 2.0
+            y[self.head] -= half
+            y[self.dropped] = half / self.leverage
+        return y
+
+    def _enough(self, amount: Array) -> Array:
+        """What the kept rows need so that they and the dropped rows have `amount`: half is theirs."""
+        enough = amount.copy()
+        np.maximum.at(enough, self.head, amount[self.dropped] * self.leverage)
+        return enough[self.kept] * np.where(np.isin(self.kept, self.head), 2.0, 1.0)
+
+    @cached_property
+    def leverage(self) -> Array:
+        """Multiplier of its head that does what that of a dropped row does."""
+        return _only(self.problem.F[self.dropped]) / _only(self.problem.F[self.head])
+
+    def _stresses(self, rows: Sequence[Array]) -> Array:
+        stress, factor = self.entry
+        x = np.empty(len(stress))
+        x[stress] = np.concatenate(rows) / factor
+        return x
+
+
+def form_of(problem: Scaled) -> Stresses | Rates:
+    """Return the form in which a problem is solved fastest."""
+    return without_multipliers(problem) or Stresses(problem)
+
+
+def without_multipliers(problem: Scaled) -> Rates | None:
+    """Return the form in rates, or None where the flow rule leaves multipliers free.
+
+    Every row must act on one stress, every stress in one row, but for linear rows that the head of a cone
+    implies: t >= ||z|| of the cone asks for t >= 0.
+    """
+    cones, F = problem.cones, _without_zeros(problem.F)
+    if problem.g.any() or (np.diff(F.indptr) != 1).any():
+        return None
+    stress, linear = F.indices, cones.linear
+    heads = np.full(F.shape[1], -1)
+    heads[stress[cones.heads[linear:]]] = cones.heads[linear:]
+    head = heads[stress[:linear]]
+    implied = (head >= 0) & (F.data[:linear] * F.data[head] > 0.0)
+    kept = np.append(np.flatnonzero(~implied), np.arange(linear, F.shape[0]))
+    if len(kept) != F.shape[1] or len(np.unique(stress[kept])) != len(kept):
+        return None
+    return Rates(problem, kept, np.flatnonzero(implied), head[implied])
+
+
+def _without_zeros(rows: sparse.csr_array) -> sparse.csr_array:
+    rows = sparse.csr_array(rows, copy=True)
+    rows.eliminate_zeros()
+    return rows
+
+
+def _only(rows: sparse.csr_array) -> Array:
+    """The only entry of each row."""
+    return np.asarray(_without_zeros(rows).data)

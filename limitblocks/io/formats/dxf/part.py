@@ -1,0 +1,60 @@
+"""An entity of a DXF drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array
+
+#: Application under whose name the name of a block is kept beside an entity.
+APPLICATION = "LIMITBLOCKS"
+
+
+class Part(NamedTuple):
+    """An entity of a drawing, out of its block references.
+
+    `matrix` (4, 4) takes its coordinates to those of the drawing; `layer` and `name` are what a solid made
+    of it has, `handle` is where the drawing holds it and `reference` a number for the block reference.
+    """
+
+    entity: Any
+    matrix: Array
+    layer: str
+    name: str
+    reference: int
+
+    @property
+    def kind(self) -> str:
+        """Type of the entity, such as "LWPOLYLINE"."""
+        return str(self.entity.dxftype())
+
+    @property
+    def handle(self) -> str:
+        """What the drawing calls the entity."""
+        return str(self.entity.dxf.handle)
+
+    @property
+    def material(self) -> str:
+        """What this library wrote that it is made of."""
+        return written(self.entity, 1)
+
+    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
+        """Return faces in the sense they have in the drawing, which a mirror image turns."""
+        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
+        return [face[::-1] for face in faces] if mirrored else faces
+
+    def placed(self, points: Any) -> Array:
+        """Return points (n, 3) of the entity in the coordinates of the drawing."""
+        rows = np.array([tuple(point) for point in points], dtype=np.float64).reshape(-1, 3)
+        return np.asarray(rows @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+
+
+def written(entity: Any, place: int) -> str:
+    """Return the name (place 0) or the material (1) that this library wrote beside an entity."""
+    if not entity.has_xdata(APPLICATION):
+        return ""
+    words = [str(tag.value) for tag in entity.get_xdata(APPLICATION) if tag.code == 1000]
+    return words[place] if place < len(words) else ""

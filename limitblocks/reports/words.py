@@ -1,0 +1,91 @@
+"""The model in the words of an engineer: joints, loads, acceleration."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from inspect import getdoc
+from typing import Any
+
+import numpy as np
+
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import AddedMass, MassProportional
+from limitblocks.mechanics.loads.load import along, triple
+from limitblocks.model import Model
+from limitblocks.units import gravity
+
+SHOWN = 8  # names in a line
+
+
+def joint_words(joint: Any) -> str:
+    """Return a joint in words; one of somebody else's by its name and settings."""
+    said = getattr(joint, "in_words", None)
+    return str(said()) if said else repr(joint)
+
+
+def assumed(joint: Any) -> tuple[str, ...]:
+    """Return what a joint assumes, a sentence each; of a joint that does not say, what it is."""
+    said = getattr(joint, "assumed", None)
+    sentences = tuple(said()) if said else ()
+    summary = " ".join((getdoc(type(joint)) or "").split("\n\n")[0].replace("`", "").split())
+    return sentences or ((summary,) if summary else ())
+
+
+def load_words(load: Load) -> list[str]:
+    """Return a line a term, with its factor where that is not one."""
+    return [
+        f"{factor:g} × {one.in_words()}" if factor != 1.0 else one.in_words() for factor, one in load.terms
+    ]
+
+
+def resultant_words(model: Model, load: Load) -> str:
+    """Return the sum of the forces on the free blocks as text."""
+    force = load.on(model.free_blocks)[:, :3].sum(axis=0)
+    size = float(np.linalg.norm(force))
+    if size == 0.0:
+        return "no resultant force"
+    return f"{size / 1e3:.4g} kN {along(force / size)}, components {triple(force, 1e3)} kN"
+
+
+def acceleration(model: Model) -> tuple[float, str] | None:
+    """Return the acceleration over g of a load factor of one, and its direction in words.
+
+    None where the live load is no acceleration of the masses in one direction.
+    """
+    kinds = {
+        (factor, term.direction) if isinstance(term, MassProportional | AddedMass) else None
+        for factor, term in model.live.terms
+    }
+    weighed = any(isinstance(term, MassProportional) for _, term in model.live.terms)
+    if len(kinds) != 1 or None in kinds or not weighed:
+        return None
+    (found,) = kinds
+    assert found is not None
+    factor, direction = found
+    word = "a horizontal acceleration" if abs(direction[2]) < 1e-9 else "an acceleration"
+    return factor, f"{word} {along(direction)}"
+
+
+def as_acceleration(model: Model, load_factor: float) -> str:
+    """Return a load factor as an acceleration, as text; empty where the live load is none."""
+    known = acceleration(model)
+    if known is None:
+        return ""
+    size = known[0] * load_factor
+    return f"{known[1]} of {size:#.4g} g = {size * gravity:#.4g} m/s²"
+
+
+def counted(words: Iterable[str]) -> dict[str, int]:
+    """Return how often each word occurs, the most frequent first."""
+    return dict(Counter(words).most_common())
+
+
+def some(names: list[str]) -> str:
+    """Return the first of some names as text."""
+    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
+
+
+def times(counts: dict[str, int]) -> str:
+    """Return counted words as text."""
+    return some([f"{count} × {word}" for word, count in counts.items()])

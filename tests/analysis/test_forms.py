@@ -1,0 +1,71 @@
+"""Forms without multipliers: the same answers as the static program, only where the joints allow it."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis.forms import Rates, Stresses, form_of
+from limitblocks.analysis.interior import carried
+from limitblocks.analysis.programs import DIRECT, solved
+from limitblocks.analysis.scales import scaled
+from limitblocks.evidence.residuals import Residuals, static_residuals
+
+
+def wall(joint):
+    return structures.wall(joint, length=1.2, courses=4, direction=(1.0, 1.0, 0.0)).problem
+
+
+@pytest.mark.parametrize(
+    ("joint", "form"),
+    [
+        (lb.PointContact(0.6), Rates),
+        (lb.PointContact(0.6, points=2), Rates),
+        (lb.PointContact(0.0), Rates),
+        (lb.PointContact(0.6, cone="inner"), Stresses),  # more planes than stresses
+        (lb.OrdunaLourenco(0.6), Stresses),
+    ],
+)
+def test_multipliers_are_left_out_only_where_the_rates_say_what_they_are(joint, form):
+    assert type(form_of(scaled(wall(joint)))) is form
+
+
+def test_both_forms_have_the_same_answer():
+    p = scaled(wall(lb.PointContact(0.6)))
+    answers = [form.limit_state(solved(form.limit(), DIRECT)) for form in (form_of(p), Stresses(p))]
+    assert isinstance(form_of(p), Rates)
+    assert answers[0].load_factor == pytest.approx(answers[1].load_factor, rel=1e-7)
+    for z in answers:
+        assert p.dead + z.load_factor * p.live == pytest.approx(p.C.T @ z.x, abs=1e-6)
+        assert p.C @ z.u == pytest.approx(-p.F.T @ z.y, abs=1e-6)
+        assert p.cones.margin(p.F @ z.x + p.g).min() > -1e-6
+        assert p.cones.margin(z.y).min() > -1e-6
+
+
+def test_multipliers_follow_any_rates_and_share_the_room():
+    p = scaled(wall(lb.PointContact(0.6)))
+    form = form_of(p)
+    u = np.random.default_rng(1).normal(size=p.C.shape[1])
+    y = form.multipliers(u)
+    assert p.C @ u == pytest.approx(-p.F.T @ y, abs=1e-12)
+    opened = form.mechanism(solved(form.opening(p.cones.identity), DIRECT), p.cones.identity)[1]
+    assert p.cones.margin(opened).min() > 1.0 - 1e-6  # linear rows, too
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)])
+def test_stresses_strictly_within_yield_carry_the_dead_loads(joint):
+    problem = wall(joint)
+    x = carried(problem)
+    assert Residuals(static_residuals(problem, 0.0, x)).worst.value < 1e-12
+    assert problem.cones.margin(problem.F @ x + problem.g).min() > 1e-3
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)])
+@pytest.mark.parametrize("fraction", [1.0, 1.1])
+def test_nothing_is_strictly_within_yield_where_the_stack_is_about_to_fall(joint, fraction):
+    """The harmonic stack at its largest overhang (fraction one) stands without any margin."""
+    problem = structures.overhang(joint, count=3, length=1.0, height=0.3, fraction=fraction).problem
+    x = carried(problem)
+    if x is not None:
+        assert fraction == 1.0  # no more than rounding
+        assert problem.cones.margin(problem.F @ x + problem.g).min() < 1e-12

@@ -1,0 +1,232 @@
+"""One document, five renderings: what it says, that all of them say it, and the number that is large."""
+
+import json
+import re
+from dataclasses import replace
+from html import unescape
+from io import BytesIO
+
+import numpy as np
+import pytest
+from markupsafe import escape
+
+import limitblocks as lb
+from limitblocks.evidence.ending import Status
+from limitblocks.reports import terminal
+from limitblocks.reports.answer import Answer, answer, verdict
+from limitblocks.reports.document import Chapter, Table
+from limitblocks.reports.interfaces import relative_motion
+from limitblocks.reports.pdf import latin, pdf
+
+pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+
+HOSTILE = '</style><script>alert("1")</script> } @page {'
+WORDS = ("unit weight", "acceleration", "safety", "sensitivity", "author")
+
+
+@pytest.fixture(scope="module")
+def house():
+    return lb.structures.facade(
+        lb.OrdunaLourenco(0.6), length=2.4, courses=3, return_length=1.6, openings=(), direction=(0, 1, 0)
+    )
+
+
+@pytest.fixture(scope="module")
+def results(house):
+    return lb.bounds(house), lb.nonassociated(house), lb.stability(house)
+
+
+@pytest.fixture(scope="module")
+def report(house, results):
+    check = lb.check_mcp(house, results[1])
+    about = {"author": "A. <Mason> & Daughter", "project": "12|3 *Church* Lane", "notes": "one\ntwo"}
+    return lb.report(house, *results, check, title="The house", demand=0.1, **about)
+
+
+def squeezed(text):
+    """The text without white space, which every format puts elsewhere."""
+    return re.sub(r"\s+", "", text)
+
+
+def pages(data):
+    return [page.extract_text() for page in pypdf.PdfReader(BytesIO(data)).pages]
+
+
+def in_html(report):
+    html = re.sub(r"<(script|style)[^>]*>.*?</\1>", "", report.html, flags=re.DOTALL)
+    return unescape(re.sub(r"<[^>]+>", " ", html))
+
+
+def in_json(report):
+    def strings(value):
+        if isinstance(value, dict):
+            return [text for key, part in value.items() for text in (key, *strings(part))]
+        if isinstance(value, list):
+            return [text for part in value for text in strings(part)]
+        return [str(value)]
+
+    return " ".join(strings(json.loads(report.json)))
+
+
+def in_pdf(report):
+    """The pages less what stands above and below each of them."""
+    margins = rf"Model {report.model.digest}|Page \d+ of \d+|limitblocks report\n|^{report.title}\n"
+    return " ".join(re.sub(margins, "", page) for page in pages(pdf(report.document)))
+
+
+RENDERINGS = {
+    "html": in_html,
+    "json": in_json,
+    "markdown": lambda report: re.sub(r"\\(.)", r"\1", report.markdown),
+    "terminal": lambda report: terminal.text(report.document, width=2000),
+    "pdf": in_pdf,
+}
+
+
+@pytest.mark.parametrize("rendering", RENDERINGS)
+def test_every_fact_is_in_every_rendering(rendering, report):
+    said = squeezed(RENDERINGS[rendering](report))
+    facts = list(report.document.facts())
+    assert len(facts) > 300
+    for fact in facts:
+        wanted = fact
+        if rendering == "pdf":
+            wanted = latin(fact.replace("α", "a"))
+            said = said.replace("α", "a")
+        assert squeezed(wanted) in said, fact
+
+
+@pytest.mark.parametrize("rendering", RENDERINGS)
+def test_report_of_a_house_has_the_words_an_authority_looks_for(rendering, house):
+    said = RENDERINGS[rendering](lb.report(house)).lower()
+    for word in WORDS:
+        assert squeezed(word) in squeezed(said), word
+
+
+def test_the_large_number_is_the_least_certified_one_without_dilatancy(house, results):
+    bounds, solved, _ = results
+    assert solved.load_factor < bounds.lower
+    found = answer((bounds, solved))
+    assert (found.load_factor, found.certified) == (solved.load_factor, True)
+    html = lb.report(house, bounds, solved).html
+    assert re.search(r'class="number">([^<]*)<', html)[1] == f"{solved.load_factor:#.4g}"
+    higher = replace(solved, load_factor=1.5 * solved.load_factor)
+    least = answer((higher, bounds, solved))
+    assert least.load_factor == solved.load_factor
+    assert "least of the 2 certified" in least.reason
+
+
+def test_what_is_not_certified_is_an_upper_estimate_and_says_so(house, results):
+    bounds, solved, stands = results
+    stalled = replace(solved, status=Status.OUT_OF_STEPS)
+    found = answer((stalled, bounds))
+    assert (found.load_factor, found.certified) == (bounds.lower, False)
+    made = lb.report(house, stalled, bounds)
+    assert "real friction dilates less than associated flow assumes" in made.markdown
+    assert f"≤ {bounds.lower:#.4g}" in made.html
+    assert answer((stalled, stands)).load_factor is None
+    assert "no load factor to design with" in lb.report(house, stands).html
+
+
+def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):
+    said = answer(results).quantity(house)
+    factor = results[1].load_factor
+    assert "a horizontal acceleration along +Y" in said
+    assert f"{factor:#.4g} g" in said
+    assert f"{factor * 9.80665:#.4g} m/s²" in said
+    twice = replace(house, live=2.0 * house.live)
+    assert f"{2.0 * 0.5:#.4g} g" in Answer(0.5, True, "").quantity(twice)
+    pushed = replace(
+        house, live=house.live + lb.loads.force(house.free_blocks[0].name, (1e3, 0, 0), (0, 0, 0))
+    )
+    assert " g = " not in Answer(0.5, True, "").quantity(pushed)
+
+
+@pytest.mark.parametrize(
+    ("load_factor", "demand", "shown", "reached"),
+    [
+        (0.21, 0.20, "1.05", "the demand is reached"),
+        (0.1, 0.2, "0.500", "the demand is not reached"),
+        (0.19999, 0.2, "0.999", "the demand is not reached"),  # never rounded up to 1
+        (0.2, 0.2, "1.00", "the demand is reached"),
+    ],
+)
+def test_a_demand_gives_a_ratio_and_a_verdict(load_factor, demand, shown, reached):
+    found = verdict(Answer(load_factor, True, ""), demand)
+    assert found.ratio == load_factor / demand
+    assert f"is {shown} times the demand {demand:.4g}: {reached}." in found.text
+    assert "no statement of compliance" in found.text
+    upper = verdict(Answer(load_factor, False, ""), demand).text
+    assert ("is open" in upper) == (load_factor >= demand)
+
+
+def test_a_demand_is_in_json_and_a_wrong_one_is_refused(house, report, results):
+    content = json.loads(report.json)
+    assert content["demand"] == 0.1
+    assert content["ratio"] == results[1].load_factor / 0.1
+    assert json.loads(lb.report(house).json)["ratio"] is None
+    assert "not compared" in lb.report(house, demand=0.1).markdown
+    for wrong in (0.0, -1.0, np.inf, np.nan):
+        with pytest.raises(lb.LimitBlocksError, match=r"demand is .*, expected a load factor > 0"):
+            lb.report(house, demand=wrong)
+
+
+def test_labels_are_text_and_nothing_else(house):
+    made = lb.report(house, title=HOSTILE, author=HOSTILE, project=HOSTILE, notes=HOSTILE).html
+    plain = lb.report(house, title="x", author="x", project="x", notes="x").html
+    for tag in ("<script", "</script", "<style", "</style"):
+        assert made.count(tag) == plain.count(tag)
+    assert '@top-left { content: "\\00003c' in made  # its < in a style, by its number
+    assert made.count(escape(HOSTILE)) == 5  # title of the window and of the page, author, project, notes
+    assert HOSTILE in json.loads(re.search(r'id="scene">(.*?)</script>', made, re.DOTALL)[1])["title"]
+
+
+def test_a_saved_result_is_reported(house, results, tmp_path):
+    for result, name in ((results[1], "solved"), (results[0], "bounds")):
+        file = tmp_path / f"{name}.json"
+        lb.files.write_result(result, file)
+        made = lb.report(house, lb.read_result(file, house))
+        assert f"{result.load_factor:#.4g}" in made.html
+    assert answer(lb.report(house, lb.read_result(tmp_path / "solved.json", house)).results).certified
+    changed = json.loads((tmp_path / "solved.json").read_text())
+    changed["load_factor"] *= 1.1
+    (tmp_path / "solved.json").write_text(json.dumps(changed))
+    made = lb.report(house, lb.read_result(tmp_path / "solved.json", house))
+    assert not answer(made.results).certified
+    assert "FAIL" in made.markdown
+
+
+def test_joints_that_move_most_come_first():
+    """A block that slides by 1 and turns by w about Z: its corners move by |(1, 0) + w x r|."""
+    blocks = [lb.Block.box("ground", (4, 4, 1), (0, 0, -0.5)), lb.Block.box("a", (1, 1, 1), (0, 0, 0.5), 1e3)]
+    model = lb.Model(
+        blocks,
+        ["ground"],
+        lb.find_interfaces(blocks, lb.PointContact(0.5)),
+        lb.self_weight(),
+        lb.mass_proportional((1, 0, 0)),
+    )
+    w = 0.3
+    rates = np.array([np.zeros(6), [1, 0, 0, 0, 0, w]])
+    corners = [np.hypot(1.0 - w * y, w * x) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    assert relative_motion(model, rates) == pytest.approx([max(corners)])
+    assert relative_motion(model, np.zeros((2, 6))) == pytest.approx([0.0])
+
+
+def test_every_page_has_its_number_the_title_and_the_hash(report):
+    sheets = pages(pdf(report.document))
+    titles = {chapter.title for chapter in report.document.chapters}
+    assert len(sheets) > 2
+    for k, sheet in enumerate(sheets, start=1):
+        assert f"Page {k} of {len(sheets)}" in sheet
+        assert report.model.digest in sheet
+        assert "The house" in sheet
+        lines = [line for line in sheet.splitlines() if not re.match("Model |Page |limitblocks report", line)]
+        assert lines[-1] not in titles  # no heading is left alone at the end of a page
+
+
+def test_tables_repeat_their_heads_on_every_page(report):
+    table = Table.of("Long", ("First head", "Second head"), [(f"row {k}", "x") for k in range(200)])
+    sheets = pages(pdf(replace(report.document, chapters=(Chapter("Long", (table,)),))))
+    assert len(sheets) > 2
+    assert all("First head" in sheet for sheet in sheets if "row " in sheet)

@@ -1,0 +1,93 @@
+"""What reports, plots and files of pictures share."""
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.drawing.elevations import dimensions, elevations
+from limitblocks.drawing.motion import motion, travel
+from limitblocks.drawing.sheet import polylines
+from limitblocks.drawing.view import towards, view_of
+
+JOINT = lb.OrdunaLourenco(0.6)
+
+
+@pytest.fixture(scope="module")
+def wall():
+    return lb.structures.wall(JOINT, length=4.0, courses=6)
+
+
+@pytest.mark.parametrize(("x", "y"), [one for one in product((-1, 0, 1), repeat=2) if any(one)])
+def test_the_eye_is_on_the_side_to_which_the_blocks_move(wall, x, y):
+    rates = np.zeros((len(wall.blocks), 6))
+    rates[1:, 0], rates[1:, 1] = x, y
+    eye = towards(wall, rates)
+    assert np.linalg.norm(eye) == pytest.approx(1.0)
+    assert eye @ (x, y, 0) > 0.0
+    assert eye[2] > 0.0  # from above
+    still = towards(wall)
+    assert (np.abs(eye) == np.abs(still)).all()  # the same view, mirrored
+
+
+def test_what_moves_to_both_sides_is_seen_from_the_front(wall):
+    rates = np.zeros((len(wall.blocks), 6))
+    rates[:, 1] = 1e-3
+    rates[1::2, 1] = 1.0
+    rates[2::2, 1] = -sum(block.volume for block in wall.blocks[1::2]) / sum(
+        block.volume for block in wall.blocks[2::2]
+    )
+    assert (towards(wall, rates) == towards(wall)).all()
+
+
+@pytest.mark.parametrize("eye", [(0.4, -0.8, 0.4), (0, 0, 1), (0, -1, 0), (-3, 2, 1)])
+def test_views_are_right_handed_and_look_at_the_eye(eye):
+    view = view_of(np.array(eye, dtype=float))
+    assert view @ view.T == pytest.approx(np.eye(3), abs=1e-12)
+    assert np.linalg.det(view) == pytest.approx(1.0)
+    assert view[2] == pytest.approx(np.array(eye) / np.linalg.norm(eye))
+    assert view[1, 2] >= 0.0  # up is up
+
+
+def test_views_have_the_overall_sizes():
+    model = lb.structures.facade(JOINT, length=3.2, courses=5, return_length=1.6, openings=())
+    assert dimensions(model) == pytest.approx({"X": 3.2, "Y": 1.6, "Z": 5 * 0.4})
+    sheet = elevations(model)
+    texts = [label.text for label in sheet.labels]
+    for text in ("X: 3.2 m", "Y: 1.6 m", "Z: 2 m"):
+        assert texts.count(text) == 2  # each size is seen in two of the three views
+    places = np.array(
+        [xy for group in sheet.groups for shape in group.shapes for line, _ in polylines(shape.path)
+         for xy in zip(line[::2], line[1::2], strict=True)]
+    )  # fmt: skip
+    assert places.min() >= 0.0
+    assert places[:, 0].max() <= 1000.0
+    assert places[:, 1].max() <= sheet.height
+    shown = {group.style: next(iter(polylines(group.shapes[0].path))) for group in reversed(sheet.groups)}
+    (line, closed), (front, _) = shown["dimension"], shown["support"]
+    assert not closed
+    assert line[2] - line[0] == pytest.approx(
+        max(front[::2]) - min(front[::2])
+    )  # as long as the base is drawn
+
+
+def test_courses_behind_one_another_are_drawn_once():
+    model = lb.structures.wall(JOINT, length=8.0, courses=20)
+    blocks = [group for group in elevations(model).groups if group.style != "dimension"]
+    assert len(blocks) < 1.6 * len(model.blocks)
+
+
+def test_a_result_of_another_model_is_not_drawn(wall):
+    bounds = lb.bounds(wall)
+    assert motion(wall, bounds).magnification > 0.0
+    other = replace(bounds, digest="0" * 64)
+    with pytest.raises(lb.ModelError, match="belongs to model 000000000000, not to this model"):
+        motion(wall, other)
+
+
+def test_travel_is_that_of_the_corner_that_moves_most():
+    block = lb.Block.box("a", (2, 2, 2), (5, 0, 0))
+    moved = np.array([[1.0, 0, 0, 0, 0, 0.1]])  # v + w x r at (x, y): (1 - 0.1 y, 0.1 x)
+    assert travel([block], moved) == pytest.approx([np.hypot(1.1, 0.1)])
