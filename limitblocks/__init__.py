@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from limitblocks.loads import mass_proportional, self_weight
     from limitblocks.model import Model
     from limitblocks.reports.report import report
+    from limitblocks.studies import study
 
 __version__ = "0.1.0"
 
@@ -77,6 +78,7 @@ __all__ = [
     "stability",
     "structures",
     "studies",
+    "study",
     "units",
 ]
 
@@ -108,6 +110,7 @@ _HOMES = {
     "self_weight": "loads",
     "sensitivities": "analysis.sensitivities",
     "stability": "analysis.stability",
+    "study": "studies",
 }
 
 

@@ -2,12 +2,15 @@
 
 from limitblocks.analysis.sensitivities import shape_sensitivity
 from limitblocks.studies.results import Directions, MovingLoad, Study, Sweep
+from limitblocks.studies.sample_result import SampledStudy
+from limitblocks.studies.sampled import study
 from limitblocks.studies.series import directions, moving_load, sweep
 from limitblocks.studies.threshold import Threshold, maximum, minimum
 
 __all__ = [
     "Directions",
     "MovingLoad",
+    "SampledStudy",
     "Study",
     "Sweep",
     "Threshold",
@@ -16,6 +19,7 @@ __all__ = [
     "minimum",
     "moving_load",
     "shape_sensitivity",
+    "study",
     "sweep",
 ]
 

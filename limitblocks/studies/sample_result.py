@@ -1,0 +1,137 @@
+"""Result of a study over sampled parameters: quantiles, frequencies of modes, Sobol indices, tables."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError, SolveError
+from limitblocks.shown import Saved
+from limitblocks.studies.results import write_rows
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SampledStudy(Saved):
+    """Load factors of sampled parameters.
+
+    Attributes
+    ----------
+    analysis : str
+        "bounds" or "nonassociated".
+    names : tuple of str, length k
+        Parameters.
+    values : Array, shape (rows, k)
+        Their values.
+    load_factors : Array, shape (rows,)
+        Infinite where the load is unlimited, NaN where there is no answer.
+    modes : tuple of str, length rows
+        What the joints do in the mechanism, such as "hinge-slide".
+    errors : tuple of str, length rows
+        Class and message of the error of each analysis, empty where there is none.
+    samples : int
+        Independent samples: the first rows; more belong to Sobol indices.
+    indices : bool
+        Whether the rows suit Sobol indices.
+    """
+
+    analysis: str
+    names: tuple[str, ...]
+    values: Array
+    load_factors: Array
+    modes: tuple[str, ...]
+    errors: tuple[str, ...]
+    samples: int
+    indices: bool
+
+    @property
+    def failures(self) -> int:
+        """Number of rows without a load factor."""
+        return int(np.isnan(self.load_factors).sum())
+
+    def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
+        """Return quantiles of the load factor over the independent samples that have one.
+
+        A row whose dead loads fall counts as load factor zero; other failures are left out.
+
+        Raises
+        ------
+        SolveError
+            If no row has a load factor.
+        """
+        return np.quantile(self._known(), shares)
+
+    def probability_below(self, demand: float) -> float:
+        """Return the share of independent samples whose load factor is below `demand`; falling ones are."""
+        return float((self._known() < demand).mean())
+
+    def mode_frequencies(self) -> dict[str, float]:
+        """Return the share of each mode among the independent samples that have one, most frequent first."""
+        counted = Counter(mode for mode in self.modes[: self.samples] if mode)
+        total = sum(counted.values())
+        return {mode: count / total for mode, count in counted.most_common()}
+
+    def sobol(self) -> dict[str, tuple[float, float]]:
+        """Return first-order and total Sobol index of each parameter (Saltelli et al. 2010; scipy.stats).
+
+        Raises
+        ------
+        ModelError
+            If the study was not sampled for indices.
+        SolveError
+            If a row has no finite load factor.
+        """
+        from scipy.stats import sobol_indices
+
+        if not self.indices:
+            raise ModelError("the study was not sampled for Sobol indices; use study(..., indices=True)")
+        n, k = self.samples, len(self.names)
+        if not np.isfinite(self.load_factors).all():
+            raise SolveError("a sample has no load factor; Sobol indices need all of them")
+        f = self.load_factors.reshape(k + 2, n)
+        func: Mapping[str, Array] = {"f_A": f[0][None], "f_B": f[1][None], "f_AB": f[2:][:, None]}
+        found = sobol_indices(func=func, n=n)  # type: ignore[arg-type] # the stubs ask for a plain dict
+        pairs = zip(np.ravel(found.first_order).tolist(), np.ravel(found.total_order).tolist(), strict=True)
+        return dict(zip(self.names, pairs, strict=True))
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each analysis, plain numbers and text."""
+        answers = zip(self.values.tolist(), self.load_factors.tolist(), self.modes, self.errors, strict=True)
+        return [
+            dict(zip(self.names, values, strict=True)) | {"load_factor": a, "mode": mode, "error": error}
+            for values, a, mode, error in answers
+        ]
+
+    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the rows to a CSV file and return its path; LimitBlocksError if it exists."""
+        return write_rows(self.rows(), file, overwrite=overwrite)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the rows and what is asked of them most as numbers and text."""
+        rows = [
+            {key: None if isinstance(v, float) and not np.isfinite(v) else v for key, v in row.items()}
+            for row in self.rows()
+        ]
+        return {"analysis": self.analysis, "parameters": list(self.names), "rows": rows}
+
+    def __str__(self) -> str:
+        low, middle, high = self.quantiles()
+        failed = f", {self.failures} without an answer" if self.failures else ""
+        return (
+            f"{len(self.load_factors)} analyses of {', '.join(self.names)}: load factor {middle:.6g}, "
+            f"5 % to 95 % {low:.6g} to {high:.6g}{failed}"
+        )
+
+    def _known(self) -> Array:
+        own, errors = self.load_factors[: self.samples], self.errors[: self.samples]
+        falls = np.array([error.startswith("NoEquilibrium") for error in errors])
+        known = np.where(falls, 0.0, own)
+        known = known[~np.isnan(known)]
+        if not len(known):
+            raise SolveError(f"no analysis of the study gave a load factor: {self.errors[0]}")
+        return np.asarray(known)

@@ -1,0 +1,262 @@
+"""A study over sampled parameters: quasi-random or random, kept in a file, in processes or on a cluster."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from scipy.stats import qmc
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.joints.base import checked_choice, checked_count
+from limitblocks.model import Model
+from limitblocks.studies.pool import ANALYSES, Analysis, Progress, analyse, failed, in_order
+from limitblocks.studies.sample_result import SampledStudy
+
+Sampler = Literal["sobol", "latin hypercube", "halton", "random"]
+Row = dict[str, Any]
+AT_ONCE = 64  # rows handed to the processes before the first is written
+
+
+def study(
+    maker: Callable[..., Model],
+    parameters: Mapping[str, Any],
+    n: int,
+    *,
+    sampler: Sampler = "sobol",
+    seed: int = 0,
+    analysis: Analysis = "bounds",
+    file: str | Path | None = None,
+    workers: int | None = 1,
+    client: Any = None,
+    indices: bool = False,
+    progress: Progress | None = None,
+    **settings: Any,
+) -> SampledStudy:
+    """Return load factors for sampled values of parameters, such as friction and unit weight.
+
+    Parameters
+    ----------
+    maker : callable
+        Gives the model of values: ``maker(friction=.6, height=3.)``. For processes and clusters it must be a
+        function of a module.
+    parameters : mapping
+        Of each name an interval (low, high), or a frozen distribution of scipy.stats (anything with `ppf`).
+    n : int
+        Number of samples; of each matrix where `indices` are asked for.
+    sampler : {"sobol", "latin hypercube", "halton", "random"}
+        How the unit cube is filled, scipy.stats.qmc; a power of two suits "sobol".
+    seed : int
+        The same seed gives the same samples.
+    analysis : {"bounds", "nonassociated"}
+        Which load factor.
+    file : path, optional
+        A file of JSON lines to which every row is added when it is done. A study that was ended goes on where
+        it stopped; a file of other parameters is refused. A maker that has changed cannot be seen: name a new
+        file.
+    workers : int or None
+        Processes; 1 stays in this one, None takes one for each core. Pays where an analysis takes seconds.
+    client : dask.distributed.Client, optional
+        Cluster on which the analyses run, in place of processes.
+    indices : bool
+        Sample for Sobol indices (Saltelli et al. 2010): n (k + 2) analyses for k parameters, n a power of 2.
+    progress : callable, optional
+        Called with the number of analyses done and of all.
+    **settings
+        Further arguments of the analysis.
+
+    Raises
+    ------
+    ModelError
+        If a parameter, the sampler or a number is wrong, or the file is one of another study.
+    """
+    if analysis not in ANALYSES:
+        raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
+    checked_count("n", n, 1)
+    names, values = _values(parameters, n, sampler, seed, indices)
+    head = _head(parameters, values, sampler, seed, analysis, settings, indices)
+    store = Path(file) if file is not None else None
+    done = _kept(store, head)
+    tasks = [
+        (k, maker, dict(zip(names, row, strict=True)), analysis, settings)
+        for k, row in enumerate(values.tolist())
+        if k not in done
+    ]
+    try:
+        for row in _answers(tasks, workers, client):
+            done[row["row"]] = row
+            _keep(store, head, row)
+            if progress:
+                progress(len(done), len(values))
+    except KeyboardInterrupt:
+        if not done:
+            raise
+    rows = [done.get(k) or _undone(k) for k in range(len(values))]
+    return SampledStudy(
+        analysis=analysis,
+        names=names,
+        values=read_only(values),
+        load_factors=read_only(np.array([row["load_factor"] for row in rows], dtype=float)),
+        modes=tuple(row["mode"] for row in rows),
+        errors=tuple(row["error"] for row in rows),
+        samples=n,
+        indices=indices,
+    )
+
+
+def _values(
+    parameters: Mapping[str, Any], n: int, sampler: str, seed: int, indices: bool
+) -> tuple[tuple[str, ...], Array]:
+    """Names, and values (rows, k): the samples, or A, B and the k matrices with one column of B."""
+    checked_choice("sampler", sampler, ("sobol", "latin hypercube", "halton", "random"))
+    names, k = tuple(parameters), len(parameters)
+    if not names:
+        raise ModelError("a study needs at least one parameter")
+    if indices and n & (n - 1):
+        raise ModelError(f"n is {n}, expected a power of two for Sobol indices")
+    d = 2 * k if indices else k
+    generator = np.random.default_rng(seed)
+    kinds: dict[str, Callable[[], Array]] = {
+        "sobol": lambda: _sobol(d, n, seed),
+        "latin hypercube": lambda: qmc.LatinHypercube(d, rng=generator).random(n),
+        "halton": lambda: qmc.Halton(d, rng=generator).random(n),
+        "random": lambda: generator.random((n, d)),
+    }
+    unit = kinds[sampler]()
+    if indices:
+        A, B = unit[:, :k], unit[:, k:]
+        mixed = [np.where(np.arange(k) == j, B, A) for j in range(k)]
+        unit = np.concatenate([A, B, *mixed])
+    columns = [_scaled(name, parameters[name], unit[:, j]) for j, name in enumerate(names)]
+    return names, np.stack(columns, axis=1)
+
+
+def _sobol(d: int, n: int, seed: int) -> Array:
+    """The first n points of a scrambled Sobol sequence; the next power of two is drawn, as it is balanced."""
+    drawn = qmc.Sobol(d, rng=np.random.default_rng(seed)).random_base2(int(np.ceil(np.log2(max(n, 2)))))
+    return np.asarray(drawn[:n])
+
+
+def _scaled(name: str, given: Any, unit: Array) -> Array:
+    """Values of a parameter at quantiles."""
+    if hasattr(given, "ppf"):
+        values = np.asarray(given.ppf(unit), dtype=float)
+    else:
+        try:
+            low, high = (float(value) for value in given)
+        except (TypeError, ValueError):
+            low = high = np.nan
+        if not low < high:
+            raise ModelError(f"parameter {name!r} is {given!r}, expected (low, high) or a distribution")
+        values = low + (high - low) * unit
+    if not np.isfinite(values).all():
+        raise ModelError(f"parameter {name!r}: its distribution gives values that are not finite")
+    return values
+
+
+def _head(
+    parameters: Mapping[str, Any],
+    values: Array,
+    sampler: str,
+    seed: int,
+    analysis: str,
+    settings: Mapping[str, Any],
+    indices: bool,
+) -> Row:
+    """What tells one study from another: the first line of its file."""
+    own = hashlib.sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
+    return {
+        "study": list(parameters), "sampler": sampler, "seed": seed, "analysis": analysis,
+        "settings": {key: repr(value) for key, value in settings.items()}, "indices": indices,
+        "rows": len(values), "values": own,
+    }  # fmt: skip
+
+
+def _kept(file: Path | None, head: Row) -> dict[int, Row]:
+    """Rows that a file of this study has; a last line that was cut off is left out."""
+    if file is None or not file.exists():
+        return {}
+    first, *lines = file.read_text(encoding="utf-8").split("\n")
+    try:
+        theirs = json.loads(first)
+    except ValueError:
+        theirs = None
+    if theirs != head:
+        raise ModelError(f"{file} is of another study, or none; name another file or remove it")
+    rows = {}
+    for line in lines:
+        try:
+            row = json.loads(line)
+        except ValueError:
+            continue
+        if isinstance(row, dict) and {"row", "load_factor", "mode", "error"} <= set(row):
+            number = row["load_factor"]
+            rows[int(row["row"])] = row | {"load_factor": np.nan if number is None else float(number)}
+    return rows
+
+
+def _keep(file: Path | None, head: Row, row: Row) -> None:
+    """Add a row to the file, after its head where it is new; each on a line of its own."""
+    if file is None:
+        return
+    new = not file.exists()
+    number = row["load_factor"]
+    written = row | {"load_factor": None if np.isnan(number) else str(number) if np.isinf(number) else number}
+    try:
+        with file.open("a", encoding="utf-8") as stream:
+            if new:
+                stream.write(json.dumps(head))
+            stream.write("\n" + json.dumps(written))
+            stream.flush()
+    except OSError as error:
+        raise LimitBlocksError(f"cannot write {file}: {error.strerror}") from None
+
+
+def one_row(
+    number: int,
+    maker: Callable[..., Model],
+    values: dict[str, float],
+    analysis: Analysis,
+    settings: dict[str, Any],
+) -> Row:
+    """Return the row of one sample; an error becomes a row."""
+    from limitblocks.evidence.interface_states import interface_states
+
+    try:
+        model = maker(**values)
+    except LimitBlocksError as error:
+        outcome, mode = failed(error), ""
+    else:
+        outcome, mode = analyse(model, analysis, settings), ""
+        if outcome.result is not None and not outcome.error:
+            words = {
+                part for state in interface_states(model, outcome.result).state for part in state.split("-")
+            }
+            mode = "-".join(sorted(words - {"stick"}))
+    return {"row": number, "load_factor": float(outcome.load_factor), "mode": mode, "error": outcome.error}
+
+
+def _answers(tasks: Sequence[tuple[Any, ...]], workers: int | None, client: Any) -> Iterator[Row]:
+    if client is not None:
+        from importlib import import_module
+
+        completed = import_module("dask.distributed").as_completed
+        yield from (future.result() for future in completed(client.map(_of_task, tasks, pure=False)))
+        return
+    rest: Iterable[tuple[Any, ...]] = iter(tasks)
+    while batch := list(islice(rest, AT_ONCE)):
+        yield from in_order(one_row, batch, workers)
+
+
+def _of_task(task: tuple[Any, ...]) -> Row:
+    return one_row(*task)
+
+
+def _undone(k: int) -> Row:
+    return {"row": k, "load_factor": np.nan, "mode": "", "error": "interrupted before this one was done"}

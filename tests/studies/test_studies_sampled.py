@@ -1,0 +1,142 @@
+"""Studies over sampled parameters: closed forms, going on after an end, failures as rows."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy import stats
+
+import limitblocks as lb
+from limitblocks.studies import sampled
+
+
+def block(friction=0.5, width=1.0):
+    """min(friction, width / height) of a block one metre high."""
+    return lb.structures.block(lb.PointContact(friction), width=width, height=1.0)
+
+
+def product(friction, scale):
+    """A block on a plane whose load factor is friction times a scale, by the direction's live load."""
+    model = lb.structures.block(lb.PointContact(friction), width=2.0, height=1.0)
+    live = (1.0 / scale) * lb.mass_proportional((1, 0, 0))
+    return lb.Model(model.blocks, model.supports, model.interfaces, model.dead, live)
+
+
+def falls_where_slippery(friction):
+    if friction < 0.3:
+        raise lb.ModelError("too slippery")
+    return block(friction)
+
+
+def test_load_factors_and_quantiles_of_a_block():
+    found = lb.study(block, {"friction": (0.2, 0.6), "width": stats.uniform(0.3, 0.2)}, 16, seed=3)
+    expected = np.minimum(*found.values.T)
+    assert found.values.shape == (16, 2)
+    assert found.values.min(axis=0) == pytest.approx([0.2, 0.3], abs=0.03)
+    assert found.load_factors == pytest.approx(expected, rel=1e-6)
+    assert found.quantiles([0.0, 1.0]) == pytest.approx([expected.min(), expected.max()], rel=1e-6)
+    assert found.probability_below(0.35) == (found.load_factors < 0.35).mean()
+    slides = found.values[:, 0] < found.values[:, 1]
+    assert [mode == "slide" for mode in found.modes] == slides.tolist()
+    assert found.mode_frequencies() == pytest.approx({"slide": slides.mean(), "hinge": 1 - slides.mean()})
+    assert "16 analyses of friction, width" in str(found)
+
+
+@pytest.mark.parametrize("sampler", ["sobol", "latin hypercube", "halton", "random"])
+def test_samples_are_those_of_the_seed_and_fill_the_interval(sampler, monkeypatch):
+    monkeypatch.setattr(
+        sampled, "one_row", lambda k, *_: {"row": k, "load_factor": 1.0, "mode": "", "error": ""}
+    )
+    runs = [lb.study(block, {"friction": (1.0, 3.0)}, 64, sampler=sampler, seed=s) for s in (1, 1, 2)]
+    assert (runs[0].values == runs[1].values).all()
+    assert not (runs[0].values == runs[2].values).any()
+    assert 1.0 <= runs[0].values.min() < 1.2
+    assert 2.8 < runs[0].values.max() <= 3.0
+    assert runs[0].values.mean() == pytest.approx(2.0, abs=0.2)
+
+
+def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypatch):
+    file, calls, own = tmp_path / "study.jsonl", [], sampled.one_row
+
+    def counted(number, *rest):
+        if len(calls) == 5:
+            calls.append(None)
+            raise RuntimeError("the machine stops")
+        calls.append(number)
+        return own(number, *rest)
+
+    monkeypatch.setattr(sampled, "one_row", counted)
+    ask = {"friction": (0.2, 0.6)}
+    with pytest.raises(RuntimeError):
+        lb.study(block, ask, 8, file=file)
+    file.write_text(file.read_text() + '\n{"row": 5, "load_f')  # cut off by the end
+    found = lb.study(block, ask, 8, file=file)
+    assert [k for k in calls if k is not None] == [0, 1, 2, 3, 4, 5, 6, 7]
+    assert found.load_factors == pytest.approx(found.values[:, 0], rel=1e-6)
+    again = lb.study(block, ask, 8, file=file)
+    assert len(calls) == 9
+    assert (again.load_factors == found.load_factors).all()
+    with pytest.raises(lb.ModelError, match="is of another study"):
+        lb.study(block, ask, 8, file=file, seed=1)
+
+
+def test_failures_are_rows(tmp_path):
+    found = lb.study(falls_where_slippery, {"friction": (0.2, 0.6)}, 8, file=tmp_path / "a.jsonl")
+    slippery = found.values[:, 0] < 0.3
+    assert found.failures == slippery.sum() > 0
+    assert all(("too slippery" in e) == s for e, s in zip(found.errors, slippery, strict=True))
+    again = lb.study(falls_where_slippery, {"friction": (0.2, 0.6)}, 8, file=tmp_path / "a.jsonl")
+    assert np.isnan(again.load_factors).tolist() == slippery.tolist()
+    assert json.loads(json.dumps(found.to_dict()))["rows"][0]["friction"] == found.values[0, 0]
+
+
+def test_sobol_indices_of_a_product():
+    """f = a b with independent a, b: S_a = Va mb^2 / (Va mb^2 + Vb ma^2 + Va Vb)."""
+    found = lb.study(product, {"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, 64, indices=True, seed=4)
+    assert found.load_factors == pytest.approx(found.values.prod(axis=1), rel=1e-6)
+    (ma, va), (mb, vb) = (0.4, 0.4**2 / 12), (1.5, 4 / 12)
+    total = va * mb**2 + vb * ma**2 + va * vb
+    indices = found.sobol()
+    assert indices["friction"] == pytest.approx(
+        (va * mb**2 / total, (va * mb**2 + va * vb) / total), abs=0.06
+    )
+    assert indices["scale"] == pytest.approx((vb * ma**2 / total, (vb * ma**2 + va * vb) / total), abs=0.06)
+
+
+def test_table(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    found = lb.study(block, {"friction": (0.2, 0.6)}, 2)
+    assert list(found.to_frame().columns) == ["friction", "load_factor", "mode", "error"]
+    written = pandas.read_csv(found.write_csv(tmp_path / "a.csv"))
+    assert written["load_factor"].tolist() == pytest.approx(found.load_factors.tolist())
+
+
+def test_on_a_local_cluster():
+    distributed = pytest.importorskip("dask.distributed", reason="dask is not installed")
+    settings = {"n_workers": 1, "processes": False, "dashboard_address": None}
+    with distributed.LocalCluster(**settings) as cluster, distributed.Client(cluster) as client:
+        found = lb.study(block, {"friction": (0.2, 0.6)}, 4, client=client)
+    assert found.load_factors == pytest.approx(found.values[:, 0], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        ({"parameters": {}}, "at least one parameter"),
+        ({"parameters": {"friction": (0.6, 0.2)}}, "parameter 'friction' is .0.6, 0.2."),
+        ({"parameters": {"friction": 0.6}}, "parameter 'friction' is 0.6, expected"),
+        ({"n": 0}, "n is 0"),
+        ({"sampler": "dice"}, "sampler is 'dice'"),
+        ({"analysis": "x"}, "analysis is 'x'"),
+        ({"n": 6, "indices": True}, "n is 6, expected a power of two"),
+    ],
+)
+def test_misuse(ask, words):
+    given = {"parameters": {"friction": (0.2, 0.6)}, "n": 4} | ask
+    with pytest.raises(lb.ModelError, match=words):
+        lb.study(block, given.pop("parameters"), given.pop("n"), **given)
+
+
+def test_study_without_indices_has_none():
+    with pytest.raises(lb.ModelError, match="indices=True"):
+        lb.study(block, {"friction": (0.2, 0.6)}, 2).sobol()
