@@ -32,7 +32,7 @@ autosummary_generate = False  # everything is on one page
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # the docstrings say types, shapes and units
 napoleon_google_docstring = False
-napoleon_use_ivar = True
+napoleon_use_ivar = False
 python_use_unqualified_type_names = True
 toc_object_entries = False
 

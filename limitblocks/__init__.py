@@ -1,7 +1,7 @@
 """Limit analysis of structures made of rigid blocks, with evidence for every answer.
 
-What most models need is here; the rest is in `loads`, `joints`, `structures`, `studies`, `plots`, `files`,
-`results`, `settings`, `errors` and `units`. Everything is loaded when it is first used.
+What most models need is here; the rest is in `loads`, `joints`, `structures`, `practice`, `studies`, `plots`,
+`files`, `results`, `settings`, `errors` and `units`. Everything is loaded when it is first used.
 """
 
 from importlib import import_module
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
         joints,
         loads,
         plots,
+        practice,
         results,
         settings,
         structures,
@@ -65,6 +66,7 @@ __all__ = [
     "mass_proportional",
     "nonassociated",
     "plots",
+    "practice",
     "read",
     "read_result",
     "report",

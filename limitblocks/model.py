@@ -10,6 +10,7 @@ from dataclasses import asdict, dataclass, fields, is_dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+from weakref import WeakValueDictionary
 
 import numpy as np
 from scipy import sparse
@@ -19,13 +20,16 @@ from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
+from limitblocks.shown import Viewed
 from limitblocks.written import write
 
 SCHEMA_VERSION = 1
+# results keep the hash of their model, not the model: copies in other processes and saved ones stay small
+_MODELS: WeakValueDictionary[str, Model] = WeakValueDictionary()
 
 
-@dataclass(frozen=True, eq=False)
-class Model:
+@dataclass(frozen=True, eq=False, repr=False)
+class Model(Viewed):
     """A structure of rigid blocks with its loads: dead + load factor x live.
 
     Parameters
@@ -88,7 +92,9 @@ class Model:
         """SHA-256 of the model document less its tolerances; two models are the same where this is."""
         document = {key: value for key, value in self.to_dict().items() if key != "tolerances"}
         text = json.dumps(document, sort_keys=True)
-        return hashlib.sha256(text.encode()).hexdigest()
+        found = hashlib.sha256(text.encode()).hexdigest()
+        _MODELS[found] = self
+        return found
 
     def to_dict(self) -> dict[str, Any]:
         """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
@@ -139,6 +145,20 @@ class Model:
     def __str__(self) -> str:
         kinds = f"{len(self.free_blocks)} blocks, {len(self.supports)} supports"
         return f"model {self.name!r}: {kinds}, {len(self.interfaces)} interfaces"
+
+
+def model_of(result: Any, model: Model | None = None) -> Model | None:
+    """Return `model`, else the one in memory that `result` belongs to; None where it is gone.
+
+    Raises
+    ------
+    ModelError
+        If the result belongs to another model.
+    """
+    digest = str(getattr(result, "digest", ""))
+    if model is not None and digest and digest != model.digest:
+        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    return model if model is not None else _MODELS.get(digest)
 
 
 def _tagged(settings: Any) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.evidence.sensitivity_result import Influence, LoadPosition, Sensitivities
 from limitblocks.evidence.stability_result import Stability, Standing
 from limitblocks.geometry import Contacts, Healed
+from limitblocks.notebook import View
 from limitblocks.reports import Report
 
 __all__ = [
@@ -40,6 +41,7 @@ __all__ = [
     "Stability",
     "Standing",
     "Status",
+    "View",
 ]
 
 

@@ -132,6 +132,19 @@ EXPECTED = {
         ),
         "wedge, without lift": ([mu * np.sqrt(2) for mu in (0.3, 0.5, 0.7)], 1e-3),
     },
+    "24_a_facade_a_tie_an_earthquake": {  # closed forms in the lesson
+        "load factors": ([14.75 / 162.5, 50.75 / 162.5], 1e-6),
+        "displacement without resistance": (5 * np.sin(np.arctan(14.75 / 162.5)), 1e-6),
+        "a0*": (0.7298419, 1e-6),
+        "e*": (162.5**2 / 531.25 / 55, 1e-6),
+        "d0*": (0.2955306, 1e-6),
+        "T_SLV": (2.742208, 1e-6),
+        "linear check": (0.495985, 1e-5),
+    },
+    "25_a_support_gives_way": {
+        "thrusts at the least thickness": ([0.621772, 0.621772], 3e-3),
+        "spread first": ([True] * 4, 0),
+    },
     "22_three_ranges": {  # by hand in the example
         "certified less by hand": ([0, 0], 1e-7),
         "reached within": (1, 0),

@@ -11,7 +11,7 @@ from limitblocks.model import Model
 _Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver, Through)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Diagnosis(Contacts):
     """What contact detection sees in the blocks of a model beside its interfaces; see :class:`Contacts`.
 

@@ -147,6 +147,7 @@ def frictional(problem: LimitProblem) -> Array:
     pressing = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(problem.interfaces))
     tangential = abs(problem.resultants).T @ pressing == 0.0
     friction = unit(np.clip(problem.friction, ROUNDING, 1.0))
+    tangential &= (problem.friction > 0.0)[problem.stress_interface]  # not that of dowels and guides
     return np.where(tangential, friction[problem.stress_interface], 1.0)
 
 

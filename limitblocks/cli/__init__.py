@@ -11,7 +11,7 @@ from io import TextIOWrapper
 
 import typer
 
-from limitblocks.cli import documents, verbs
+from limitblocks.cli import documents, practice, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.later import Later
@@ -60,6 +60,10 @@ app.command()(verbs.bounds)
 app.command()(verbs.nonassociated)
 app.command()(verbs.path)
 app.command("range")(verbs.load_factor_range)
+app.command(cls=Command)(practice.settle)
+app.command(cls=Command)(practice.capacity)
+app.command()(practice.verify)
+app.command()(practice.vehicle)
 app.command()(verbs.check)
 app.command()(documents.info)
 app.command()(documents.report)

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import ASSOCIATED, Turning
+from limitblocks.shown import Result
 
 
-@dataclass(frozen=True, eq=False)
-class Bounds:
+@dataclass(frozen=True, eq=False, repr=False)
+class Bounds(Result):
     """Bounds on the load factor of the associated flow, with the states that prove them.
 
     For the yield surface used, a structure with associated flow collapses between `lower` (a stress state
@@ -68,6 +69,13 @@ class Bounds:
     solvers: tuple[str, str]
     tolerance: float
     digest: str
+
+    title: ClassVar[str] = "Associated bounds"
+
+    @property
+    def collapse(self) -> Bounds:
+        """The state at collapse: the stresses of the lower bound, the mechanism of the upper one."""
+        return self
 
     @property
     def load_factor(self) -> float:

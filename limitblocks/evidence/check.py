@@ -27,10 +27,11 @@ from limitblocks.evidence.residuals import (
 from limitblocks.evidence.standing import standing_state
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, turning_of
+from limitblocks.shown import Result
 
 
-@dataclass(frozen=True)
-class Check:
+@dataclass(frozen=True, repr=False)
+class Check(Result):
     """Residuals of Eqs (54)-(59) for a claimed solution.
 
     Attributes
@@ -75,6 +76,10 @@ class Check:
     def worst(self) -> Residual:
         """The largest residual."""
         return self.residuals.worst
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each residual."""
+        return self.residuals.rows()
 
     def require(self) -> None:
         """Raise CheckFailed, naming every residual above the tolerance, unless the claim is accepted."""

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.model import Model
-from limitblocks.problem import Turning, turning_of
+from limitblocks.problem import ASSOCIATED, Turning, turning_of
+from limitblocks.shown import Result
 
 
-@dataclass(frozen=True, eq=False)
-class Claim:
+@dataclass(frozen=True, eq=False, repr=False)
+class Claim(Result):
     """A claimed solution, from any source, in SI units.
 
     Attributes
@@ -55,6 +56,29 @@ class Claim:
     upper: float | None = None
     proven: bool = False
     digest: str = ""
+
+    title: ClassVar[str] = "Claimed solution"
+
+    @property
+    def collapse(self) -> Claim:
+        """The state at collapse, which is this one."""
+        return self
+
+    def __str__(self) -> str:
+        upper = "" if self.upper is None else f" to {self.upper:.6g}"
+        flow = "associated" if self.dilatancy == ASSOCIATED else "non-associated"
+        return f"claimed {flow} load factor {self.load_factor:.6g}{upper}, not checked"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the claim as plain numbers and lists; as a file it is what was read."""
+        said: dict[str, Any] = {"load_factor": self.load_factor, "dilatancy": self.dilatancy}
+        said |= {"analysis": "nonassociated", "turning": turning_of(self.turning).value}
+        if self.dilatancy == ASSOCIATED:
+            said = {"analysis": "bounds", "lower": self.load_factor, "upper": self.upper}
+            said |= {"proven": self.proven}
+        given = {name: value for name in ARRAYS if (value := getattr(self, name)) is not None}
+        arrays = {name: np.asarray(value).tolist() for name, value in given.items()}
+        return said | arrays | {"model_digest": self.digest}
 
 
 ARRAYS = (

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -14,8 +15,10 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
+from limitblocks.shown import Tabular
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
@@ -45,8 +48,8 @@ class Collapse(Protocol):
         """SHA-256 of the model."""
 
 
-@dataclass(frozen=True, eq=False)
-class InterfaceStates:
+@dataclass(frozen=True, eq=False, repr=False)
+class InterfaceStates(Tabular):
     """State of each of the m interfaces of a model, in its order.
 
     Attributes
@@ -56,7 +59,8 @@ class InterfaceStates:
     state : tuple of str
         "stick", "open" (moves apart all over, without a force), or what it does, joined by "-" in this
         order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
-        pressed together), "slide", "twist". A twist about the centre of pressure does not slide.
+        pressed together), "slide", "twist". A twist about the centre of pressure does not slide. Of a tie
+        or dowel: "yield" (it gives), "slack" (the ends of a tie approach), else "stick".
     active_modes : tuple of tuple of Mode
         Failure modes, in the joint's words, whose flow multipliers are not zero.
     centroid : Array, shape (m, 3)
@@ -85,6 +89,29 @@ class InterfaceStates:
     centre_of_pressure: Array
     force: Array
     utilisation: Array
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each interface: SI units, vectors by component."""
+        parts = {
+            "": (("V1", "V2", "N", "M1", "M2", "T"), self.stress_resultants),
+            "force_": (tuple("XYZ"), self.force),
+            "pressure_": (tuple("XYZ"), self.centre_of_pressure),
+            "rate_": (("s1", "s2", "n", "th1", "th2", "thn"), self.strain_rates),
+        }
+        names = [f"{head}{name}" for head, (letters, _) in parts.items() for name in letters]
+        values = np.hstack([array for _, array in parts.values()]).tolist()
+        words = zip(self.names, self.state, self.utilisation.tolist(), self.active_modes, strict=True)
+        return [
+            {"interface": name, "state": state, "utilisation": used}
+            | dict(zip(names, row, strict=True))
+            | {"active_modes": ", ".join(map(str, modes))}
+            for (name, state, used, modes), row in zip(words, values, strict=True)
+        ]
+
+    def __str__(self) -> str:
+        counts = Counter(self.state)
+        said = ", ".join(f"{count} {word}" for word, count in counts.most_common())
+        return f"states of {len(self.names)} interfaces: {said}"
 
 
 def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStates:
@@ -132,7 +159,8 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
 
 def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     """Return the stress state and mechanism of `result`; LimitBlocksError unless it is one of `model`."""
-    collapse = result.collapse if isinstance(result, LoadPath) else result
+    given: Any = result
+    collapse: Collapse = getattr(given, "collapse", given)
     kind = type(result).__name__
     if any(getattr(collapse, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
         raise LimitBlocksError(
@@ -185,13 +213,16 @@ def _states(
     about = np.nan_to_num(e)
     sliding = dq[:, :2] + dq[:, 5:] * np.stack([-about[:, 1], about[:, 0]], axis=1)
     hinging = np.array([any(mode.opens for mode in own) for own in modes])
+    tied = np.array([isinstance(i.joint, Tie | Dowel | Guide) for i in interfaces])
     motions = {
-        "hinge": hinging & (highest - lowest > least) & (lowest >= -least),
-        "crush": lowest < -least,
-        "slide": np.linalg.norm(sliding, axis=1) > least,
-        "twist": np.abs(dq[:, 5]) * reach > least,
+        "hinge": ~tied & hinging & (highest - lowest > least) & (lowest >= -least),
+        "crush": ~tied & (lowest < -least),
+        "slide": ~tied & (np.linalg.norm(sliding, axis=1) > least),
+        "twist": ~tied & (np.abs(dq[:, 5]) * reach > least),
+        "slack": np.array([Mode.SLACK in own for own in modes]),
+        "yield": np.array([Mode.YIELD in own for own in modes]),
     }
-    opened = (lowest > least) & ~loaded
+    opened = ~tied & (lowest > least) & ~loaded
     table = zip(opened.tolist(), *(motion.tolist() for motion in motions.values()), strict=True)
     return tuple(
         "open"

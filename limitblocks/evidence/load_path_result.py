@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.shown import Result, Shown
 
 
-@dataclass(frozen=True, eq=False)
-class PathStep:
+@dataclass(frozen=True, eq=False, repr=False)
+class PathStep(Shown):
     """One state of the load path, in equilibrium and within the yield set.
 
     Attributes
@@ -39,9 +40,13 @@ class PathStep:
     residuals: dict[str, float]
     kind: str
 
+    def __str__(self) -> str:
+        begins = f", {len(self.active)} modes begin to flow" if self.active else ""
+        return f"{self.kind}: load factor {self.load_factor:.6g}{begins}"
 
-@dataclass(frozen=True, eq=False)
-class Snap:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Snap(Shown):
     """A fold of the load path: the displacement would have to fall before it can grow again.
 
     Both states have the same displacement in the mean of the live load (the work of the live load at load
@@ -65,8 +70,8 @@ class Snap:
         return f"snap from load factor {self.before.load_factor:.6g} to {self.after.load_factor:.6g}"
 
 
-@dataclass(frozen=True, eq=False)
-class LoadPath:
+@dataclass(frozen=True, eq=False, repr=False)
+class LoadPath(Result):
     """States from the permanent loads to `collapse`, which is a solution of Eqs (54)-(59).
 
     Attributes
@@ -95,10 +100,17 @@ class LoadPath:
     tracked: float = np.nan
     remarks: tuple[str, ...] = ()
 
+    title: ClassVar[str] = "Load path"
+
     @property
     def load_factor(self) -> float:
         """Load factor at collapse."""
         return self.collapse.load_factor
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the model."""
+        return self.collapse.digest
 
     @property
     def peak(self) -> float:
@@ -110,7 +122,7 @@ class LoadPath:
         moved = np.array([step.displacements[block, component] for step in self.steps])
         return moved, np.array([step.load_factor for step in self.steps])
 
-    def table(self) -> list[dict[str, Any]]:
+    def rows(self) -> list[dict[str, Any]]:
         """One row a step: load factor, residuals and what began to flow."""
         return [
             {"step": k, "kind": step.kind, "load_factor": step.load_factor}
@@ -132,7 +144,7 @@ class LoadPath:
                 "displacements": step.displacements.tolist(),
                 "stress_resultants": step.stress_resultants.tolist(),
             }
-            for row, step in zip(self.table(), self.steps, strict=True)
+            for row, step in zip(self.rows(), self.steps, strict=True)
         ]
         places = {id(step): k for k, step in enumerate(self.steps)}
         return {

@@ -8,6 +8,7 @@ from typing import Any
 
 from limitblocks.evidence.check import Check
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.shown import Viewed
 
 FEW = 0.1  # of the weight of all free blocks: a mechanism that moves less is local
 LIGHTLY = 0.5  # of the thrust under the permanent loads: less is low
@@ -22,14 +23,14 @@ class Origin(Enum):
     SEARCHED = "found by search, which need not be a way that loading goes"
 
 
-@dataclass(frozen=True, eq=False)
-class RangeAnswer:
+@dataclass(frozen=True, eq=False, repr=False)
+class RangeAnswer(Viewed):
     """One certified load factor.
 
     Attributes
     ----------
     solution : Nonassociated
-        The solution of Eqs (54)-(59); :func:`limitblocks.files.write_result` saves it.
+        The solution of Eqs (54)-(59).
     check : Check
         Its residuals, recomputed.
     origin : Origin
@@ -54,6 +55,19 @@ class RangeAnswer:
     def load_factor(self) -> float:
         """Load factor."""
         return self.solution.load_factor
+
+    @property
+    def collapse(self) -> Nonassociated:
+        """The state at collapse."""
+        return self.solution
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the model."""
+        return self.solution.digest
+
+    def __str__(self) -> str:
+        return f"load factor {self.load_factor:.6g}, {self.origin.value}; moves {self.mechanism}"
 
     @property
     def local(self) -> bool:

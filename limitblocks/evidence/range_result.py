@@ -7,6 +7,7 @@ from typing import Any
 
 from limitblocks.evidence.range_answer import SHOWN, Origin, RangeAnswer
 from limitblocks.problem import Turning
+from limitblocks.shown import Result
 
 
 @dataclass(frozen=True)
@@ -84,8 +85,8 @@ class Extreme:
         return f"{self.load_factor:.6g} ({word})"
 
 
-@dataclass(frozen=True, eq=False)
-class LoadFactorRange:
+@dataclass(frozen=True, eq=False, repr=False)
+class LoadFactorRange(Result):
     """Certified load factors of one structure, and how far they reach.
 
     Three things: the answer of the load path; what load paths reach from admissible states of the permanent
@@ -152,6 +153,11 @@ class LoadFactorRange:
         if not values:
             return float("nan"), float("nan")
         return min(values), float("inf") if self.unlimited else max(values)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each answer."""
+        keys = ("load_factor", "origin", "share", "thrust", "local", "moving")
+        return [{key: one[key] for key in keys} for one in (a.to_dict() for a in self.answers)]
 
     def __contains__(self, load_factor: float) -> bool:
         """Whether a load factor lies within the certified intervals."""

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -51,6 +52,13 @@ class Residuals:
     def above(self, tolerance: float) -> tuple[Residual, ...]:
         """Residuals larger than `tolerance`."""
         return tuple(entry for entry in self.entries if entry.value > tolerance)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each residual: what it is, how large, where."""
+        return [
+            {"residual": entry.name, "value": entry.value, "at": entry.where, "meaning": entry.meaning}
+            for entry in self.entries
+        ]
 
     def to_dict(self) -> dict[str, float]:
         """Name and value of each residual."""

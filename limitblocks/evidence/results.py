@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from limitblocks.evidence.claim import as_lists
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
+from limitblocks.shown import Result
 
 
 @dataclass(frozen=True)
@@ -43,8 +44,8 @@ class Iteration:
     failures: int
 
 
-@dataclass(frozen=True, eq=False)
-class Nonassociated:
+@dataclass(frozen=True, eq=False, repr=False)
+class Nonassociated(Result):
     """Load factor for the paper's flow rule (zero dilatancy unless said), with the state that proves it.
 
     A non-associated load factor is not unique; this is one solution of Eqs (54)-(59), reached from the
@@ -117,6 +118,13 @@ class Nonassociated:
     digest: str
     unclaimed: str = ""
     fixed_point_change: float | None = None
+
+    title: ClassVar[str] = "Non-associated"
+
+    @property
+    def collapse(self) -> Nonassociated:
+        """The state at collapse, which is this one."""
+        return self
 
     @property
     def converged(self) -> bool:

@@ -39,6 +39,8 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
         What makes an interface a good way: its distance to yield.
     """
     n = len(problem.blocks)
+    stresses = np.bincount(problem.stress_interface, minlength=len(room))
+    room = np.where(stresses < min(6, int(stresses.max())), 0.0, room)  # ties cannot carry any force
     most = float(room.max(initial=0.0))
     share = np.where(np.isfinite(room) & (most > 0.0), room / (most if most > 0.0 else 1.0), LEAST)
     length = 1.0 / np.clip(share, LEAST, 1.0)

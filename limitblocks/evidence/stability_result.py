@@ -18,6 +18,7 @@ from limitblocks.evidence.residuals import (
     static_residuals,
 )
 from limitblocks.problem import Flow, State
+from limitblocks.shown import Result
 
 SHOWN = 8  # names in a line
 TOLERANCE = 1e-6  # largest residual of stresses that arise, and of a mechanism
@@ -31,8 +32,8 @@ class Standing(Enum):
     FALLS = "falls: no stresses within the yield surface carry the dead loads"
 
 
-@dataclass(frozen=True, eq=False)
-class Stability:
+@dataclass(frozen=True, eq=False, repr=False)
+class Stability(Result):
     """Whether a structure stands under its dead loads, with the states that prove it.
 
     Attributes
@@ -78,6 +79,10 @@ class Stability:
     def stands(self) -> bool:
         """Whether it stands without being wedged."""
         return self.kind is Standing.STANDS
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each residual."""
+        return self.residuals.rows()
 
     def __str__(self) -> str:
         more = f" and {len(self.blocks) - SHOWN} more" if len(self.blocks) > SHOWN else ""

@@ -32,6 +32,8 @@ def utilisation(model: Model, stresses: Array) -> Array:
     V1, V2, N = (problem.resultants[k::6].tocsr() for k in range(3))
     normal = np.zeros(len(x))
     normal[N.indices] = 1.0
+    alone = np.bincount(problem.stress_interface, minlength=len(problem.interfaces)) == 1
+    normal[alone[problem.stress_interface]] = 0.0  # a tie uses its strength by N itself
     held, rest = problem.F @ (x * normal) + problem.g, problem.F @ (x * (1.0 - normal))
     used = np.zeros(len(problem.interfaces))
     np.maximum.at(used, problem.member_interface, problem.cones.share(held, rest, NOISE))

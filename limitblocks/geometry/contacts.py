@@ -9,6 +9,7 @@ from typing import Any
 from limitblocks.errors import GeometryError
 from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
 from limitblocks.geometry.interface import Interface
+from limitblocks.shown import Shown
 
 _SHOWN = 8
 _DEFAULT = Tolerances()
@@ -116,8 +117,8 @@ class Through:
         return f"{self.block_i}|{self.block_j} (through {self.between}, gap {self.gap:.3g} m)"
 
 
-@dataclass(frozen=True)
-class Contacts:
+@dataclass(frozen=True, repr=False)
+class Contacts(Shown):
     """Interfaces between blocks, and what contact detection saw beside them.
 
     Attributes

@@ -36,4 +36,5 @@ class Interface:
     @property
     def name(self) -> str:
         """Text that names the interface in messages and reports."""
-        return f"{self.block_i}|{self.block_j}"
+        word = getattr(self.joint, "word", "")  # of a tie or dowel
+        return f"{word} {self.block_i}|{self.block_j}".lstrip()

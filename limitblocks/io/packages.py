@@ -20,7 +20,7 @@ def package(name: str, files: str) -> ModuleType:
     try:
         return import_module(name)
     except ImportError:
-        raise missing(name, f"{files} files") from None
+        raise missing(name, files if files.endswith("()") else f"{files} files") from None
 
 
 def missing(name: str, user: str) -> MissingDependency:

@@ -69,7 +69,7 @@ def read(
         Axis of the file that points up, "y" or "z"; left out, what the format says (glTF: Y), else Z, or with
         a warning Y where the structure would lie on its side.
     twisted, skip_bad
-        As for :func:`limitblocks.read_blocks`.
+        As for :func:`limitblocks.files.read_blocks`.
     dead, live : Load, optional
         Loads; `dead` is self weight if left out.
     gap, angle, width : float, optional

@@ -6,6 +6,7 @@ For a joint of your own: `YieldRows` is what it returns, `Queries` asks one join
 
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import Joint, YieldRows
+from limitblocks.joints.elements import Dowel, Guide, Tie
 from limitblocks.joints.exact_torsion import ExactTorsion
 from limitblocks.joints.interaction import effective_strength
 from limitblocks.joints.materials import Material, Materials, weaker
@@ -15,13 +16,16 @@ from limitblocks.joints.queries import Queries, interface
 from limitblocks.joints.torsion import torsion_constants
 
 __all__ = [
+    "Dowel",
     "ExactTorsion",
+    "Guide",
     "Joint",
     "Material",
     "Materials",
     "OrdunaLourenco",
     "PointContact",
     "Queries",
+    "Tie",
     "YieldRows",
     "areas",
     "effective_strength",

@@ -221,7 +221,7 @@ def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
         if np.isnan(one.get("frictionless", 0.0)):  # a lower end of all results drawn, or of none
             values.pop("frictionless", None)
         values = one | values
-        digests.add(getattr(result, "collapse", result).digest)  # type: ignore[union-attr] # checked above
+        digests.add(getattr(result, "collapse", result).digest)
     if len(digests) > 1:
         raise LimitBlocksError("the results belong to different models; compare results of one")
     order = [name for name in COLOURS if name in values]

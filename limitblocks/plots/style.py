@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.projections.polar import PolarAxes
 from matplotlib.transforms import ScaledTranslation
+from mpl_toolkits.mplot3d import Axes3D
 
 from limitblocks.errors import LimitBlocksError
 
@@ -16,11 +19,38 @@ CYCLE = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
 STONE, MOVING, SUPPORT, EDGE, PALE = "#ece6da", "#c3daee", "#a8a39b", "#4d4943", "#b9b4ab"
 
 
+class _InNotebooks:
+    """Axes that notebooks show as the picture of their figure, which pyplot does not know of."""
+
+    figure: Any
+
+    def _repr_png_(self) -> bytes:
+        stream = BytesIO()
+        self.figure.savefig(stream, format="png", dpi=100, bbox_inches="tight")
+        return stream.getvalue()
+
+
+class FlatAxes(_InNotebooks, Axes):
+    """Plane axes."""
+
+
+class RoundAxes(_InNotebooks, PolarAxes):
+    """Polar axes."""
+
+
+class SpatialAxes(_InNotebooks, Axes3D):  # type: ignore[misc] # without types
+    """Axes in space."""
+
+
+_KINDS: dict[str | None, type[Axes]] = {None: FlatAxes, "polar": RoundAxes, "3d": SpatialAxes}
+
+
 def new_axes(projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:
     """Return Axes in a new figure that pyplot knows nothing of."""
+    kind = _KINDS[projection]
     if projection == "3d":
-        return Figure(figsize=size).add_subplot(projection="3d", proj_type="ortho", computed_zorder=False)
-    return Figure(figsize=size, layout="constrained").add_subplot(projection=projection)
+        return Figure(figsize=size).add_subplot(axes_class=kind, proj_type="ortho", computed_zorder=False)
+    return Figure(figsize=size, layout="constrained").add_subplot(axes_class=kind)
 
 
 def curve_axes(ax: Any, projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:

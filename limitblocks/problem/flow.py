@@ -20,7 +20,8 @@ ASSOCIATED = np.inf  # a dilatancy: at least the friction of every interface
 
 def checked_dilatancy(problem: LimitProblem, dilatancy: float) -> float:
     """Return `dilatancy` if it is 0 to the least friction coefficient, else raise ModelError."""
-    least = float(problem.friction.min())
+    frictional = problem.friction[problem.friction > 0.0]  # ties and dowels have none
+    least = float(frictional.min(initial=np.inf)) if len(frictional) else 0.0
     if not 0.0 <= dilatancy <= least:
         raise ModelError(
             f"dilatancy is {dilatancy!r}, expected 0 to the least friction coefficient, {least:g}"

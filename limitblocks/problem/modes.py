@@ -1,4 +1,7 @@
-"""Failure modes of yield rows, in the paper's words, and what each lets an interface do."""
+"""Failure modes of yield rows, in the paper's words, and what each lets an interface do.
+
+Slack and yield are those of ties and dowels.
+"""
 
 from __future__ import annotations
 
@@ -23,6 +26,8 @@ class Mode(StrEnum):
     HINGE = "hinge"
     CRUSH = "crush"
     OPEN = "open"
+    SLACK = "slack"
+    YIELD = "yield"
 
     @property
     def opens(self) -> bool:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
-from typing import Any
+from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.check import Check, check_mcp
@@ -18,6 +18,12 @@ class CheckedClaim:
 
     claim: Claim
     check: Check
+    title: ClassVar[str] = Claim.title
+
+    @property
+    def collapse(self) -> Claim:
+        """The state claimed, of the model it was checked with."""
+        return replace(self.claim, digest=self.digest)
 
     @property
     def load_factor(self) -> float:

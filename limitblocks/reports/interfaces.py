@@ -7,13 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
-from limitblocks.evidence.load_path_result import LoadPath
-from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
-from limitblocks.reports.scene import short, without_noise
+from limitblocks.reports.scene import in_scene, short, without_noise
 from limitblocks.reports.words import joint_words
 
 #: Interfaces listed, those first that move most.
@@ -40,12 +37,11 @@ HEADS = (
 
 def active_interfaces(model: Model, result: Any, title: str) -> Active | None:
     """Return the interfaces that do not stick at collapse; None for a result without a mechanism."""
-    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+    if not in_scene(result):
         return None
     states = interface_states(model, result)
     active = np.array([word != "stick" for word in states.state], dtype=bool)
-    end = result.collapse if isinstance(result, LoadPath) else result
-    moves = relative_motion(model, end.displacement_rates)
+    moves = relative_motion(model, result.collapse.displacement_rates)
     moves = moves / max(float(moves.max(initial=0.0)), 1e-300)
     # then those that use most of their strength, then the most compressed
     order = np.lexsort((states.stress_resultants[:, 2], -states.utilisation.round(3), -moves.round(3)))
@@ -76,7 +72,7 @@ def relative_motion(model: Model, rates: Array) -> Array:
 
 def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
     """Return a dictionary an interface, SI units, for JSON; empty for a result without a mechanism."""
-    if not isinstance(result, Bounds | Nonassociated | LoadPath):
+    if not in_scene(result):
         return []
     states = interface_states(model, result)
     words = {joint: joint_words(joint) for joint in dict.fromkeys(i.joint for i in model.interfaces)}

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 from limitblocks.reports import assets
 from limitblocks.reports.document import Document
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 LAYERS = (
     ("blocks", "Blocks"),
@@ -39,31 +43,41 @@ def viewer_page(scene: dict[str, Any], version: str, chosen: int = 0) -> str:
     return _rendered("viewer_page.html", scene["title"], styles, scene, chosen, **known)
 
 
-def _rendered(
-    template: str, title: str, styles: list[str], scene: dict[str, Any], chosen: int, **known: Any
-) -> str:
+@cache
+def environment() -> Environment:
+    """Return what finds and fills the templates."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
-    from markupsafe import Markup
 
-    environment = Environment(
+    return Environment(
         loader=FileSystemLoader(assets.FOLDER),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+
+
+def _rendered(
+    template: str, title: str, styles: list[str], scene: dict[str, Any], chosen: int, **known: Any
+) -> str:
+    from markupsafe import Markup
+
     moving = [one["title"] for one in scene["results"]]
-    return environment.get_template(template).render(
-        title=title,
-        styles=[Markup(style) for style in styles],
-        scripts=[Markup(script) for script in assets.scripts()],
-        policy=assets.policy(styles),
-        scene=Markup(assets.json_in_html(scene)),
-        moving=moving,
-        layers=[layer for layer in LAYERS if moving or layer[0] in _PLAIN_LAYERS],
-        chosen=chosen,
-        summary=_summary(scene, moving),
-        **known,
+    return (
+        environment()
+        .get_template(template)
+        .render(
+            title=title,
+            styles=[Markup(style) for style in styles],
+            scripts=[Markup(script) for script in assets.scripts()],
+            policy=assets.policy(styles),
+            scene=Markup(assets.json_in_html(scene)),
+            moving=moving,
+            layers=[layer for layer in LAYERS if moving or layer[0] in _PLAIN_LAYERS],
+            chosen=chosen,
+            summary=_summary(scene, moving),
+            **known,
+        )
     )
 
 

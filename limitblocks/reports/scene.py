@@ -13,10 +13,9 @@ from limitblocks.arrays import Array
 from limitblocks.drawing.chains import chains
 from limitblocks.drawing.motion import magnification
 from limitblocks.drawing.view import towards
-from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
-from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.words import joint_words
 
@@ -52,7 +51,8 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
 
 def in_scene(result: Any) -> bool:
     """Whether the viewer shows a result."""
-    return isinstance(result, Bounds | Nonassociated | LoadPath)
+    collapse = getattr(result, "collapse", None)
+    return collapse is not None and all(getattr(collapse, name, None) is not None for name in ARRAYS)
 
 
 def short(values: Any, noise: float = 0.0, digits: int = DIGITS) -> list[float | None]:
@@ -134,20 +134,13 @@ def _interfaces(model: Model) -> dict[str, Any]:
 def _result(model: Model, result: Any, states: InterfaceStates, words: _Words) -> dict[str, Any]:
     if isinstance(result, LoadPath):
         return _path(model, result, states, words)
-    named = (
-        ("Associated bounds", result.lower)
-        if isinstance(result, Bounds)
-        else (
-            "Non-associated",
-            result.load_factor,
-        )
-    )
+    rates = result.collapse.displacement_rates
     return {
-        "title": named[0],
+        "title": result.title,
         "moves": "Displacement rates, for live work 1 N m",
-        "magnification": magnification(model.blocks, result.displacement_rates),
-        "eye": short(towards(model, result.displacement_rates)),
-        "steps": [_collapse(f"load factor {named[1]:.6g}", result.displacement_rates, states, words)],
+        "magnification": magnification(model.blocks, rates),
+        "eye": short(towards(model, rates)),
+        "steps": [_collapse(f"load factor {result.load_factor:.6g}", rates, states, words)],
     }
 
 
@@ -164,7 +157,7 @@ def _path(model: Model, path: LoadPath, states: InterfaceStates, words: _Words) 
         else:
             steps.append(_before(model, label, step, words))
     return {
-        "title": "Load path",
+        "title": path.title,
         "moves": "Displacement since the permanent loads",
         "magnification": magnification(model.blocks, path.steps[-1].displacements),
         "eye": short(towards(model, path.collapse.displacement_rates)),

@@ -10,6 +10,7 @@ from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence import check as mcp
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
@@ -44,6 +45,11 @@ def section(model: Model, result: Any) -> Section:
         kind = type(result).__name__
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
     return make(model, result)
+
+
+def shown(result: Any) -> bool:
+    """Whether reports know this kind of result; a claim they check first."""
+    return isinstance(result, (*_SECTIONS, Claim))
 
 
 def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str, str]]:

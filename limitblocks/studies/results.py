@@ -12,12 +12,13 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
+from limitblocks.shown import Saved
 from limitblocks.studies.pool import Result
 from limitblocks.written import write
 
 
-@dataclass(frozen=True, eq=False)
-class Study:
+@dataclass(frozen=True, eq=False, repr=False)
+class Study(Saved):
     """Load factors of many analyses, in the order asked for.
 
     Attributes
@@ -57,7 +58,7 @@ class Study:
         return [self._key(k) | _answer(*answer, self.analysis) for k, answer in enumerate(answers)]
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the study as plain numbers, lists and text; `files.write_result` writes it."""
+        """Return the study as plain numbers, lists and text."""
         return {"analysis": "study", "study": type(self).__name__, "of": self.analysis, "rows": self.rows()}
 
     def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
@@ -87,7 +88,7 @@ class Study:
         return {"row": k}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Directions(Study):
     """Load factor against the direction of the live load.
 
@@ -111,7 +112,7 @@ class Directions(Study):
         return {"angle": float(self.angles[k]), "x": x, "y": y, "z": z}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class MovingLoad(Study):
     """Load factor against the place of a load.
 
@@ -134,7 +135,7 @@ class MovingLoad(Study):
         return {"x": x, "y": y}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sweep(Study):
     """Load factor against a parameter.
 

@@ -14,6 +14,7 @@ from limitblocks.analysis.stability import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
+from limitblocks.shown import Saved
 from limitblocks.studies.results import in_columns, write_rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
@@ -22,8 +23,8 @@ _MOST = 100  # evaluations
 Trial = Callable[[float], None]
 
 
-@dataclass(frozen=True)
-class Threshold:
+@dataclass(frozen=True, repr=False)
+class Threshold(Saved):
     """Bracket of the value of a parameter at which the loads just stand.
 
     Attributes
@@ -77,7 +78,7 @@ class Threshold:
         return in_columns(self.rows())
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the result as plain numbers, lists and text; `files.write_result` writes it."""
+        """Return the result as plain numbers, lists and text."""
         return {
             "analysis": "study",
             "study": type(self).__name__,

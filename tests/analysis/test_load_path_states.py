@@ -87,7 +87,7 @@ def test_the_live_load_goes_on_working(walked):
 
 def test_table(walked):
     model, path = walked
-    table = path.table()
+    table = path.rows()
     assert [row["step"] for row in table] == list(range(len(path.steps)))
     assert list(table[0]) == ["step", "kind", "load_factor", "equilibrium", "yield", "newly_active"]
     names = {f"{i.block_i}|{i.block_j}" for i in model.interfaces}

@@ -433,3 +433,22 @@ def test_report_is_labelled(file, tmp_path):
     done = run("report", file, "--demand", "-1")
     assert done.exit_code == 2
     assert "demand" in done.stderr
+
+
+def test_report_of_saved_results_analyses_nothing(file, result, tmp_path, monkeypatch):
+    """Neither without options nor beside the one that is asked for."""
+    saved, page = tmp_path / "bounds.json", tmp_path / "page.md"
+    assert run("bounds", file, "-o", saved).exit_code == 0
+    asked = []
+    for name in ("bounds", "nonassociated", "path"):
+        monkeypatch.setattr(
+            f"limitblocks.cli.analyses.{name}", lambda *_, name=name, **__: asked.append(name)
+        )
+    done = run("report", file, saved, result, "-o", page)
+    assert (done.exit_code, asked) == (0, []), done.stderr
+    assert page.read_text(encoding="utf-8").count("checked") >= 2
+    other = tmp_path / "other.json"
+    other.write_text(json.dumps(PORTAL | {"joints": {"dry": {"type": "PointContact", "friction": 0.3}}}))
+    refused = run("report", other, saved, "-o", page, "--force")
+    assert (refused.exit_code, asked) == (2, [])
+    assert "belongs to model" in refused.stderr

@@ -148,6 +148,8 @@ def _stresses_and_rows(
         first = np.flatnonzero(kind.image >= np.arange(len(kind.image)))
         basis = symmetric(kind.turn[first])
         for d in np.unique(basis.any(axis=1).sum(axis=1)).tolist():
+            if d == 0:  # a tie across the plane carries nothing in it
+                continue
             its = np.flatnonzero(basis.any(axis=1).sum(axis=1) == d)
             own, X = first[its], basis[its][:, :, :d]
             new = width + np.arange(len(own) * d).reshape(-1, 1, d)

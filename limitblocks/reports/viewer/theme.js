@@ -9,14 +9,15 @@ function theme() {
 }
 
 function startTheme() {
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    themeListeners.forEach((listener) => listener());
+  });
   const button = document.getElementById("theme");
+  if (!button) return; // the viewer alone
   const say = () => button.setAttribute("aria-pressed", String(theme() === "dark"));
   button.hidden = false;
   button.addEventListener("click", () => {
     document.documentElement.dataset.theme = theme() === "dark" ? "light" : "dark";
-    themeListeners.forEach((listener) => listener());
-  });
-  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     themeListeners.forEach((listener) => listener());
   });
   themeListeners.push(say);

@@ -1,0 +1,168 @@
+"""Ties, dowels and guides between two blocks: interfaces that flow as they yield, without friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.geometry.polygon import areas
+from limitblocks.joints.base import YieldRows, checked_stress
+from limitblocks.problem import Mode
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A tie along the normal of its interface: tension from 0 to strength x area, no compression.
+
+    Rigid-plastic: it elongates at its strength, and goes slack where its ends approach; the flow is
+    associated. It acts along one line: where on the line its interface lies makes no difference.
+
+    Parameters
+    ----------
+    strength : float
+        Tension per area of the interface at which it yields, is pulled out or debonds, Pa, > 0; less its
+        prestress, which is a dead load (:func:`limitblocks.practice.reinforced`).
+    length : float
+        Distance between its anchors, m; for pictures only.
+
+    Raises
+    ------
+    ModelError
+        If the strength is not finite and positive, or the length negative.
+    """
+
+    strength: float
+    length: float = 0.0
+    word = "tie"
+
+    def __post_init__(self) -> None:
+        checked_stress("strength of a tie", self.strength, positive=True)
+        if not (np.isfinite(self.length) and self.length >= 0.0):
+            raise ModelError(f"length of a tie is {self.length!r} m, expected a finite length >= 0")
+
+    @property
+    def friction(self) -> float:
+        """None: the flow is associated."""
+        return 0.0
+
+    def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
+        """Return 0 <= N <= strength x area; see :class:`~limitblocks.joints.base.Joint`."""
+        m = len(polygons)
+        rows = np.broadcast_to(np.array([[1.0], [-1.0]]), (m, 2, 1))
+        most = areas(polygons) * self.strength / stress_unit
+        resultants = np.zeros((m, 6, 1))
+        resultants[:, 2] = 1.0
+        return YieldRows(
+            F=rows,
+            g=np.stack([np.zeros(m), most], axis=1),
+            G=rows,
+            pivot=np.zeros((m, 2)),
+            half_sides=np.abs(polygons).max(axis=1),
+            resultants=resultants,
+            linear=2,
+            cones=(),
+            modes=(Mode.SLACK, Mode.YIELD),
+            friction=0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Dowel:
+    """A dowel or stitch across an interface: shear ||(V1, V2)|| <= strength x area, associated flow.
+
+    Parameters
+    ----------
+    strength : float
+        Shear per area of its interface at which it yields or tears out, Pa, > 0.
+
+    Raises
+    ------
+    ModelError
+        If the strength is not finite and positive.
+    """
+
+    strength: float
+    word = "dowel"
+
+    def __post_init__(self) -> None:
+        checked_stress("strength of a dowel", self.strength, positive=True)
+
+    @property
+    def friction(self) -> float:
+        """None: the flow is associated."""
+        return 0.0
+
+    def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
+        """Return the cone of V1, V2; see :class:`~limitblocks.joints.base.Joint`."""
+        m = len(polygons)
+        rows = np.broadcast_to(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), (m, 3, 2))
+        g = np.zeros((m, 3))
+        g[:, 0] = areas(polygons) * self.strength / stress_unit
+        resultants = np.zeros((m, 6, 2))
+        resultants[:, 0, 0] = resultants[:, 1, 1] = 1.0
+        return YieldRows(
+            F=rows,
+            g=g,
+            G=rows,
+            pivot=np.zeros((m, 3)),
+            half_sides=np.abs(polygons).max(axis=1),
+            resultants=resultants,
+            linear=0,
+            cones=(3,),
+            modes=(Mode.YIELD,) * 3,
+            friction=0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A bilateral guide that lets block j move along s1 of its interface and nothing else.
+
+    It carries V2, N, M1, M2 and T of either sign, no V1: each force up to strength x area, each moment up
+    to that times the root of the area. Where a solution uses its strength nowhere, it is one of a rigid
+    guide: the rows are slack.
+
+    Parameters
+    ----------
+    strength : float
+        Force per area, Pa, > 0; far above what acts.
+
+    Raises
+    ------
+    ModelError
+        If the strength is not finite and positive.
+    """
+
+    strength: float
+    word = "guide"
+
+    def __post_init__(self) -> None:
+        checked_stress("strength of a guide", self.strength, positive=True)
+
+    @property
+    def friction(self) -> float:
+        """None: the flow is associated."""
+        return 0.0
+
+    def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
+        """Return two rows for each resultant but V1; see :class:`~limitblocks.joints.base.Joint`."""
+        m, area = len(polygons), areas(polygons)
+        rows = np.broadcast_to(np.concatenate([np.eye(5), -np.eye(5)]), (m, 10, 5))
+        most = (area * self.strength / stress_unit)[:, None] * np.ones(5)
+        most[:, 2:] *= np.sqrt(area)[:, None]
+        resultants = np.broadcast_to(np.eye(6)[:, 1:], (m, 6, 5))
+        return YieldRows(
+            F=rows,
+            g=np.concatenate([most, most], axis=1),
+            G=rows,
+            pivot=np.zeros((m, 10)),
+            half_sides=np.abs(polygons).max(axis=1),
+            resultants=resultants,
+            linear=10,
+            cones=(),
+            modes=(Mode.YIELD,) * 10,
+            friction=0.0,
+        )

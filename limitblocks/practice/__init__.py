@@ -1,0 +1,59 @@
+"""What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
+
+from limitblocks.practice.capacity import capacity_curve
+from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
+from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
+from limitblocks.practice.repair import Repair, least_masses, least_ties
+from limitblocks.practice.rocking import Rocking, element_acceleration, element_force
+from limitblocks.practice.settlement import Settlement, Settling, settlement, settling
+from limitblocks.practice.spectra import Floor, FloorMode, Spectrum
+from limitblocks.practice.vehicles import (
+    Deck,
+    Vehicle,
+    WorstPosition,
+    passive_fill,
+    vehicle_load,
+    worst_position,
+)
+from limitblocks.practice.verification import Inequality, Quantity, Verification, verification
+from limitblocks.practice.water import uplift
+
+__all__ = [
+    "CapacityCurve",
+    "CapacityPoint",
+    "Control",
+    "Deck",
+    "Element",
+    "Floor",
+    "FloorMode",
+    "Inequality",
+    "Quantity",
+    "Repair",
+    "Rocking",
+    "Settlement",
+    "Settling",
+    "Spectrum",
+    "Vehicle",
+    "Verification",
+    "WorstPosition",
+    "capacity_curve",
+    "dowel",
+    "element_acceleration",
+    "element_force",
+    "least_masses",
+    "least_ties",
+    "passive_fill",
+    "reinforced",
+    "settlement",
+    "settling",
+    "strip",
+    "tie",
+    "uplift",
+    "vehicle_load",
+    "verification",
+    "worst_position",
+]
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -1,0 +1,271 @@
+"""The capacity curve: load factor against displacement of the mechanism without dilatancy, to zero."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.joints.base import checked_count
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
+from limitblocks.mechanics.loads.load import vector
+from limitblocks.model import Model
+from limitblocks.practice import displaced as moving
+from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
+from limitblocks.practice.displaced import CLOSED, Assembly, Truths
+
+FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
+STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
+SHORTEST = 2.0**-20  # of a step: where a contact closes
+NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
+FIRST = 1e-3  # of the size of the structure: the first step
+GROWTH = 10.0  # of a step over the one before
+TRIALS = 4  # of halving a step beyond which no answer is found
+ZERO = 1e-8  # of the first load factor: it counts as none
+HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
+
+
+def capacity_curve(
+    model: Model,
+    *,
+    control: tuple[str, Sequence[float]] | None = None,
+    steps: int = 20,
+    largest: float = np.inf,
+    progress: Callable[[CapacityPoint], None] | None = None,
+) -> CapacityCurve:
+    """Return the load factor against the displacement of the mechanism, until it is zero.
+
+    At each point the non-associated answer of the displaced structure is computed and checked; its mechanism
+    moves the blocks by finite screws, and the contacts that it does not open are brought together again.
+    An interface that has opened turns about the corners that are closed, its normal half way between both
+    faces; faces that slide flat on one another get the area that they then share.
+
+    Parameters
+    ----------
+    model : Model
+        Loads may be mass-proportional, added masses, forces and moments on blocks: they move with the
+        blocks, and keep their directions.
+    control : (str, sequence of float), optional
+        Block and point (m) whose displacement along the live load is measured. Default: the highest corner
+        of the block that moves fastest along it.
+    steps : int
+        Points to the zero that the slope of the curve foretells.
+    largest : float
+        Displacement at which the curve ends, m.
+    progress : callable, optional
+        Called with each point.
+
+    Raises
+    ------
+    ModelError
+        If a load stays behind when its block moves, the control point does not move along the live load, or a
+        number is out of range.
+    SolveError
+        As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
+    """
+    _refuse(model, steps, largest)
+    first = nonassociated(model)
+    point = _control(model, first, control)
+    points, ended = [], ""
+    for one in _curve(model, first, point, steps, largest):
+        if isinstance(one, str):
+            ended = one
+            break
+        points.append(one)
+        if progress:
+            progress(one)
+    zero = None if ended else points[-1].displacement
+    return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
+
+
+def _refuse(model: Model, steps: int, largest: float) -> None:
+    checked_count("steps", steps, 2)
+    if not largest > 0.0:
+        raise ModelError(f"largest is {largest!r}, expected a displacement > 0 in m")
+    for word, load in (("dead", model.dead), ("live", model.live)):
+        for _, term in load.terms:
+            if not isinstance(term, FOLLOWS):
+                raise ModelError(
+                    f"the {word} load has a {type(term).__name__}, which does not move with the blocks; a "
+                    "capacity curve needs weights, added masses, forces and moments"
+                )
+
+
+def _curve(
+    model: Model, first: Nonassociated, control: Control, steps: int, largest: float
+) -> Iterator[CapacityPoint | str]:
+    """The points of the curve, then why it ends unless at zero."""
+    assembly, scale = moving.assembly_of(model), first.load_factor
+    point = CapacityPoint(0.0, scale, 0.0, model, first, ())
+    before: CapacityPoint | None = None
+    while True:
+        yield point
+        near = before and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
+        if near or abs(point.load_factor) <= ZERO * scale:
+            return
+        if point.displacement >= largest * (1.0 - 1e-12):
+            yield f"the displacement {largest:g} m is reached"
+            return
+        step = _next_step(assembly, control, (before, point), steps)
+        step = min(step, largest - point.displacement)
+        for trial in range(TRIALS):
+            try:
+                found = _advanced(assembly, control, point, step / 2.0**trial, scale)
+                break
+            except SolveError as error:
+                why = f"no checked answer beyond {point.displacement:.6g} m: {error}"
+        else:
+            yield why
+            return
+        if found is None:
+            yield f"a contact closes at {point.displacement:.6g} m and stops the mechanism"
+            return
+        before, (assembly, control, point) = point, found
+
+
+def _next_step(
+    assembly: Assembly, control: Control, last: tuple[CapacityPoint | None, CapacityPoint], steps: int
+) -> float:
+    """A step of the curve, or the secant step to its zero once that is near; m, of the control point."""
+    before, point = last
+    if before is None:
+        return FIRST * assembly.size
+    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
+    last_step = abs(point.displacement - before.displacement)
+    if not slope > 0.0:  # it may rise at first
+        return GROWTH * last_step
+    ahead = point.load_factor / slope
+    if point.load_factor < 0.0:  # beyond the zero: back by the secant
+        return ahead
+    whole = min((point.displacement + ahead) / steps, GROWTH * last_step)
+    return ahead if ahead <= 1.5 * whole or ahead <= last_step else whole
+
+
+def _advanced(
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+) -> tuple[Assembly, Control, CapacityPoint] | None:
+    """The structure one step on and its point; None where contacts allow no step."""
+    rates = point.result.displacement_rates
+    pace = float(_velocity(assembly, control, rates) @ control.direction)
+    held, sliding = _motion(assembly, rates)
+    was = [own.ways[:, 2] for own in assembly.contacts]
+    share, least = 1.0, -10.0 * CLOSED * assembly.size
+    while share >= SHORTEST:
+        goal, left = moving.closed_up(moving.moved(assembly, share * step / pace * rates), held, sliding)
+        now = [own.ways[:, 2] for own in goal.contacts]
+        lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
+        if left <= CLOSED * assembly.size and lowest >= least:
+            break
+        share /= 2.0
+    else:
+        return None
+    changes = _changes(assembly, was, now, -least)
+    carried = _carried(assembly, goal, control)
+    goal = moving.slid(goal, sliding)
+    shift, loaded, result = _answered(goal.model, scale)
+    at = point.displacement + float((carried.point - control.point) @ control.direction)
+    found = CapacityPoint(
+        at, result.load_factor - shift, shift, loaded, result, changes, _across(goal, result)
+    )
+    return goal, carried, found
+
+
+def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:
+    """The answer; beyond the zero of the curve with a little of the live load taken from the dead loads."""
+    try:
+        return 0.0, model, nonassociated(model)
+    except NoEquilibrium:
+        held = replace(model, dead=model.dead + (-HELD * scale) * model.live)
+        return HELD * scale, held, nonassociated(held)
+
+
+def _across(assembly: Assembly, result: Nonassociated) -> tuple[str, ...]:
+    """Opened joints whose normal force acts off their closed corners."""
+    said, least = [], 1e-6 * np.abs(result.stress_resultants[:, 2]).max()
+    for own, Q in zip(assembly.contacts, result.stress_resultants, strict=True):
+        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
+        closed = gap <= 10.0 * CLOSED * assembly.size
+        if own.tied or closed.all() or not -Q[2] > least:
+            continue
+        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
+        shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
+        if not closed.any() or shut.distance(pressed) > NEAR * size:
+            said.append(f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm")
+    return tuple(said)
+
+
+def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:
+    """Which corners of each contact are closed and stay so, and which contacts slide."""
+    centres = np.stack([block.centroid for block in assembly.model.blocks])
+    sizes = np.array([block.size for block in assembly.model.blocks])
+    least = STILL * float(
+        (np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)).max()
+    )
+    held, sliding = [], []
+    for own in assembly.contacts:
+        speeds = [
+            rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
+            for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
+        ]
+        relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
+        closed = (own.ways[:, 2] <= 10.0 * CLOSED * assembly.size) & (relative[:, 2] <= least)
+        held.append(closed & (not own.tied))
+        sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
+    return held, sliding
+
+
+def _carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
+    """The control point on its moved block: the same combination of its vertices."""
+    k = [block.name for block in assembly.model.blocks].index(control.block)
+    old, new = assembly.model.blocks[k], goal.model.blocks[k]
+    about = old.vertices - old.centroid
+    turn = np.linalg.lstsq(about, new.vertices - new.centroid, rcond=None)[0]
+    return replace(control, point=read_only(new.centroid + (control.point - old.centroid) @ turn))
+
+
+def _velocity(assembly: Assembly, control: Control, rates: Array) -> Array:
+    """Velocity of the control point, shape (3,)."""
+    k = [block.name for block in assembly.model.blocks].index(control.block)
+    arm = control.point - assembly.model.blocks[k].centroid
+    return np.asarray(rates[k, :3] + np.cross(rates[k, 3:], arm))
+
+
+def _changes(assembly: Assembly, was: list[Array], now: list[Array], least: float) -> tuple[str, ...]:
+    """Sentences on the contacts that opened or closed."""
+    said = []
+    for own, before, after in zip(assembly.contacts, was, now, strict=True):
+        if own.tied:
+            continue
+        shut, opened = (before > least) & (after <= least), (before <= least) & (after > least)
+        said += [f"{own.interface.name} closes"] if shut.any() else []
+        said += [f"{own.interface.name} opens"] if opened.any() else []
+    return tuple(said)
+
+
+def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:
+    """The point whose displacement is measured, along the sum of the live load."""
+    push = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
+    if not np.linalg.norm(push) > 0.0:
+        raise ModelError("the live loads add up to no force; a capacity curve needs a direction")
+    direction = read_only(push / np.linalg.norm(push))
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    rates = result.displacement_rates
+    if given is None:
+        block = model.blocks[int((rates[:, :3] @ direction).argmax())]
+        point = block.vertices[block.vertices[:, 2].argmax()]
+    else:
+        name, at = given
+        if name not in place:
+            raise ModelError(f"control block {name!r} is not a block of the model")
+        block, point = model.blocks[place[name]], np.array(vector(at, "control point"))
+    control = Control(block.name, read_only(point), direction)
+    largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
+    if not _velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:
+        raise ModelError(f"the control point of block {block.name!r} does not move along the live load")
+    return control

@@ -1,0 +1,126 @@
+"""A capacity curve: its points, each with a checked answer, and why it ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.model import Model
+
+
+@dataclass(frozen=True, eq=False)
+class Control:
+    """A point of a block and the direction in which its displacement is measured.
+
+    Attributes
+    ----------
+    block : str
+        Name of the block.
+    point : Array, shape (3,)
+        Material point of the block, global axes, m.
+    direction : Array, shape (3,)
+        Unit vector.
+    """
+
+    block: str
+    point: Array
+    direction: Array
+
+
+@dataclass(frozen=True, eq=False)
+class CapacityPoint:
+    """One point of the curve.
+
+    Attributes
+    ----------
+    displacement : float
+        Of the control point along its direction, m.
+    load_factor : float
+        At which the mechanism goes on, equal to that of `result` less `shift`.
+    shift : float
+        Part of the live load taken from the dead loads, so that they stand by themselves.
+    model : Model
+        The displaced structure with the loads that were analysed.
+    result : Nonassociated
+        Its checked answer without dilatancy.
+    changes : tuple of str
+        Contacts that opened or closed on the way from the point before.
+    across : tuple of str
+        Joints that press across a gap: a hinge that has moved elsewhere leaves an opened joint behind, and
+        nothing but a motion that closes it could press there. The load factor is then one of a structure
+        whose gap is filled.
+    """
+
+    displacement: float
+    load_factor: float
+    shift: float
+    model: Model
+    result: Nonassociated
+    changes: tuple[str, ...]
+    across: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class CapacityCurve:
+    """Load factor against displacement, every point with its evidence.
+
+    Attributes
+    ----------
+    points : tuple of CapacityPoint
+        The first is the structure as it is.
+    control : Control
+        What the displacement is of.
+    zero : float or None
+        Displacement at which the load factor is zero, m; None where the curve ends before.
+    ended : str
+        Why the curve ends.
+    """
+
+    points: tuple[CapacityPoint, ...]
+    control: Control
+    zero: float | None
+    ended: str
+
+    @property
+    def proven_to(self) -> float:
+        """Displacement up to which no joint presses across a gap, m."""
+        sound = [point.displacement for point in takewhile(lambda point: not point.across, self.points)]
+        return sound[-1]
+
+    @property
+    def displacements(self) -> Array:
+        """Displacements of the points, m, shape (p,)."""
+        return read_only(np.array([point.displacement for point in self.points]))
+
+    @property
+    def load_factors(self) -> Array:
+        """Load factors of the points, shape (p,)."""
+        return read_only(np.array([point.load_factor for point in self.points]))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the curve as numbers and text."""
+        control = self.control
+        return {
+            "control": {"block": control.block, "point": control.point.tolist(),
+                        "direction": control.direction.tolist()},
+            "displacements": self.displacements.tolist(),
+            "load_factors": self.load_factors.tolist(),
+            "changes": [list(point.changes) for point in self.points],
+            "residuals": [point.result.residuals.worst.value for point in self.points],
+            "across": [list(point.across) for point in self.points],
+            "zero": self.zero,
+            "ended": self.ended,
+        }  # fmt: skip
+
+    def __str__(self) -> str:
+        first = self.points[0].load_factor
+        filled = self.points[len(self.points) - 1].displacement > self.proven_to
+        beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
+        return (
+            f"capacity curve of {len(self.points)} points from load factor {first:.6g}: {self.ended}{beyond}"
+        )

@@ -1,0 +1,219 @@
+"""Ties, strips and dowels between blocks, as interfaces of their own; prestress as a dead load."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
+from limitblocks.geometry import Interface
+from limitblocks.joints import Dowel, Tie
+from limitblocks.joints.base import checked_count
+from limitblocks.mechanics import Load, force
+from limitblocks.mechanics.loads.load import number, vector
+from limitblocks.model import Model
+
+CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Element:
+    """A tie or dowel, ready for :func:`reinforced`.
+
+    Attributes
+    ----------
+    interface : Interface
+        What carries its force; the normal of a tie points from the anchor in block i to that in block j.
+    prestress : float
+        Tension that is there from the beginning and stays, N.
+    """
+
+    interface: Interface
+    prestress: float = 0.0
+
+    def loads(self, free: Container[str]) -> Load:
+        """Return the prestress as forces on its blocks, those that are `free`."""
+        pull, own = self.prestress * self.interface.axes[2], self.interface
+        ends = ((own.block_i, pull), (own.block_j, -pull))
+        on = [force(block, along.tolist(), own.centroid.tolist()) for block, along in ends if block in free]
+        return sum(on, Load()) if self.prestress else Load()
+
+
+def tie(
+    block_i: str,
+    at_i: Sequence[float],
+    block_j: str,
+    at_j: Sequence[float],
+    *,
+    area: float,
+    strength: float,
+    pull_out: float = np.inf,
+    prestress: float = 0.0,
+    number_of: int = 1,
+) -> Element:
+    """Return a tie from the point `at_i` of `block_i` to the point `at_j` of `block_j`.
+
+    It carries tension from 0 to the lesser of `number_of` x area x strength and the anchor's `pull_out`, and
+    no compression. Without extension it carries nothing by itself; a tie that must be tight at first has a
+    prestress.
+
+    Parameters
+    ----------
+    block_i, block_j : str
+        Blocks that hold the anchors; a support stands for the ground. The anchors may lie outside of them.
+    at_i, at_j : sequence of float
+        Anchors, global axes, m.
+    area : float
+        Cross-section of one tie, m2.
+    strength : float
+        Yield strength f_y of the material, Pa.
+    pull_out : float
+        Largest force that the anchors hold, N, all ties together.
+    prestress : float
+        Tension that is there from the beginning, N, all ties together: a dead load on both blocks. It stays
+        where the anchors approach, as in a long tie whose stretch is large beside the motion; what more the
+        tie can take is its capacity less the prestress.
+    number_of : int
+        Ties side by side.
+
+    Raises
+    ------
+    ModelError
+        If both ends are in one block, the anchors coincide, a number is out of range, or the prestress is not
+        below what the tie can carry.
+    """
+    word = f"tie {block_i}|{block_j}"
+    if block_i == block_j:
+        raise ModelError(f"{word}: both ends are in block {block_i!r}; a tie joins two blocks")
+    checked_count(f"{word}: number_of", number_of, 1)
+    start = np.array(vector(at_i, f"{word}: at_i"))
+    end = np.array(vector(at_j, f"{word}: at_j"))
+    length = float(np.linalg.norm(end - start))
+    if not length > 0.0:
+        raise ModelError(f"{word}: both anchors are at {start.tolist()}; a tie needs a length")
+    section = number_of * number(area, f"{word}: area", "m2", above=0.0)
+    capacity = min(section * number(strength, f"{word}: strength", "Pa", above=0.0), pull_out)
+    if not capacity > 0.0:
+        raise ModelError(f"{word}: pull_out is {pull_out!r} N, expected a force > 0")
+    if not 0.0 <= prestress < capacity:
+        raise ModelError(
+            f"{word}: prestress is {prestress!r} N, expected 0 to less than the {capacity:g} N it can carry"
+        )
+    side = np.sqrt(section)
+    return Element(
+        Interface(
+            block_i,
+            block_j,
+            read_only((start + end) / 2.0),
+            read_only(axes_of((end - start) / length)),
+            read_only(side * CORNERS),
+            Tie((capacity - prestress) / section, length),
+        ),
+        float(prestress),
+    )
+
+
+def strip(interface: Interface, at: Sequence[float], *, width: float, capacity: float) -> Element:
+    """Return a bonded strip (fibre-reinforced polymer or mortar) across `interface`, along its normal.
+
+    It carries tension up to `capacity`, the least of its own strength and what its bond holds on either side
+    (debonding), and no compression.
+
+    Parameters
+    ----------
+    interface : Interface
+        The joint that it bridges.
+    at : sequence of float
+        A point of the joint under the strip, as a rule on its edge, global axes, m.
+    width : float
+        Width of the strip, m.
+    capacity : float
+        Force at which it breaks or debonds, N.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range.
+    """
+    word = f"strip across {interface.name}"
+    side = number(width, f"{word}: width", "m", above=0.0)
+    most = number(capacity, f"{word}: capacity", "N", above=0.0)
+    return _across(interface, at, side, Tie(most / side**2), word)
+
+
+def dowel(interface: Interface, at: Sequence[float], *, diameter: float, capacity: float) -> Element:
+    """Return a dowel or stitch across `interface` at the point `at`, which carries shear up to `capacity`.
+
+    Parameters
+    ----------
+    interface : Interface
+        The joint that it crosses.
+    at : sequence of float
+        Where, global axes, m.
+    diameter : float
+        m; for the picture, and the unit of length.
+    capacity : float
+        Shear force at which it yields or tears out, N, the same in all directions.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range.
+    """
+    word = f"dowel across {interface.name}"
+    side = number(diameter, f"{word}: diameter", "m", above=0.0)
+    most = number(capacity, f"{word}: capacity", "N", above=0.0)
+    return _across(interface, at, side, Dowel(most / side**2), word)
+
+
+def reinforced(model: Model, *elements: Element) -> Model:
+    """Return the model with ties, strips and dowels; their prestress is added to the dead loads.
+
+    The result is a model like any other: bounds, the answer without dilatancy, checks and reports work on it.
+
+    Parameters
+    ----------
+    model : Model
+        The structure without them.
+    *elements : Element
+        Of :func:`tie`, :func:`strip`, :func:`dowel`.
+
+    Raises
+    ------
+    ModelError
+        If an element names a block that the model does not have, or joins two supports.
+    """
+    known, supports = {block.name for block in model.blocks}, set(model.supports)
+    problems = []
+    for element in elements:
+        own = element.interface
+        ends = {own.block_i, own.block_j}
+        problems += [f"{own.name}: {name!r} is not a block of the model" for name in sorted(ends - known)]
+        if ends <= supports:
+            problems.append(f"{own.name}: both ends are in supports, which do not move")
+    if problems:
+        raise ModelError(*problems)
+    free = {block.name for block in model.free_blocks}
+    dead = sum((element.loads(free) for element in elements), model.dead)
+    interfaces = (*model.interfaces, *(element.interface for element in elements))
+    return replace(model, interfaces=interfaces, dead=dead)
+
+
+def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie | Dowel, word: str) -> Element:
+    point = read_only(np.array(vector(at, f"{word}: at")))
+    return Element(
+        Interface(
+            interface.block_i, interface.block_j, point, interface.axes, read_only(side * CORNERS), joint
+        )
+    )
+
+
+def axes_of(normal: Array) -> Array:
+    """Right-handed axes s1, s2, n with the given unit normal."""
+    across = np.eye(3)[int(np.abs(normal).argmin())]
+    s1 = np.cross(across, normal)
+    s1 /= np.linalg.norm(s1)
+    return np.stack([s1, np.cross(normal, s1), normal])

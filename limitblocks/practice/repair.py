@@ -1,0 +1,158 @@
+"""The least reinforcement that reaches a required load factor: convex for associated flow, then checked."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.least import least_loads, least_stresses
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError, SolverFailure
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.geometry.polygon import areas
+from limitblocks.joints import Tie
+from limitblocks.mechanics import added_mass
+from limitblocks.mechanics.loads.forces import MassProportional
+from limitblocks.mechanics.loads.load import number, of
+from limitblocks.model import Model
+from limitblocks.practice.elements import Element, reinforced
+
+AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
+NONE = 1e-6  # of the largest: what is less is left out
+
+
+@dataclass(frozen=True, eq=False)
+class Repair:
+    """The least reinforcement for associated flow, and what it brings without dilatancy.
+
+    Attributes
+    ----------
+    amounts : Array, shape (k,)
+        Tie forces or added weights of the k candidates, N; zero where one is not needed.
+    total : float
+        Their sum, N.
+    model : Model
+        The structure with them.
+    bounds : Bounds
+        Of `model`: its static load factor is at least what was required, less 1e-5 of it.
+    result : Nonassociated
+        Of `model`, without dilatancy: may be less.
+    """
+
+    amounts: Array
+    total: float
+    model: Model
+    bounds: Bounds
+    result: Nonassociated
+
+    def __str__(self) -> str:
+        return (
+            f"least reinforcement {self.total:.6g} N: load factor {self.bounds.lower:.6g} associated, "
+            f"{self.result.load_factor:.6g} without dilatancy"
+        )
+
+
+def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) -> Repair:
+    """Return the least sum of tie forces with which the structure reaches a load factor.
+
+    Parameters
+    ----------
+    model : Model
+        The structure without the ties.
+    candidates : sequence of Element
+        Of :func:`~limitblocks.practice.tie`, without prestress; their strengths are the most each may get.
+    load_factor : float
+        Required of the live load, > 0.
+
+    Returns
+    -------
+    Repair
+        The forces for which ties must be made. The program is the static theorem, Eqs (56)-(57), with the
+        load factor given and the sum of the tie forces as the objective; bounds of the tied structure
+        prove it.
+
+    Raises
+    ------
+    ModelError
+        If there is no candidate, one has a prestress, or the ties cannot reach the load factor.
+    """
+    required = number(load_factor, "load factor", "(no unit)", above=0.0)
+    if not candidates or not all(isinstance(one.interface.joint, Tie) for one in candidates):
+        raise ModelError("least_ties needs at least one tie to choose from")
+    if any(one.prestress for one in candidates):
+        raise ModelError("a candidate has a prestress; give the ties without it")
+    tied = reinforced(model, *candidates)
+    problem = tied.problem
+    ties = problem.stress_interface >= len(model.interfaces)
+    weights = np.where(ties, problem.stress_units, 0.0)
+    forces = least_stresses(problem, required * problem.units.live, weights)
+    amounts = np.maximum(forces * weights, 0.0)[ties]
+    own = [_of_force(one, amount) for one, amount in zip(candidates, amounts, strict=True)]
+    kept = [one for one, amount in zip(own, amounts, strict=True) if amount > NONE * amounts.max(initial=0.0)]
+    return _repair(
+        np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0), reinforced(model, *kept), required
+    )
+
+
+def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], load_factor: float) -> Repair:
+    """Return the least sum of added weights with which the structure reaches a load factor.
+
+    Parameters
+    ----------
+    model : Model
+        Its live load is mass-proportional: what is added is pushed, too.
+    places : sequence of (str, sequence of float)
+        Block and point (m, global axes) of each mass that may be added.
+    load_factor : float
+        Required of the live load, > 0.
+
+    Raises
+    ------
+    ModelError
+        If there is no place, the live load is not mass-proportional, or no masses reach the load factor.
+    """
+    required = number(load_factor, "load factor", "(no unit)", above=0.0)
+    pushes = [(factor, term) for factor, term in model.live.terms if isinstance(term, MassProportional)]
+    if len(pushes) != 1 or pushes[0][0] != 1.0:
+        raise ModelError("least_masses needs a live load with one mass-proportional term")
+    if not places:
+        raise ModelError("least_masses needs at least one place")
+    direction = pushes[0][1].direction
+    problem, free = model.problem, model.free_blocks
+    ones = [added_mass(block, at, weight=1.0) for block, at in places]
+    columns = [
+        (one.on(free) + required * replace(one, direction=direction).on(free)).ravel() / problem.units.loads
+        for one in ones
+    ]
+    found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
+    amounts = found * (1.0 + AMPLE)
+    amounts = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
+    heaps = [replace(one, weight=float(a)) for one, a in zip(ones, amounts, strict=True) if a > 0.0]
+    added = replace(
+        model,
+        dead=model.dead + of(*heaps),
+        live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
+    )
+    return _repair(amounts, added, required)
+
+
+def _of_force(element: Element, force: float) -> Element:
+    """The tie with a strength for this force."""
+    own, joint = element.interface, element.interface.joint
+    assert isinstance(joint, Tie)  # checked above
+    strength = max(force, 1e-300) * (1.0 + AMPLE) / float(areas(own.polygon))
+    return Element(replace(own, joint=replace(joint, strength=strength)))
+
+
+def _repair(amounts: Array, model: Model, required: float) -> Repair:
+    pair = bounds(model)
+    if not pair.lower >= required * (1.0 - 10.0 * AMPLE):
+        raise SolverFailure(
+            f"the reinforcement found reaches {pair.lower:.6g} only, required was {required:.6g}"
+        )
+    return Repair(read_only(amounts), float(amounts.sum()), model, pair, nonassociated(model))

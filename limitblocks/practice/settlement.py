@@ -1,0 +1,202 @@
+"""A support that moves along a direction: the least reaction it must give, and the mechanism that follows."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.analysis.stability import dead_load_state
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.geometry import Interface
+from limitblocks.joints import Guide
+from limitblocks.mechanics import force
+from limitblocks.mechanics.loads.load import unit_vector
+from limitblocks.model import Model
+from limitblocks.practice.elements import CORNERS, axes_of
+
+RIGID = 1e3  # strength of the guide over the weight of the structure
+
+
+@dataclass(frozen=True, eq=False)
+class Settling:
+    """A model whose support is a block that can move along one direction, pulled away by the live load.
+
+    Attributes
+    ----------
+    model : Model
+        The structure: dead loads with the reaction `held` on the support, live load `unit` along the
+        direction.
+    support : str
+        Name of the support.
+    direction : Array, shape (3,)
+        Unit vector of its motion.
+    held : float
+        Reaction against the direction that an admissible state of the permanent loads needs, N.
+    unit : float
+        Live load at load factor one, N.
+    """
+
+    model: Model
+    support: str
+    direction: Array
+    held: float
+    unit: float
+
+    def reaction(self, load_factor: float) -> float:
+        """Return the reaction against the direction at a load factor, N."""
+        return self.held - load_factor * self.unit
+
+
+@dataclass(frozen=True, eq=False)
+class Settlement:
+    """Least reaction of a support that settles: the ground gives way until the structure follows it.
+
+    Attributes
+    ----------
+    settling : Settling
+        The model that was analysed.
+    lower, upper : float
+        ``lower <= least reaction <= upper`` for associated flow, N: of a mechanism that follows the support
+        and of a stress state. No stress state within the yield surface has a smaller reaction.
+    nonassociated : float or None
+        Reaction at which the structure follows without dilatancy, from the permanent loads, N; None where it
+        was not asked for.
+    bounds : Bounds
+        Evidence of the first two; a result of ``settling.model``.
+    result : Nonassociated or None
+        Evidence of the third; its mechanism is the crack pattern.
+    """
+
+    settling: Settling
+    lower: float
+    upper: float
+    nonassociated: float | None
+    bounds: Bounds
+    result: Nonassociated | None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the reactions and both results as numbers and text."""
+        return {
+            "support": self.settling.support,
+            "direction": self.settling.direction.tolist(),
+            "lower": self.lower,
+            "upper": self.upper,
+            "nonassociated": self.nonassociated,
+            "bounds": self.bounds.to_dict(),
+            "result": self.result.to_dict() if self.result else None,
+        }
+
+    def __str__(self) -> str:
+        least = f"least reaction of {self.settling.support!r}: {self.lower:.6g} to {self.upper:.6g} N"
+        real = "" if self.nonassociated is None else f", {self.nonassociated:.6g} N without dilatancy"
+        return least + " (associated)" + real
+
+
+def settlement(
+    model: Model, support: str, direction: Sequence[float], *, without_dilatancy: bool = True
+) -> Settlement:
+    """Return the least reaction of a support that moves along `direction`, under the dead loads.
+
+    The ground moves away without turning; the structure needs less and less of its reaction until, at the
+    least one, it follows as a mechanism. Its cracks are the joints that move. With the direction reversed the
+    support is pushed into the structure: the reaction found is minus the greatest one.
+
+    Parameters
+    ----------
+    model : Model
+        Its live load is not used.
+    support : str
+        Name of the support that moves.
+    direction : sequence of float
+        Of its motion, such as (0, 0, -1); any length.
+    without_dilatancy : bool
+        Whether the reaction without dilatancy is found as well.
+
+    Returns
+    -------
+    Settlement
+        Reactions are components against the direction, N; the weight of the support itself is left out.
+
+    Raises
+    ------
+    ModelError
+        If `support` is not a support, or the only one.
+    NoEquilibrium
+        If the dead loads cannot stand.
+    UnlimitedLoad
+        If the reaction can change without limit: blocks jam against the motion.
+    SolverFailure, NotConverged
+        As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
+
+    Notes
+    -----
+    The support is a free block that a guide holds; the load factor of its live load along the direction is
+    greatest where its reaction is least. Static theorem: Eqs (56)-(57) with the reaction as the unknown load.
+    """
+    own = settling(model, support, direction)
+    pair = bounds(own.model)
+    result = nonassociated(own.model) if without_dilatancy else None
+    return Settlement(
+        settling=own,
+        lower=own.reaction(pair.upper),
+        upper=own.reaction(pair.lower),
+        nonassociated=own.reaction(result.load_factor) if result else None,
+        bounds=pair,
+        result=result,
+    )
+
+
+def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:
+    """Return the model in which `support` can move along `direction` only; see :func:`settlement`."""
+    d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
+    others = [name for name in model.supports if name != support]
+    if support not in model.supports:
+        kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
+        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {model.supports}")
+    if not others:
+        raise ModelError(
+            f"settlement: {support!r} is the only support; the whole structure would move with it"
+        )
+    block = next(block for block in model.blocks if block.name == support)
+    weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
+    if not weight > 0.0:
+        raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
+    held = float(_pressed(model, support) @ d)
+    guide = Interface(
+        others[0],
+        support,
+        block.centroid,
+        read_only(axes_of(d)[[2, 0, 1]]),  # s1 along the motion
+        read_only(block.size * CORNERS),
+        Guide(RIGID * weight / block.size**2),
+    )
+    weightless = replace(block, unit_weight=0.0)
+    freed = replace(
+        model,
+        blocks=tuple(weightless if one is block else one for one in model.blocks),
+        supports=tuple(others),
+        interfaces=(*model.interfaces, guide),
+        dead=model.dead + force(support, (-held * d).tolist(), block.centroid.tolist()),
+        live=force(support, (weight * d).tolist(), block.centroid.tolist()),
+    )
+    return Settling(freed, support, read_only(d), held, weight)
+
+
+def _pressed(model: Model, support: str) -> Array:
+    """Force of the structure on a support in an admissible state of the dead loads, global axes, N."""
+    problem = model.problem
+    x = dead_load_state(problem)
+    Q = (problem.resultants @ x * problem.units.resultants).reshape(-1, 6)
+    total = np.zeros(3)
+    for own, stresses in zip(model.interfaces, Q, strict=True):
+        on_j = -stresses[:3] @ own.axes
+        total += on_j if own.block_j == support else -on_j if own.block_i == support else 0.0
+    return total

@@ -1,0 +1,162 @@
+"""Elastic response spectrum of NTC 2018 and floor spectra of Circolare 7/2019, with explicit inputs.
+
+Sources: NTC 2018 (D.M. 17/01/2018), Section 3.2.3.2.1, Eqs [3.2.2]-[3.2.8]; Circolare 7/2019, Section
+C7.2.3. The text of the Circolare was not seen while this was written: compare before relying on it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from limitblocks.errors import ModelError
+from limitblocks.mechanics.loads.load import number
+
+G = 9.81  # m/s2, as the code's examples take it
+
+
+def damping_factor(damping: float) -> float:
+    """Return eta = sqrt(10 / (5 + damping in %)), at least .55, Eq. [3.2.4]; `damping` as a ratio."""
+    return max(float(np.sqrt(10.0 / (5.0 + 100.0 * damping))), 0.55)
+
+
+@dataclass(frozen=True)
+class Spectrum:
+    """Elastic horizontal spectrum of one limit state, NTC 2018 Section 3.2.3.2.1.
+
+    Parameters
+    ----------
+    a_g : float
+        Ground acceleration on rock, m/s2.
+    S : float
+        Soil and topography, S_S S_T, Eq. [3.2.3].
+    F0 : float
+        Largest amplification, at least 2.2.
+    T_C : float
+        Start of the branch of constant velocity, s: C_C T*_C, Eq. [3.2.5]. T_B = T_C / 3, and
+        T_D = 4 a_g / g + 1.6, Eqs [3.2.6], [3.2.7].
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range.
+    """
+
+    a_g: float
+    S: float
+    F0: float
+    T_C: float
+
+    def __post_init__(self) -> None:
+        number(self.a_g, "a_g", "m/s2", above=0.0)
+        number(self.S, "S", "(no unit)", above=0.0)
+        number(self.F0, "F0", "(no unit)", least=2.2)
+        number(self.T_C, "T_C", "s", above=0.0)
+
+    @property
+    def T_B(self) -> float:
+        """Start of the branch of constant acceleration, s."""
+        return self.T_C / 3.0
+
+    @property
+    def T_D(self) -> float:
+        """Start of the branch of constant displacement, s."""
+        return 4.0 * self.a_g / G + 1.6
+
+    def acceleration(self, period: float, damping: float = 0.05) -> float:
+        """Return S_e(T), m/s2, Eq. [3.2.2]."""
+        eta, T = damping_factor(damping), period
+        plateau = self.a_g * self.S * eta * self.F0
+        if self.T_B > T:
+            return plateau * (T / self.T_B + (1.0 - T / self.T_B) / (eta * self.F0))
+        if self.T_C > T:
+            return plateau
+        if self.T_D > T:
+            return plateau * self.T_C / T
+        return plateau * self.T_C * self.T_D / T**2
+
+    def displacement(self, period: float, damping: float = 0.05) -> float:
+        """Return S_De(T) = S_e(T) (T / 2 pi)^2, m, Eq. [3.2.8]."""
+        return self.acceleration(period, damping) * (period / (2.0 * np.pi)) ** 2
+
+
+@dataclass(frozen=True)
+class FloorMode:
+    """A mode of the building that carries the mechanism up to the height Z.
+
+    Parameters
+    ----------
+    period : float
+        T_k, s.
+    participation : float
+        gamma_k, modal participation factor.
+    shape : float
+        psi_k(Z), modal shape at the height at which the mechanism is fixed.
+    damping : float
+        xi_k, equivalent damping as a ratio.
+    """
+
+    period: float
+    participation: float
+    shape: float
+    damping: float = 0.05
+
+    def __post_init__(self) -> None:
+        number(self.period, "period of a mode", "s", above=0.0)
+        number(self.participation, "participation of a mode", "(no unit)")
+        number(self.shape, "shape of a mode", "(no unit)")
+        number(self.damping, "damping of a mode", "(no unit)", above=0.0)
+
+
+@dataclass(frozen=True)
+class Floor:
+    """The height Z above the ground at which a mechanism is fixed, and the modes that carry it there.
+
+    Floor spectrum of Circolare 7/2019, Section C7.2.3 (after Degli Abbati, Cattari & Lagomarsino 2018): in
+    each mode 1.1 xi_k^-0.5 eta(xi) times the largest acceleration between `a` T_k and `b` T_k, falling on
+    both sides, at T = 0 to the largest acceleration.
+    """
+
+    modes: tuple[FloorMode, ...]
+    a: float = 0.8
+    b: float = 1.1
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "modes", tuple(self.modes))
+        if not self.modes:
+            raise ModelError("a floor spectrum needs at least one mode of the building")
+
+    def peaks(self, ground: Spectrum) -> Sequence[float]:
+        """Return the largest acceleration of the floor in each mode, m/s2.
+
+        It is S_e(T_k, xi_k) gamma_k |psi_k| sqrt(1 + .0004 xi_k^2), xi_k in %.
+        """
+        return [
+            ground.acceleration(mode.period, mode.damping)
+            * abs(mode.participation * mode.shape)
+            * float(np.sqrt(1.0 + 0.0004 * (100.0 * mode.damping) ** 2))
+            for mode in self.modes
+        ]
+
+    def largest(self, ground: Spectrum) -> float:
+        """Return the largest floor acceleration, m/s2: all modes, no less than that of the ground."""
+        return max(float(np.linalg.norm(self.peaks(ground))), ground.acceleration(0.0))
+
+    def acceleration(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
+        """Return S_eZ(T), m/s2: all modes, no less than the spectrum of the ground."""
+        eta, shares = damping_factor(damping), []
+        for mode, peak in zip(self.modes, self.peaks(ground), strict=True):
+            excess = 1.1 * mode.damping**-0.5 * eta - 1.0
+            most = (1.0 + excess) * peak
+            if period < self.a * mode.period:
+                most /= 1.0 + excess * (1.0 - period / (self.a * mode.period)) ** 1.6
+            elif period >= self.b * mode.period:
+                most /= 1.0 + excess * (period / (self.b * mode.period) - 1.0) ** 1.2
+            shares.append(most)
+        return max(float(np.linalg.norm(shares)), ground.acceleration(period, damping))
+
+    def displacement(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
+        """Return S_DeZ(T) = S_eZ(T) (T / 2 pi)^2, m."""
+        return self.acceleration(ground, period, damping) * (period / (2.0 * np.pi)) ** 2

@@ -1,0 +1,302 @@
+"""Vehicles on arch bridges: axles through fill, moved along the deck; passive resistance of the fill."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from limitblocks.analysis.bounds import bounds
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError, UnlimitedLoad
+from limitblocks.evidence.associated import Bounds
+from limitblocks.mechanics import Load, fill, top_force
+from limitblocks.mechanics.loads.load import number, unit_vector
+from limitblocks.mechanics.loads.tops import tops
+from limitblocks.model import Model
+from limitblocks.practice.elements import Element, tie
+
+BEHIND = 10.0  # of a block's size: where the tie that stands for passive fill is held
+STRETCHES = 8  # of a dispersed axle: each a force on top of the block below it
+
+
+@dataclass(frozen=True)
+class Vehicle:
+    """Axle loads at distances from the first axle; the load factor multiplies all of them.
+
+    Parameters
+    ----------
+    axles : sequence of float
+        Axle loads, N.
+    distances : sequence of float
+        Of each axle from the first, along the deck, m; the first is 0.
+    contact : float
+        Length of a wheel's contact along the deck, m.
+
+    Raises
+    ------
+    ModelError
+        If a load is not positive, or the numbers of loads and distances differ.
+    """
+
+    axles: tuple[float, ...]
+    distances: tuple[float, ...] = (0.0,)
+    contact: float = 0.3
+
+    def __post_init__(self) -> None:
+        axles = tuple(number(load, "axle load", "N", above=0.0) for load in self.axles)
+        distances = tuple(number(way, "distance of an axle", "m") for way in self.distances)
+        if not axles or len(axles) != len(distances):
+            raise ModelError(f"a vehicle with {len(axles)} axle loads has {len(distances)} distances")
+        number(self.contact, "contact length", "m", above=0.0)
+        object.__setattr__(self, "axles", axles)
+        object.__setattr__(self, "distances", distances)
+
+
+@dataclass(frozen=True)
+class Deck:
+    """The line along which a vehicle moves, and what spreads its axles.
+
+    Parameters
+    ----------
+    level : float
+        Z of the road, m.
+    spread : float
+        Horizontal over vertical of the dispersion through the fill along the deck: 0.5 of the usual 2:1 rule.
+        An axle acts on the length ``contact + 2 spread depth`` of the extrados, evenly, straight down.
+    y : float
+        Of the line, m. Across the deck the axle is taken to spread over the whole width.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range.
+    """
+
+    level: float
+    spread: float = 0.5
+    y: float = 0.0
+
+    def __post_init__(self) -> None:
+        number(self.level, "level of the road", "m")
+        number(self.spread, "spread", "(no unit)", least=0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class WorstPosition:
+    """Envelope of the load factor over the positions of a vehicle.
+
+    Attributes
+    ----------
+    positions, load_factors : Array, shape (p,)
+        X of the first axle, m, and the static load factor there, in the order tried; infinite where the
+        load is unlimited.
+    position : float
+        Worst of them.
+    bounds : Bounds
+        There.
+    model : Model
+        There.
+    """
+
+    positions: Array
+    load_factors: Array
+    position: float
+    bounds: Bounds
+    model: Model
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the envelope and the bounds at the worst position as numbers and text."""
+        return {
+            "positions": self.positions.tolist(),
+            "load_factors": [a if np.isfinite(a) else None for a in self.load_factors.tolist()],
+            "position": self.position,
+            "bounds": self.bounds.to_dict(),
+        }
+
+    def __str__(self) -> str:
+        return (
+            f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
+            f"{self.bounds.lower:.6g}"
+        )
+
+
+def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) -> Load:
+    """Return the axles of a vehicle whose first stands at X = `position`, dispersed through the fill.
+
+    Axles beyond the blocks, on the approaches, put nothing on the structure.
+
+    Raises
+    ------
+    ModelError
+        If no axle stands on a free block.
+    """
+    total = Load()
+    for load, distance in zip(vehicle.axles, vehicle.distances, strict=True):
+        total = total + _axle(model, load, vehicle.contact, deck, position + distance)
+    if not total.terms:
+        raise ModelError(f"no axle of the vehicle at x = {position:g} m stands on a free block")
+    return total
+
+
+def _axle(model: Model, load: float, contact: float, deck: Deck, x: float) -> Load:
+    """One axle; the parts of its length that lie beyond the structure go to the approaches."""
+    free = model.free_blocks
+    owner, top = tops(free, np.array([(x, deck.y)]))
+    depth = max(deck.level - float(top[0]), 0.0) if owner[0] >= 0 else 0.0
+    half = contact / 2.0 + deck.spread * depth
+    middles = x + half * (2.0 * (np.arange(STRETCHES) + 0.5) / STRETCHES - 1.0)
+    below, _ = tops(free, np.column_stack([middles, np.full(STRETCHES, deck.y)]))
+    share = (0.0, 0.0, -load / STRETCHES)
+    parts = [top_force(share, (float(m), deck.y)) for m, own in zip(middles, below, strict=True) if own >= 0]
+    return sum(parts, Load())
+
+
+def worst_position(
+    model: Model,
+    vehicle: Vehicle,
+    deck: Deck,
+    between: tuple[float, float],
+    *,
+    positions: int = 25,
+    progress: Callable[[float, float], None] | None = None,
+) -> WorstPosition:
+    """Return the position of a vehicle at which the load factor is least, and the envelope on the way.
+
+    Evenly spaced positions first, then a bounded search (Brent) between the neighbours of the worst. The load
+    factor has kinks where an axle leaves a block: the search finds a local minimum there, no less.
+
+    Parameters
+    ----------
+    model : Model
+        Structure, its live load is replaced.
+    vehicle : Vehicle
+        Moves from ``between[0]`` to ``between[1]``, X of its first axle, m.
+    deck : Deck
+        Where it runs.
+    between : (float, float)
+        m.
+    positions : int
+        Evenly spaced positions, at least 3.
+    progress : callable, optional
+        Called with each position and its load factor.
+
+    Raises
+    ------
+    ModelError
+        If the interval is empty, or the vehicle is nowhere on the structure.
+    """
+    low, high = (number(x, "between", "m") for x in between)
+    if not low < high or positions < 3:
+        raise ModelError(
+            f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
+        )
+    tried: dict[float, tuple[Bounds, Model] | None] = {}
+
+    def at(x: float) -> float:
+        if x not in tried:
+            tried[x] = _loaded(model, vehicle, deck, x)
+        found = tried[x]
+        factor = found[0].lower if found else np.inf
+        if progress:
+            progress(x, factor)
+        return float(factor)
+
+    places = np.linspace(low, high, positions)
+    factors = np.array([at(float(x)) for x in places])
+    if not np.isfinite(factors).any():
+        raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
+    k = int(factors.argmin())
+    about = float(places[max(k - 1, 0)]), float(places[min(k + 1, positions - 1)])
+    minimize_scalar(
+        lambda x: at(float(x)), bounds=about, method="bounded", options={"xatol": (high - low) * 1e-4}
+    )
+    worst = min((x for x, found in tried.items() if found), key=at)
+    found = tried[worst]
+    assert found  # one is finite
+    order = read_only(np.array(list(tried)))
+    values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
+    return WorstPosition(order, values, worst, *found)
+
+
+def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bounds, Model] | None:
+    """Bounds with the vehicle there; None where it puts nothing on the structure, or any multiple stands."""
+    try:
+        loaded = replace(model, live=vehicle_load(model, vehicle, deck, x))
+        return bounds(loaded), loaded
+    except UnlimitedLoad:
+        return None
+    except ModelError as error:
+        if "stands on a free block" in str(error):
+            return None
+        raise
+
+
+def passive_fill(
+    model: Model,
+    level: float,
+    *,
+    unit_weight: float,
+    coefficient: float,
+    blocks: Sequence[str] = (),
+    along: Sequence[float] = (1.0, 0.0, 0.0),
+) -> list[Element]:
+    """Return the one-sided passive resistance of backfill, for :func:`~limitblocks.practice.reinforced`.
+
+    A block that moves into the fill along +-`along` meets up to ``coefficient unit_weight depth`` on the
+    projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
+    associated, mobilised at once, no friction between fill and masonry. Each resistance is a tie that holds
+    the block from behind, at the height of the resultant.
+
+    Parameters
+    ----------
+    model : Model
+        The structure.
+    level : float
+        Of the surface of the fill, Z, m.
+    unit_weight : float
+        Of the fill, N/m3.
+    coefficient : float
+        Of passive earth pressure K_p, less that at rest where :func:`~limitblocks.loads.fill` has it, > 0.
+    blocks : sequence of str
+        Blocks that touch the fill; all free ones unless given.
+    along : sequence of float
+        Horizontal direction along the deck.
+
+    Raises
+    ------
+    ModelError
+        If a number is out of range or no block lies under the fill with a face that leans along the deck.
+    """
+    number(coefficient, "coefficient of passive pressure", "(no unit)", above=0.0)
+    number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
+    d = np.array(unit_vector(along, "direction along the deck"))
+    free, names = model.free_blocks, tuple(blocks)
+    pressed = fill(unit_weight, level, blocks=names, earth_pressure=coefficient).on(free)
+    pressed = pressed - fill(unit_weight, level, blocks=names).on(free)
+    across = np.cross((0.0, 0.0, 1.0), d)
+    elements = []
+    for block, load in zip(free, pressed, strict=True):
+        push = float(load[:3] @ d)
+        if not abs(push) > 0.0:
+            continue
+        height = float(load[3:] @ across) / push  # of the resultant over the centroid
+        at = block.centroid + np.array([0.0, 0.0, height])
+        behind = at + np.sign(push) * BEHIND * block.size * d
+        area = abs(push) / (coefficient * unit_weight)  # m3: any area does, the force counts
+        elements.append(
+            tie(
+                block.name,
+                at.tolist(),
+                model.supports[0],
+                behind.tolist(),
+                area=area,
+                strength=abs(push) / area,
+            )
+        )
+    if not elements:
+        raise ModelError(f"no block has a face that leans along the deck below the fill at {level:g} m")
+    return elements

@@ -1,0 +1,90 @@
+"""What every result and model shows of itself, and how results are saved.
+
+The rooms that draw and write are above this one; they are looked up when they are asked for, so that results
+know no report and no file format.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+
+class Shown:
+    """A line as its repr; in a notebook a small table and a picture."""
+
+    def __repr__(self) -> str:
+        return f"<{self}>"
+
+    def _repr_html_(self) -> str:
+        return str(_notebook().html(self))
+
+
+class Viewed(Shown):
+    """Something with blocks that move: it can be looked at from all sides."""
+
+    def view(self, model: Any = None, *, height: int = 560) -> Any:
+        """Return the interactive viewer of reports, which Jupyter and VS Code show below the cell.
+
+        It needs no network and no extension.
+
+        Parameters
+        ----------
+        model : Model, optional
+            The structure; needed where the model of the result is not in memory any more.
+        height : int
+            Of the viewer, pixels.
+
+        Raises
+        ------
+        ModelError
+            The model is not known, or the result belongs to another one.
+        """
+        return _notebook().view(self, model, height)
+
+
+class Tabular(Shown):
+    """Something with rows."""
+
+    def to_frame(self, model: Any = None) -> Any:
+        """Return a pandas table: rows of their own where there are, else a row an interface.
+
+        Rows of interfaces say what each does at collapse and what it carries, in SI units.
+
+        Parameters
+        ----------
+        model : Model, optional
+            The structure; needed where the model of the result is not in memory any more.
+
+        Raises
+        ------
+        MissingDependency
+            pandas is not installed.
+        ModelError
+            The model is not known, or the result belongs to another one.
+        """
+        return _notebook().frame(self, model)
+
+
+class Saved(Tabular):
+    """Something that a file keeps."""
+
+    def save(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the result to a JSON file and return its path; :func:`limitblocks.read_result` reads it.
+
+        Raises
+        ------
+        LimitBlocksError
+            If the file exists and `overwrite` is false, or it cannot be written.
+        """
+        path: Path = import_module("limitblocks.io.result_file").write_result(self, file, overwrite=overwrite)
+        return path
+
+
+class Result(Viewed, Saved):
+    """What an analysis of one model returned."""
+
+
+def _notebook() -> Any:
+    return import_module("limitblocks.notebook")

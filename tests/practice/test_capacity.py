@@ -1,0 +1,127 @@
+"""Capacity curves: closed forms at finite displacement, what moves with the blocks, negative controls."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.mechanics import added_mass, pressure
+from limitblocks.practice import capacity_curve, reinforced, tie
+from limitblocks.practice.displaced import assembly_of, closed_up, moved
+
+JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
+B, H = 0.2, 1.0
+
+
+def toe_corner(model, height=H):
+    """The upper corner above the toe."""
+    vertices = model.free_blocks[0].vertices
+    return vertices[(vertices[:, 0] > 0) & (vertices[:, 2] > height / 2)][0]
+
+
+@pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
+def test_block_that_rocks_about_its_toe(joint):
+    """alpha = tan(atan(b / h) - asin(d / h)), d of the corner above the toe; zero at h sin(atan(b / h))."""
+    model = lb.structures.block(joint, width=B, height=H)
+    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
+    expected = np.tan(np.arctan(B / H) - np.arcsin(curve.displacements / H))
+    assert curve.load_factors == pytest.approx(expected, abs=1e-9)
+    assert curve.zero == pytest.approx(H * np.sin(np.arctan(B / H)), rel=1e-8)
+    assert curve.zero == pytest.approx(0.196116, abs=5e-7)
+    assert curve.proven_to == curve.points[-1].displacement
+    assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(model).load_factor, rel=1e-12)
+    assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
+    assert curve.points[1].changes == ("base|block 1 opens",)
+
+
+def test_block_that_slides_keeps_its_load_factor_until_half_of_it_is_off():
+    """Sliding on a base as wide as the block and 2 m longer; no change with displacement."""
+    stones = [
+        lb.Block.box("base", (5, 1, 0.2), (1.0, 0, -0.1)),
+        lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
+    ]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, largest=0.5)
+    assert curve.load_factors == pytest.approx(0.6, rel=1e-9)
+    assert curve.ended == "the displacement 0.5 m is reached"
+    shifted = curve.points[-1].model.interfaces[0]
+    assert shifted.centroid == pytest.approx([0.5, 0, 0], abs=1e-9)
+
+
+def test_mass_and_tie_move_with_the_block():
+    """A mass on the block and an inclined tie: moments about the toe at finite rotation."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    weight = model.free_blocks[0].weight
+    heap = added_mass("block 1", (B / 2, 0, 1.2), weight=weight / 2)
+    model = lb.Model(
+        model.blocks, model.supports, model.interfaces,
+        lb.self_weight([heap]), lb.mass_proportional((1, 0, 0), [heap]),
+    )  # fmt: skip
+    anchor, pull = np.array([-3.0, 0, 0.0]), 0.05 * weight
+    held = reinforced(
+        model, tie("block 1", (0, 0, H), "base", anchor, area=1e-4, strength=1e9, pull_out=pull)
+    )
+    curve = capacity_curve(held, control=("block 1", toe_corner(model)), steps=3, largest=0.1)
+    for point in curve.points:
+        turn = np.arcsin(point.displacement / H)
+        cosine, sine = np.cos(turn), np.sin(turn)
+
+        def at(x, z, cosine=cosine, sine=sine):  # from the toe
+            return np.array([x * cosine + z * sine, -x * sine + z * cosine])
+
+        own, top, hook = at(-B / 2, H / 2), at(-B / 2, 1.2), at(-B, H)
+        along = np.array([anchor[0] - B, 0.0]) - hook
+        along /= np.linalg.norm(along)
+        moment = hook[1] * along[0] - hook[0] * along[1]  # clockwise
+        stabilising = -weight * own[0] - weight / 2 * top[0] - pull * moment
+        overturning = weight * own[1] + weight / 2 * top[1]
+        assert point.load_factor == pytest.approx(stabilising / overturning, rel=1e-7)
+
+
+def test_hinges_of_an_arch_stay_together():
+    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=9)
+    curve = capacity_curve(arch, steps=5, largest=0.2)
+    assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(arch).load_factor, rel=1e-12)
+    assert np.all(np.diff(curve.load_factors) < 0)
+    lengths = [np.linalg.norm(np.ptp(b.vertices, axis=0)) for b in curve.points[-1].model.blocks]
+    assert len(lengths) == len(arch.blocks)
+    volumes = [[b.volume for b in m.blocks] for m in (arch, curve.points[-1].model)]
+    assert volumes[0] == pytest.approx(volumes[1], rel=1e-12)
+
+
+def test_gap_left_by_a_coarse_step_is_seen_and_closed():
+    """Negative control: first-order motion opens or overlaps the corners that it holds; closing mends it."""
+    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=9)
+    rates = lb.nonassociated(arch).displacement_rates
+    step = rates * 0.1 / np.abs(rates[:, :3]).max()
+    there = moved(assembly_of(arch), step)
+    held = [np.abs(own.ways[:, 2]) < 0.01 for own in there.contacts]
+    off = max(np.abs(own.ways[h]).max() for own, h in zip(there.contacts, held, strict=True) if h.any())
+    assert off > 1e-4
+    _, left = closed_up(there, held, [False] * len(held))
+    assert left < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"steps": 1}, "steps is 1, expected a whole number of at least 2"),
+        ({"largest": 0.0}, "largest is 0.0, expected a displacement > 0"),
+        ({"control": ("stone", (0, 0, 0))}, "'stone' is not a block"),
+        ({"control": ("base", (0, 0, 0))}, "block 'base' does not move"),
+    ],
+)
+def test_misuse(settings, words):
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    with pytest.raises(lb.ModelError, match=words):
+        capacity_curve(model, **settings)
+
+
+def test_load_that_stays_behind():
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    loaded = lb.Model(
+        model.blocks, model.supports, model.interfaces, model.dead,
+        model.live + pressure("block 1", 100.0, facing=(1, 0, 0)),
+    )  # fmt: skip
+    with pytest.raises(lb.ModelError, match="does not move with the blocks"):
+        capacity_curve(loaded)

@@ -1,0 +1,145 @@
+"""Ties, strips and dowels: closed forms, properties, misuse."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.joints import Tie
+from limitblocks.mechanics import added_mass
+from limitblocks.practice import dowel, reinforced, strip, tie
+
+T, H, WEIGHT, FLOOR, ARM = 0.5, 5.0, 18e3, 10e3, 0.35  # m, N/m3, N on one metre of wall
+JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
+JOINT_NAMES = ["point contact", "paper"]
+every_joint = pytest.mark.parametrize("joint", JOINTS, ids=JOINT_NAMES)
+
+
+def facade(joint=JOINTS[0]):
+    """One metre of a facade with a floor at its top, `ARM` from its outer edge; pushed outwards along X."""
+    stones = [
+        lb.Block.box("ground", (2, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
+    ]
+    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
+    found = lb.find_interfaces(stones, joint)
+    push = lb.mass_proportional((1, 0, 0), [floor])
+    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
+
+
+def rocking(force=0.0, height=0.0):
+    """Moments about the outer edge."""
+    own = WEIGHT * T * H
+    return (own * T / 2 + FLOOR * ARM + force * height) / (own * H / 2 + FLOOR * H)
+
+
+def rod(force, height=4.5, **settings):
+    settings = {"area": 1e-4, "strength": 235e6, "pull_out": force} | settings
+    return tie("wall", (-T / 2, 0, height), "ground", (-6.0, 0, height), **settings)
+
+
+def unknown():
+    return tie("x", (0, 0, 0), "wall", (1, 0, 0), area=1, strength=1)
+
+
+@every_joint
+def test_tie_of_a_facade(joint):
+    assert rocking() == pytest.approx(0.0907692, abs=5e-8)
+    assert rocking(8e3, 4.5) == pytest.approx(0.3123077, abs=5e-8)
+    model = reinforced(facade(joint), rod(8e3))
+    found, result = lb.bounds(model), lb.nonassociated(model)
+    assert found.lower <= rocking(8e3, 4.5) * (1 + 1e-9)
+    assert found.proven
+    assert found.upper == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert lb.check_mcp(model, result).passed
+    states = lb.interface_states(model, result)
+    assert states.state[1] == "yield"
+    assert states.utilisation[1] == pytest.approx(1.0)
+    assert result.stress_resultants[1] == pytest.approx([0, 0, 8e3, 0, 0, 0], abs=1e-3)
+
+
+def test_strength_of_the_section_governs_where_it_is_less():
+    model = reinforced(facade(), rod(1e9, area=2e-5, strength=200e6, number_of=2))
+    assert lb.bounds(model).upper == pytest.approx(rocking(2 * 2e-5 * 200e6, 4.5), rel=1e-8)
+
+
+def test_tie_that_goes_slack_does_nothing():
+    inward = tie("wall", (T / 2, 0, 4.5), "ground", (6.0, 0, 4.5), area=1e-4, strength=235e6)
+    model = reinforced(facade(), inward)
+    result = lb.nonassociated(model)
+    assert result.load_factor == pytest.approx(rocking(), rel=1e-8)
+    assert lb.interface_states(model, result).state[1] == "slack"
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3])
+def test_inclined_ties_and_several(share):
+    """Two ties of half the force, inclined by 3 to 4, one with a prestress: moments add up."""
+    down = tie("wall", (-T / 2, 0, 4.0), "ground", (-T / 2 - 4.0, 0, 1.0), area=1e-4, strength=5e7)
+    pulled = rod(3e3, height=3.0, prestress=share * 3e3)
+    moment = 5e3 * (0.8 * 4.0 + 0.6 * T) + 3e3 * 3.0
+    model = reinforced(facade(), down, pulled)
+    assert lb.bounds(model).upper == pytest.approx(rocking(moment, 1.0), rel=1e-8)
+    assert lb.nonassociated(model).load_factor == pytest.approx(rocking(moment, 1.0), rel=1e-8)
+
+
+def test_prestress_that_pulls_a_wall_over_is_no_equilibrium():
+    held = WEIGHT * T * H * T / 2 + FLOOR * (T - ARM)  # about the inner edge
+    for part, falls in ((0.99, False), (1.01, True)):
+        model = reinforced(facade(), rod(8e3, prestress=part * held / 4.5))
+        if falls:
+            with pytest.raises(lb.LimitBlocksError, match="wall would fall"):
+                lb.bounds(model)
+        else:
+            assert lb.bounds(model).lower > 0
+
+
+def test_strip_across_the_base_is_a_force_at_the_edge():
+    model = facade()
+    own = strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3)
+    assert lb.bounds(reinforced(model, own)).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
+
+
+def test_dowel_adds_shear():
+    """A block that slides at mu; a dowel adds its capacity, with or without dilatancy."""
+    model = lb.structures.block(lb.PointContact(0.3), width=1.0, height=0.5)
+    (joint,), weight = model.interfaces, model.free_blocks[0].weight
+    held = reinforced(model, dowel(joint, joint.centroid, diameter=0.02, capacity=0.05 * weight))
+    assert lb.bounds(held).upper == pytest.approx(0.35, rel=1e-8)
+    result = lb.nonassociated(held)
+    assert result.load_factor == pytest.approx(0.35, rel=1e-8)
+    assert lb.interface_states(held, result).state == ("slide", "yield")
+
+
+@every_joint
+def test_more_tie_is_never_weaker(joint):
+    factors = [lb.bounds(reinforced(facade(joint), rod(force))).upper for force in (1.0, 1e3, 4e3, 3e4)]
+    assert np.all(np.diff(factors) > -1e-9)
+    assert factors[0] == pytest.approx(rocking(1.0, 4.5), rel=1e-8)
+
+
+def test_file_keeps_ties(tmp_path):
+    model = reinforced(facade(), rod(8e3, prestress=1e3))
+    again = lb.read(model.save(tmp_path / "tied.json"))
+    assert again.digest == model.digest
+    assert again.interfaces[1].joint == Tie(7e3 / 1e-4, 6.0 - T / 2)
+    assert again.interfaces[1].name == "tie wall|ground"
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: tie("a", (0, 0, 0), "a", (1, 0, 0), area=1, strength=1), "both ends are in block 'a'"),
+        (lambda: tie("a", (0, 0, 0), "b", (0, 0, 0), area=1, strength=1), "both anchors are at"),
+        (lambda: rod(8e3, strength=-1.0), "strength is -1.0, expected a finite number > 0 in Pa"),
+        (lambda: rod(8e3, area=0.0), "area is 0.0, expected a finite number > 0 in m2"),
+        (lambda: rod(-8e3), "pull_out is -8000.0 N, expected a force > 0"),
+        (lambda: rod(8e3, prestress=9e3), "prestress is 9000.0 N, expected 0 to less than the 8000 N"),
+        (lambda: rod(8e3, number_of=0), "number_of is 0"),
+        (lambda: reinforced(facade(), unknown()), "'x' is not"),
+        (lambda: Tie(-1.0), "strength of a tie is -1.0 Pa"),
+    ],
+)  # fmt: skip
+def test_misuse(make, words):
+    with pytest.raises(lb.ModelError, match=words) as caught:
+        make()
+    assert "\n" not in str(caught.value)

@@ -1,0 +1,75 @@
+"""The commands settle, capacity, verify and vehicle."""
+
+import json
+
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+
+
+@pytest.fixture
+def block(tmp_path):
+    return lb.structures.block(lb.PointContact(0.6), width=0.2, height=1.0).save(tmp_path / "block.json")
+
+
+@pytest.fixture
+def beam(tmp_path):
+    stones = [
+        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
+        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
+        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    live = lb.mass_proportional((1, 0, 0))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), live).save(tmp_path / "beam.json")
+
+
+def run(*words):
+    return CliRunner().invoke(app, [str(word) for word in words])
+
+
+def test_settle(beam, tmp_path):
+    """The beam turns about the inner edge of the left support and rests on the far edge of the right one."""
+    least = 40e3 * (2.0 - 0.5) / (3.0 - 0.5)
+    done = run(
+        "settle", beam, "--support", "right", "--direction", 0, 0, -1, "--json", "-o", tmp_path / "s.json"
+    )
+    assert done.exit_code == 0, done.output
+    found = json.loads((tmp_path / "s.json").read_text())
+    assert found["nonassociated"] == pytest.approx(least, rel=1e-8)
+    assert "24000" in run("settle", beam, "--support", "right").stdout
+    wrong = run("settle", beam, "--support", "beam")
+    assert wrong.exit_code == 2
+    assert "'beam' is a free block" in wrong.output
+
+
+def test_capacity(block):
+    done = run("capacity", block, "--steps", 3, "--block", "block 1", "--point", 0.2, 0.5, 1.0, "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["zero"] == pytest.approx(0.196116, abs=5e-7)
+
+
+def test_verify(block, tmp_path):
+    """A block of its own: e* = 1, a0* = .2 g / 1.35, demand .25 x 1.2 g / 2."""
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
+    done = run("verify", block, *site, "--linear", "--json")
+    assert done.exit_code == 1, done.output
+    check = json.loads(done.stdout)["checks"][0]
+    assert check["ratio"] == pytest.approx(0.2 / 1.35 / 0.15, rel=1e-8)
+    assert "--q" in run("verify", block, *site[:-2]).output
+    assert "F0 is 1.0" in run("verify", block, *site[:4], "--f0", 1, *site[6:]).output
+
+
+def test_vehicle(beam):
+    """The overhang tips about x = 3: 20e3 x 4 x .5 x (3 - 2) over the moment of the axle."""
+    done = run(
+        "vehicle", beam, "--axles", 10e3, "--level", 0.5, "--from", 3.2, "--to", 3.8, "--count", 3, "--json"
+    )
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["position"] == pytest.approx(3.8, abs=1e-3)
+    assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
+    assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--from", 3, "--to", 4).output

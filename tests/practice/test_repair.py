@@ -1,0 +1,187 @@
+"""Least reinforcement, water, vehicles, rocking: closed forms and misuse."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.practice import (
+    Deck,
+    Rocking,
+    Vehicle,
+    element_acceleration,
+    element_force,
+    least_masses,
+    least_ties,
+    passive_fill,
+    reinforced,
+    tie,
+    uplift,
+    vehicle_load,
+    worst_position,
+)
+
+T, H, WEIGHT = 0.5, 5.0, 18e3
+JOINT = lb.PointContact(0.7)
+
+
+def wall():
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
+    ]
+    found = lb.find_interfaces(stones, JOINT)
+    return lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+def rod(height, capacity=1e5):
+    return tie("wall", (-T / 2, 0, height), "ground", (-6, 0, height), area=1e-3, strength=capacity / 1e-3)
+
+
+def test_least_tie_is_the_highest():
+    """Moments about the toe: (alpha H / 2 - T / 2) W / z; of two ties the higher one costs less."""
+    required, own = 0.3, WEIGHT * T * H
+    found = least_ties(wall(), [rod(2.0), rod(4.5)], required)
+    assert found.amounts == pytest.approx([0.0, own * (required * H - T) / 2 / 4.5], rel=1e-6)
+    assert found.bounds.lower >= required * (1 - 1e-5)
+    assert found.result.load_factor == pytest.approx(required, rel=1e-5)
+
+
+def test_least_mass_goes_to_the_outermost_and_lowest_place():
+    """A mass at (x, z) from the toe brings x - alpha z: at the inner edge of the base most."""
+    required, own = 0.12, WEIGHT * T * H
+    found = least_masses(wall(), [("wall", (0, 0, 4.0)), ("wall", (-T / 2, 0, 0.5))], required)
+    least = own * (required * H - T) / 2 / (T - required * 0.5)
+    assert found.amounts == pytest.approx([0.0, least], rel=1e-5)
+    assert found.bounds.lower >= required * (1 - 1e-5)
+
+
+def test_load_factor_out_of_reach():
+    with pytest.raises(lb.ModelError, match="cannot bring the structure to the load factor 2"):
+        least_ties(wall(), [rod(4.5, 1e3)], 2.0)
+    with pytest.raises(lb.ModelError, match="at least one tie"):
+        least_ties(wall(), [], 0.3)
+    with pytest.raises(lb.ModelError, match="at least one place"):
+        least_masses(wall(), [], 0.3)
+
+
+def test_uplift_of_a_dam_block():
+    """Uplift p A on the base takes weight away: sliding at mu (1 - p A / W)."""
+    model = lb.structures.block(lb.PointContact(0.3), width=2.0, height=1.0)
+    block, area = model.free_blocks[0], 2.0
+    water = uplift(model, 0.6, unit_weight=9810.0)
+    lifted = lb.Model(model.blocks, model.supports, model.interfaces, model.dead + water, model.live)
+    share = 9810.0 * 0.6 * area / block.weight
+    assert lb.nonassociated(lifted).load_factor == pytest.approx(0.3 * (1 - share), rel=1e-8)
+
+
+def test_uplift_in_an_inclined_joint_acts_at_the_centre_of_pressure():
+    """Water on a plane rectangle: the centre of pressure lies I / (A h) below the centroid."""
+    a = np.pi / 4
+    turn = np.array([(np.cos(a), 0, np.sin(a)), (0, 1, 0), (-np.sin(a), 0, np.cos(a))])
+    base = lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))
+    top = lb.Block.box("top", (2, 1, 1), (0, 0, 0.5), 20e3)
+    stones = [lb.Block(s.name, s.vertices @ turn.T, s.faces, s.unit_weight) for s in (base, top)]
+    found = lb.find_interfaces(stones, lb.PointContact(2.0))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    load = uplift(model, 1.0, unit_weight=1.0).on(model.free_blocks)[0]
+    below = 2.0**3 / 12 * np.sin(a) / 2.0  # I sin / (A depth), depth one
+    way = below * np.array([np.cos(a), 0, -np.sin(a)])
+    push = 2.0 * 1.0 * np.array([np.sin(a), 0, np.cos(a)])
+    assert load[:3] == pytest.approx(push, abs=1e-12)
+    assert load[3:] == pytest.approx(np.cross(way - model.free_blocks[0].centroid, push), abs=1e-12)
+
+
+def beam():
+    """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
+    stones = [
+        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
+        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
+        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
+    ]
+    found = lb.find_interfaces(stones, JOINT)
+    live = lb.mass_proportional((1, 0, 0))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), live)
+
+
+def test_worst_position_is_the_end_of_the_overhang():
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2)."""
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 3.95), positions=4)
+    assert found.position == pytest.approx(3.95, abs=1e-3)
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
+def test_vehicle_of_two_axles_and_dispersion():
+    """Forces and moments of two axles; through a fill each acts on contact + 2 spread depth, evenly."""
+    model, deck = beam(), Deck(level=1.5, spread=0.5)
+    load = vehicle_load(model, Vehicle((10e3, 20e3), (0.0, 1.2), contact=0.2), deck, 1.5)
+    total = load.on(model.free_blocks)[0]
+    assert total[:3] == pytest.approx([0, 0, -30e3])
+    assert total[4] == pytest.approx(10e3 * (1.5 - 2.0) + 20e3 * (2.7 - 2.0))
+    places = [term.at[0] for _, term in load.terms[:8]]
+    assert np.ptp(places) == pytest.approx((0.2 + 2 * 0.5 * 1.0) * 7 / 8)
+
+
+def test_axle_on_the_approach_puts_nothing_on_the_bridge():
+    model = beam()
+    alone = vehicle_load(model, Vehicle((10e3, 20e3), (0.0, -9.0)), Deck(level=0.5), 2.0)
+    assert alone.on(model.free_blocks)[0, 2] == pytest.approx(-10e3)
+    with pytest.raises(lb.ModelError, match="stands on a free block"):
+        vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5), 40.0)
+
+
+def test_passive_fill_holds_a_block_that_moves_into_it_only():
+    """A wedge of 45 degrees that slides at mu: K_p gamma depth per area helps one way."""
+    outline = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+    points = np.concatenate([np.insert(outline, 1, y, axis=1) for y in (-0.5, 0.5)])
+    faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)),
+        lb.Block("wedge", points, faces, 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.2))
+    held = 2.0 * 1e3 * (1.5 - 0.5) * 1.0 * 1.0
+    for sign, more in ((1.0, held / 10e3), (-1.0, 0.0)):
+        model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((sign, 0, 0)))
+        fill = passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)
+        result = lb.nonassociated(reinforced(model, *fill))
+        assert result.load_factor == pytest.approx(0.2 + more, rel=1e-6)
+
+
+def test_eurocode_and_housner():
+    """Top of a building in resonance: 5.5 alpha S; a block of 1 m x 4 m."""
+    top = element_acceleration(0.2, 1.2, z=9.0, height=9.0, element_period=0.4, building_period=0.4)
+    assert top == pytest.approx(0.2 * 1.2 * 5.5)
+    low = element_acceleration(0.2, 1.2, z=0.0, height=9.0, element_period=9.0, building_period=0.4)
+    assert low == pytest.approx(0.2 * 1.2)
+    assert element_force(top, 1e3, q_a=2.0) == pytest.approx(660.0)
+    block = Rocking(1.0, 4.0)
+    R = np.sqrt(17.0) / 2
+    assert np.tan(block.slenderness) == pytest.approx(0.25)
+    assert block.frequency == pytest.approx(np.sqrt(3 * 9.81 / 4 / R))
+    assert block.restitution == pytest.approx(1 - 1.5 / 17.0)
+    assert block.period(0.5) == pytest.approx(4 / block.frequency * np.arccosh(2.0))
+    assert block.period(0.0) == 0.0
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Vehicle((1.0, 2.0), (0.0,)), "2 axle loads has 1 distances"),
+        (lambda: Vehicle((-1.0,)), "axle load is -1.0"),
+        (lambda: Deck(1.0, spread=-1.0), "spread is -1.0"),
+        (lambda: uplift(wall(), 1.0, share=2.0), "share of the water pressure is 2.0"),
+        (lambda: uplift(wall(), -1.0, interfaces=wall().interfaces), "above the water at -1 m"),
+        (lambda: worst_position(beam(), Vehicle((1.0,)), Deck(0.5), (2.0, 1.0)), "nothing to search"),
+        (lambda: Rocking(1.0, 0.0), "height is 0.0"),
+        (lambda: Rocking(1.0, 2.0).period(1.0), "amplitude is 1.0"),
+        (lambda: passive_fill(wall(), 6.0, unit_weight=1.0, coefficient=1.0), "no block has a face"),
+        (
+            lambda: element_acceleration(0.2, 1.0, z=9.0, height=3.0, element_period=0, building_period=1),
+            "above the building",
+        ),
+    ],
+)  # fmt: skip
+def test_misuse(make, words):
+    with pytest.raises(lb.ModelError, match=words):
+        make()
