@@ -141,7 +141,9 @@ def test_frames():
 
 def test_frame_without_pandas_says_what_to_install(monkeypatch):
     monkeypatch.setitem(__import__("sys").modules, "pandas", None)
-    with pytest.raises(lb.errors.MissingDependency, match=r"to_frame\(\) needs the package pandas; .*pip"):
+    with pytest.raises(
+        lb.errors.MissingDependency, match=r"to_frame\(\): the package pandas is missing; .*pip"
+    ):
         FOUND.to_frame()
 
 

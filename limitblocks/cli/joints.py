@@ -23,7 +23,8 @@ def joints() -> dict[str, Any]:
     """Return the class of every joint by its name on the command line."""
     from limitblocks.io.registry import JOINTS
 
-    return {re.sub(r"(?<=[a-z])(?=[A-Z])", "-", name).lower(): kind for name, kind in JOINTS.items()}
+    contacts = {name: kind for name, kind in JOINTS.items() if not hasattr(kind, "word")}  # no ties
+    return {re.sub(r"(?<=[a-z])(?=[A-Z])", "-", name).lower(): kind for name, kind in contacts.items()}
 
 
 def joint_name(text: str) -> str:

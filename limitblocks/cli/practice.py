@@ -41,10 +41,10 @@ Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, su
 Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
 Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
 First = Annotated[
-    float, typer.Option("--from", help="First place of the first axle, X in m.", show_default=False)
+    float, typer.Option("--first", help="First place of the first axle, X in m.", show_default=False)
 ]
 Last = Annotated[
-    float, typer.Option("--to", help="Last place of the first axle, X in m.", show_default=False)
+    float, typer.Option("--last", help="Last place of the first axle, X in m.", show_default=False)
 ]
 Places = Annotated[int, typer.Option("--count", help="Places to begin with.", min=3)]
 

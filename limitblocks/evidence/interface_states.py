@@ -193,7 +193,15 @@ def _largest(model: Model, rates: Array) -> float:
 
 def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[Mode, ...], ...]:
     active: list[dict[Mode, None]] = [{} for _ in problem.interfaces]
-    for row in np.flatnonzero(np.abs(multipliers) > least).tolist():
+    moving, opened = np.abs(multipliers) > least, np.zeros(len(multipliers), dtype=bool)
+    for places in problem.cones.groups:  # a cone of friction opens by its head beyond what slides
+        slides = np.array([problem.row_mode[k].slides for k in places[:, 0].tolist()], dtype=bool)
+        head, sliding = multipliers[places[:, 0]], np.linalg.norm(multipliers[places[:, 1:]], axis=1)
+        moving[places[:, 0]] = np.where(slides, sliding > least, moving[places[:, 0]])
+        opened[places[:, 0]] = slides & (head - sliding > least)
+    for row in np.flatnonzero(opened).tolist():
+        active[problem.row_interface[row]][Mode.OPEN] = None
+    for row in np.flatnonzero(moving).tolist():
         active[problem.row_interface[row]][problem.row_mode[row]] = None
     return tuple(tuple(modes) for modes in active)
 

@@ -30,11 +30,15 @@ NEWTONS = {
 
 #: Powers of force and length in every number of a model file, by its key; (0, 0) has no unit.
 DIMENSIONS: dict[str, tuple[int, int]] = {
-    **dict.fromkeys(("size", "at", "vertices", "centroid", "polygon", "level", "start", "end"), (0, 1)),
+    **dict.fromkeys(
+        ("size", "at", "vertices", "centroid", "polygon", "level", "start", "end", "length"), (0, 1)
+    ),
     **dict.fromkeys(("force", "weight"), (1, 0)),
     "moment": (1, 1),
     "force_per_length": (1, -1),
-    **dict.fromkeys(("pressure", "compressive_strength", "cohesion", "tensile_strength"), (1, -2)),
+    **dict.fromkeys(
+        ("pressure", "compressive_strength", "cohesion", "tensile_strength", "strength"), (1, -2)
+    ),
     "unit_weight": (1, -3),
     **dict.fromkeys(("axes", "faces", "direction", "facing", "factor", "coefficient"), (0, 0)),
     **dict.fromkeys(

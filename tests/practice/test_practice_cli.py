@@ -66,10 +66,22 @@ def test_verify(block, tmp_path):
 def test_vehicle(beam):
     """The overhang tips about x = 3: 20e3 x 4 x .5 x (3 - 2) over the moment of the axle."""
     done = run(
-        "vehicle", beam, "--axles", 10e3, "--level", 0.5, "--from", 3.2, "--to", 3.8, "--count", 3, "--json"
+        "vehicle",
+        beam,
+        "--axles",
+        10e3,
+        "--level",
+        0.5,
+        "--first",
+        3.2,
+        "--last",
+        3.8,
+        "--count",
+        3,
+        "--json",
     )
     assert done.exit_code == 0, done.output
     found = json.loads(done.stdout)
     assert found["position"] == pytest.approx(3.8, abs=1e-3)
     assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
-    assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--from", 3, "--to", 4).output
+    assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--first", 3, "--last", 4).output
