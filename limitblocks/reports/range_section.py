@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.residuals import Residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
-from limitblocks.reports.section import Check, Section
+from limitblocks.reports.section import Section, checks_of
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
@@ -23,9 +22,8 @@ MEANING = (
 def range_section(
     result: LoadFactorRange,
     limits: Callable[[Nonassociated], tuple[tuple[str, str, str], ...]],
-    checks: Callable[[Residuals, float], tuple[Check, ...]],
 ) -> Section:
-    """Return the section; `limits` and `checks` say what they say of other results."""
+    """Return the section; `limits` says what it says of other results."""
     shown = result.load_path or (result.answers[0] if result.answers else None)
     (reached, below), (lowest, highest) = result.reached, result.certified
     (tried, ended), (drawn, led) = result.paths, result.mechanisms
@@ -53,13 +51,15 @@ def range_section(
             ("Paths", f"{ended} of {tried}", "ended at a solution"),
             ("Mechanisms", f"{led} of {drawn}", "drawn at random, led to one"),
         ),
-        checks=checks(shown.check.residuals, result.tolerance) if shown else (),
+        checks=checks_of(shown.check.residuals, result.tolerance) if shown else (),
         tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
-        steps=Table.of(
-            "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
+        parts=(
+            Table.of(
+                "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
+            ),
         ),
     )
 

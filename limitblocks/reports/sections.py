@@ -14,7 +14,7 @@ from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.residuals import TOLERANCE, Residuals
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
@@ -23,8 +23,9 @@ from limitblocks.reports.as_read import AS_READ, as_read
 from limitblocks.reports.claims import USUAL_OF_BOUNDS, CheckedClaim
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
+from limitblocks.reports.practice_sections import KINDS, of_practice
 from limitblocks.reports.range_section import range_section
-from limitblocks.reports.section import Check, Section
+from limitblocks.reports.section import Section, checks_of
 
 _ACTIVE_SHOWN = 4
 
@@ -37,9 +38,9 @@ def section(model: Model, result: Any) -> Section:
     LimitBlocksError
         The result is of a kind unknown to reports, or belongs to another model.
     """
-    make = _SECTIONS.get(type(result))
+    make = _SECTIONS.get(type(result)) or of_practice(result)
     if make is None:
-        known = ", ".join(sorted(kind.__name__ for kind in _SECTIONS if kind is not CheckedClaim))
+        known = ", ".join([*sorted(kind.__name__ for kind in _SECTIONS if kind is not CheckedClaim), *KINDS])
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
     if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
         kind = type(result).__name__
@@ -96,7 +97,7 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
             ("Proven", *_proven(bounds.proof)),
         ),
-        checks=_checks(bounds.residuals, bounds.tolerance),
+        checks=checks_of(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
         warnings=_loose(bounds.tolerance, USUAL_OF_BOUNDS),
@@ -123,7 +124,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             _backward(result.backward_error),
             *_confirmation(result),
         ),
-        checks=_checks(result.residuals, result.tolerance),
+        checks=checks_of(result.residuals, result.tolerance),
         tolerance=result.tolerance,
         rates=result.displacement_rates,
         warnings=_remarks(result) + _loose(result.tolerance),
@@ -160,7 +161,7 @@ def _path(model: Model, path: LoadPath) -> Section:
         tolerance=end.tolerance,
         rates=end.rates,
         warnings=end.warnings,
-        steps=_steps(path),
+        parts=(_steps(path),),
         curve=path_curve(model, path),
     )
 
@@ -194,7 +195,7 @@ def _check(_model: Model, check: mcp.Check) -> Section:
             ("Mechanism and multipliers", source, "by which the flow rule was checked"),
             _backward(check.backward_error),
         ),
-        checks=_checks(check.residuals, check.tolerance),
+        checks=checks_of(check.residuals, check.tolerance),
         tolerance=check.tolerance,
         warnings=check.remarks + _loose(check.tolerance),
     )
@@ -239,14 +240,14 @@ def _stability(_model: Model, answer: Stability) -> Section:
             ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
             ("Blocks that move", _some(list(answer.blocks)) or "none", ""),
         ),
-        checks=_checks(answer.residuals, ARISEN),
+        checks=checks_of(answer.residuals, ARISEN),
         tolerance=ARISEN,
         rates=answer.displacement_rates,
     )
 
 
 def _range(_model: Model, result: LoadFactorRange) -> Section:
-    return range_section(result, limits, _checks)
+    return range_section(result, limits)
 
 
 def _backward(error: BackwardError) -> tuple[str, str, str]:
@@ -261,11 +262,6 @@ def _proven(proof: Proof) -> tuple[str, str]:
     if proof.complete:
         return "yes", "theorems about the numbers of the limit problem, rounding errors included"
     return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
-
-
-def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
-    entries = residuals.entries
-    return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
 
 
 def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
