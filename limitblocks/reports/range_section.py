@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
 
@@ -31,6 +32,7 @@ def range_section(
         for one in result.answers
     )
     ends = [(word, end) for word, end in (("Least", result.least), ("Greatest", result.greatest)) if end]
+    told = AS_READ if result.from_file else ""
     return Section(
         title="Range of load factors",
         meaning=MEANING,
@@ -40,12 +42,12 @@ def range_section(
             ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),
             ("Certified", f"{lowest:#.6g} to {highest:#.6g}", "reachable or not"),
             *(
-                (f"{word} of all", str(end), f"mixed-integer program, gap {end.gap:.1e}")
+                (f"{word} of all", str(end), told or f"mixed-integer program, gap {end.gap:.1e}")
                 for word, end in ends
             ),
-            ("Solutions without gap", _spans(result.intervals), "every value solves, by convexity"),
+            ("Solutions without gap", _spans(result.intervals), told or "every value solves, by convexity"),
             *(limits(shown.solution) if shown else ()),
-            ("Wedging", str(result.wedging), ""),
+            ("Wedging", str(result.wedging), told),
             ("Paths", f"{ended} of {tried}", "ended at a solution"),
             ("Mechanisms", f"{led} of {drawn}", "drawn at random, led to one"),
         ),

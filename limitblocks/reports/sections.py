@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import isfinite, isnan
 from typing import Any
 
@@ -19,7 +19,8 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
-from limitblocks.reports.claims import CheckedClaim
+from limitblocks.reports.as_read import AS_READ, as_read
+from limitblocks.reports.claims import USUAL_OF_BOUNDS, CheckedClaim
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.practice_sections import KINDS, of_practice
@@ -27,7 +28,6 @@ from limitblocks.reports.range_section import range_section
 from limitblocks.reports.section import Section, checks_of
 
 _ACTIVE_SHOWN = 4
-USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
 
 
 def section(model: Model, result: Any) -> Section:
@@ -45,7 +45,13 @@ def section(model: Model, result: Any) -> Section:
     if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
         kind = type(result).__name__
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
-    return make(model, result)
+    return as_read(make(model, result), result)
+
+
+def drawn(results: Iterable[Any], sections: Iterable[Section]) -> Section | None:
+    """The section whose mechanism is drawn: the first of its kind would do, one says enough."""
+    kinds = {type(result): made for result, made in zip(results, sections, strict=True)}
+    return next((made for kind in _SECTIONS if (made := kinds.get(kind)) and made.rates is not None), None)
 
 
 def shown(result: Any) -> bool:
@@ -56,6 +62,9 @@ def shown(result: Any) -> bool:
 def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
     """Return name, value and meaning of the load factors that no solution is below and above."""
     lower, upper = result.frictionless, result.associated
+    if result.from_file:
+        least = "not claimed" if isnan(lower) else _number(lower)
+        return ("Frictionless", least, AS_READ), ("Associated", _number(upper), AS_READ)
     return (
         ("Frictionless", "not claimed", result.unclaimed)
         if isnan(lower)
@@ -128,12 +137,13 @@ SNAP = "load factors before and after, at one displacement of the live load"
 
 def _path(model: Model, path: LoadPath) -> Section:
     end = _nonassociated(model, path.collapse)
+    told = ", as the file says" if path.from_file else ""
     last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
     return Section(
         title="Load path" if path.collapse.converged else "Load path, not converged",
         meaning=(
             "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
-            f"step is in equilibrium and within the yield surface, and the last {last}, Eqs (54)-(59). "
+            f"step is in equilibrium and within the yield surface{told}, and the last {last}, Eqs (54)-(59). "
             "Displacements before collapse are relative to the compliance of the joints."
         ),
         headline=end.headline,
@@ -259,7 +269,8 @@ def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
     change = result.fixed_point_change
     if change is None:
         return ()
-    return (("Fixed point", f"{change:.1e}", "change of the load factor with the flow frozen here"),)
+    said = AS_READ if result.from_file else "change of the load factor with the flow frozen here"
+    return (("Fixed point", f"{change:.1e}", said),)
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:
@@ -276,12 +287,13 @@ def _some(words: list[str]) -> str:
     return ", ".join(words[:_ACTIVE_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
+#: In the order in which one is chosen to be drawn.
 _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
-    Bounds: _bounds,
     Nonassociated: _nonassociated,
     LoadPath: _path,
-    mcp.Check: _check,
-    Stability: _stability,
     LoadFactorRange: _range,
     CheckedClaim: _claim,
+    Bounds: _bounds,
+    Stability: _stability,
+    mcp.Check: _check,
 }
