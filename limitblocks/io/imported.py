@@ -173,7 +173,7 @@ def imported(
     where = frame(contents, units, up)
     found = blocks_of(contents, where, twisted)
     if found.wrong and (not skip_bad or not found.blocks):
-        raise refused(found.wrong, len(found.blocks))
+        raise refused(found.wrong, len(found.blocks), found.twisted)
     weights = _weights({block.name: block.layer for block in found.blocks}, unit_weight)
     blocks = tuple(
         block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
@@ -190,7 +190,7 @@ def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) 
     found = made(named, where.metres * _upright(where.up), twisted)
     supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
     wrong = {**contents.wrong, **found.wrong}
-    return Made(found.blocks, (*renamed, *found.notes), wrong, supports)
+    return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted)
 
 
 def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
