@@ -1,28 +1,20 @@
 """The report in a browser, if there is one: Chromium with WebGL in software."""
 
 import base64
-import os
 import re
-import shutil
 from io import BytesIO
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from browsers import FLAGS, FOUND, SOFTWARE, needed, watch
 
 import limitblocks as lb
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the package playwright is not installed")
 Image = pytest.importorskip("PIL.Image", reason="the package pillow is not installed")
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-FOUND = os.environ.get("LIMITBLOCKS_BROWSER") or next(filter(None, map(shutil.which, NAMES)), None)
-pytestmark = pytest.mark.skipif(
-    not FOUND,
-    reason=f"no browser: none of {', '.join(NAMES)} is on the PATH and LIMITBLOCKS_BROWSER is not set",
-)
-SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run"]
+pytestmark = needed
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 FORMULA = "=cmd|A1"
 
@@ -68,14 +60,6 @@ def open_page(chromium, file):
     page.wait_for_selector("#viewer[data-ready]")
     yield page
     browser.close()
-
-
-def watch(page):
-    page.faults, page.requests = [], []
-    page.on("console", lambda message: page.faults.append(message.text))
-    page.on("pageerror", lambda error: page.faults.append(str(error)))
-    page.on("dialog", lambda dialog: (page.faults.append("dialog"), dialog.dismiss()))
-    page.on("request", lambda request: page.requests.append(request.url))
 
 
 @pytest.fixture
