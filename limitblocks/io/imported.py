@@ -109,6 +109,13 @@ def one_line(name: str) -> str:
     return " ".join(_NO_LETTER.sub("\ufffd", " ".join(name.split())).split())
 
 
+def on_groups(sizes: Iterable[tuple[str, int]]) -> list[str]:
+    """Return the note on groups of a drawing, by name and number of objects; none where there are none."""
+    named = [f"{one_line(name)!r} × {size}" for name, size in sizes if size]
+    more = f" and {len(named) - 8} more" if len(named) > 8 else ""
+    return [f"groups are not kept, layers are: {', '.join(named[:8])}{more}"] if named else []
+
+
 @contextmanager
 def foreign(word: str) -> Iterator[None]:
     """Turn whatever another package does with a damaged file into one ModelError; `word` is the format."""

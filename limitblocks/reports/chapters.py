@@ -24,7 +24,7 @@ from limitblocks.reports.document import (
     Text,
 )
 from limitblocks.reports.facts import assumptions, fact_rows
-from limitblocks.reports.interfaces import active_interfaces
+from limitblocks.reports.interfaces import ELEMENT_HEADS, Active, active_interfaces, element_rows
 from limitblocks.reports.labels import Labels
 from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import acceleration
@@ -96,7 +96,8 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     parts.append(Text(one.meaning))
     if picture:
         caption = MECHANISM.format(picture.magnification)
-        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, LEGEND))
+        ties = tuple((f"tie-{state}", f"tie: {state}") for state in dict.fromkeys(t[0] for t in picture.ties))
+        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, (*LEGEND, *ties)))
     if one.curve:
         parts.append(Figure(one.curve.sheet(), one.curve.caption))
     parts += [*interfaces, *one.parts]
@@ -155,6 +156,12 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     table = active_interfaces(model, result, one.title)
     if table is None:
         return ()
+    elements = element_rows(model, result)
+    tied = Table.of("Ties and dowels", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    return (*_active(table, place), *((tied,) if elements else ()))
+
+
+def _active(table: Active, place: int) -> tuple[Part, ...]:
     shown = f"; the {len(table.rows)} that move most" if len(table.rows) < table.active else ""
     caption = f"Interfaces that do not stick: {table.active} of {table.interfaces}{shown}"
     if not table.rows:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.drawing.picture import Picture, mechanism_picture
+from limitblocks.evidence.interface_states import interface_states
 from limitblocks.io import strict_json
 from limitblocks.model import Model
 from limitblocks.reports import files
@@ -76,7 +77,11 @@ class Report:
     def picture(self) -> Picture | None:
         """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
         rates = self.drawn.rates if self.drawn else None
-        return None if rates is None else mechanism_picture(self.model, rates)
+        if rates is None or self.drawn is None:
+            return None
+        drawn = self.results[self.sections.index(self.drawn)]
+        states = interface_states(self.model, drawn).state if in_scene(drawn) else ()
+        return mechanism_picture(self.model, rates, states)
 
     @cached_property
     def document(self) -> Document:
