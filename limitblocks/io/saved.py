@@ -26,6 +26,7 @@ _KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}  # where the
 #: What null stands for where it is not NaN.
 _NULL = {"associated": inf, "upper": inf, "lower": -inf, "stress_limit": inf, "multiplier_limit": inf}
 _COLUMNS = dict.fromkeys(("stress_resultants", "displacement_rates", "arising", "displacements"), 6)
+_MOST = 1e30  # in size: far beyond any structure, and its powers are still finite
 _STEP = {"step", "kind", "load_factor", "newly_active", "displacements", "stress_resultants"}
 
 
@@ -46,7 +47,7 @@ def result_of(data: Any) -> Any:
         raise Lacking("analysis")
     try:
         return _KINDS[word](data)
-    except (AttributeError, IndexError, KeyError, StopIteration, TypeError, ValueError) as error:
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
         raise Lacking(str(error)) from None
 
 
@@ -70,8 +71,10 @@ def _path(data: Mapping[str, Any]) -> LoadPath:
     ]
     made: LoadPath = _made(LoadPath, {**data, "steps": steps, "snaps": []})
     end = made.collapse.displacement_rates.shape, made.collapse.stress_resultants.shape
-    if any((step.displacements.shape, step.stress_resultants.shape) != end for step in made.steps):
-        raise Lacking("steps are of another size than the collapse")
+    if not made.steps or any(
+        (step.displacements.shape, step.stress_resultants.shape) != end for step in made.steps
+    ):
+        raise Lacking("no steps, or of another size than the collapse")
     snaps = (Snap(made.steps[_place(i)], made.steps[_place(j)]) for i, j in data["snaps"])
     return replace(made, snaps=tuple(snaps))
 
@@ -138,12 +141,19 @@ def _value(kind: Any, data: Any, name: str) -> Any:
     if is_dataclass(kind):
         return _made(kind, data)
     if issubclass(kind, Enum):
-        return next(one for one in kind if data in (one.value, _word(one)))
+        return _member(kind, data)
     if kind is float:
         return _number(data, _NULL.get(name, nan))
     if type(data) is not kind:
         raise Lacking(f"{name} is {data!r}")
     return data
+
+
+def _member(kind: type[Enum], data: Any) -> Enum:
+    for one in kind:
+        if data in (one.value, _word(one)):
+            return one
+    raise Lacking(f"{data!r} is none of {kind.__name__}")
 
 
 def _word(member: Enum) -> str:
@@ -154,7 +164,7 @@ def _word(member: Enum) -> str:
 def _number(data: Any, null: float) -> float:
     if data is None:
         return null
-    if type(data) not in (int, float):
+    if type(data) not in (int, float) or not abs(data) < _MOST:
         raise Lacking(f"{data!r} is no number")
     return float(data)
 
@@ -162,13 +172,16 @@ def _number(data: Any, null: float) -> float:
 def _array(data: Any, name: str) -> Array:
     columns = _COLUMNS.get(name, 3 if name == "trace" else None)
     array = np.array(data)
-    if array.size and (array.dtype.kind not in "fi" or array.ndim != (2 if columns else 1)):
+    numbers = array.dtype.kind in "fi" and array.ndim == (2 if columns else 1)
+    if array.size and not (numbers and np.abs(array).max() < _MOST):
         raise Lacking(f"{name} is no array of numbers")
     return read_only(array.reshape(-1, columns) if columns else array.ravel())
 
 
 def _residuals(data: Mapping[str, Any], details: Mapping[str, Any]) -> Residuals:
     """Residuals by name; what they measure and where may be told beside them."""
+    if not data:
+        raise Lacking("no residuals")
     rows = ((name, _number(value, inf), details.get(name, ("", ""))) for name, value in data.items())
     return Residuals(tuple(Residual(name, value, str(said), str(at)) for name, value, (said, at) in rows))
 

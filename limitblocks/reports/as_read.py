@@ -27,6 +27,5 @@ def as_read(made: Section, result: Any) -> Section:
         return replace(made, warnings=(CHECKED, *made.warnings))
     values = (("Answer of the file", made.headline, AS_READ), *made.values)
     title = f"{made.title}, as a file says"
-    return replace(
-        made, title=title, headline="not checked", values=values, checks=(), warnings=(NOT_JUDGED,)
-    )
+    made = replace(made, title=title, values=values, checks=(), rates=None)
+    return replace(made, headline="not checked", warnings=(NOT_JUDGED,))

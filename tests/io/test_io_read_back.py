@@ -121,6 +121,7 @@ def test_a_check_and_a_stability_that_were_read_prove_nothing(tmp_path):
         (said,) = made.sections
         assert said.headline == "not checked"
         assert not said.checks
+        assert said.rates is None
     failed = changed(tmp_path / "check.json", passed=False)
     assert lb.read_result(failed).passed == SAVED["check"].passed  # by its residuals, whatever the word
 
@@ -136,10 +137,20 @@ def test_a_file_that_lacks_something_is_a_claim(kind, key, tmp_path):
 
 
 @pytest.mark.parametrize("key", ["history", "status", "residuals", "backward_error", "remarks", "how"])
-@pytest.mark.parametrize("nonsense", [7, [[1]], {"a": []}, None], ids=str)
+@pytest.mark.parametrize("nonsense", [7, [[1]], {"a": []}, {}, None], ids=str)
 def test_nonsense_beside_the_numbers_makes_it_a_claim(key, nonsense, tmp_path):
     file = changed(FOUND.save(tmp_path / "result.json"), **{key: nonsense})
     assert type(lb.read_result(file)) is lb.results.Claim
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"steps": []}, {"snaps": [[0, 99]]}, {"snaps": [[-1, 0]]}, {"trace": [[0, 1]]}, {"tracked": 1e300}],
+    ids=str,
+)
+def test_a_path_that_is_none_is_the_claim_of_its_collapse(changes, tmp_path):
+    read = lb.read_result(changed(SAVED["path"].save(tmp_path / "path.json"), **changes))
+    assert type(read) is lb.results.Claim
 
 
 def test_files_without_the_new_keys_are_read(tmp_path):
