@@ -13,6 +13,7 @@ from limitblocks.io import (
     read_result,
     write_animation,
     write_blocks,
+    write_forces,
     write_result,
     write_vtu,
 )
@@ -33,6 +34,7 @@ __all__ = [
     "select",
     "write_animation",
     "write_blocks",
+    "write_forces",
     "write_result",
     "write_vtu",
 ]

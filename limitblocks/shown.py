@@ -6,6 +6,7 @@ know no report and no file format.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -82,8 +83,23 @@ class Saved(Tabular):
         return path
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class Result(Viewed, Saved):
-    """What an analysis of one model returned."""
+    """What an analysis of one model returned.
+
+    Attributes
+    ----------
+    from_file : bool
+        Whether it was read: then all that it says of itself, its status and residuals too, is what the file
+        says and no evidence. Reports and :func:`limitblocks.check_mcp` judge its numbers anew.
+    """
+
+    from_file: bool = field(default=False, kw_only=True)
+
+    @property
+    def _as_read(self) -> str:
+        """What a line of it ends with."""
+        return "; as a file says, not checked" if self.from_file else ""
 
 
 def _notebook() -> Any:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import typer
@@ -10,10 +13,6 @@ from limitblocks.cli.progress import of_iterations, of_stages
 from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
-    from limitblocks.evidence.associated import Bounds
-    from limitblocks.evidence.load_path_result import LoadPath
-    from limitblocks.evidence.range_result import LoadFactorRange
-    from limitblocks.evidence.results import Nonassociated
     from limitblocks.evidence.stability_result import Stability
     from limitblocks.model import Model
 
@@ -26,12 +25,23 @@ def stability(model: Model) -> Stability:
         return solve(model)
 
 
-def bounds(model: Model, **settings: Any) -> Bounds:
-    """Associated bounds."""
-    from limitblocks.analysis.bounds import bounds as solve
+def _analysis(
+    verb: str, home: str, name: str, progress: Callable[[str], AbstractContextManager[Any]]
+) -> Callable[..., Any]:
+    """The function `name` of a module of `limitblocks.analysis`, as the verb that shows its progress."""
 
-    with of_stages("bounds") as show:
-        return solve(model, **settings, progress=show)
+    def run(model: Model, **settings: Any) -> Any:
+        solve = getattr(import_module(f"limitblocks.analysis.{home}"), name)
+        with progress(verb) as show:
+            return solve(model, **settings, progress=show)
+
+    return run
+
+
+bounds = _analysis("bounds", "bounds", "bounds", of_stages)
+nonassociated = _analysis("nonassociated", "nonassociated.loop", "nonassociated", of_iterations)
+load_factor_range = _analysis("range", "load_factor_range.run", "load_factor_range", of_iterations)
+path = _analysis("path", "nonassociated.load_path", "load_path", of_iterations)
 
 
 def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
@@ -43,27 +53,3 @@ def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[A
             raise
         typer.echo(f"warning: no bounds: {error}", err=True)
         return []
-
-
-def nonassociated(model: Model, **settings: Any) -> Nonassociated:
-    """Solution without dilatancy, or with little."""
-    from limitblocks.analysis.nonassociated.loop import nonassociated as solve
-
-    with of_iterations("nonassociated") as show:
-        return solve(model, **settings, progress=show)
-
-
-def load_factor_range(model: Model, **settings: Any) -> LoadFactorRange:
-    """Certified load factors and how far they reach."""
-    from limitblocks.analysis.load_factor_range.run import load_factor_range as solve
-
-    with of_iterations("range") as show:
-        return solve(model, **settings, progress=show)
-
-
-def path(model: Model, **settings: Any) -> LoadPath:
-    """States from the permanent loads to collapse."""
-    from limitblocks.analysis.nonassociated.load_path import load_path as solve
-
-    with of_iterations("path") as show:
-        return solve(model, **settings, progress=show)

@@ -13,8 +13,10 @@ from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import (
     AsJson,
     Author,
+    ClaimFile,
     Demand,
     Dilatancy,
+    ExportFile,
     Force,
     ModelFile,
     Notes,
@@ -22,12 +24,14 @@ from limitblocks.cli.options import (
     Project,
     ReportFile,
     ResultFiles,
+    Scale,
     Title,
     Turns,
     WithBounds,
     WithNonassociated,
     WithPath,
 )
+from limitblocks.errors import LimitBlocksError
 
 _SUFFIX = ".html"
 
@@ -89,6 +93,26 @@ def report(
         found += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
         found += [analyses.path(structure, **flow)] if with_path else []
         typer.echo(str(reported(structure, *found, **labels).save(file, overwrite=force)))
+
+
+def export(
+    model: ModelFile, result: ClaimFile, file: ExportFile, scale: Scale = None, force: Force = False
+) -> None:
+    """Write forces and displaced blocks for Rhino (3dm), COMPAS (JSON), glTF (GLB) or ParaView (VTU)."""
+    with clean_errors():
+        from limitblocks.io import read, read_result, write_forces, write_vtu
+
+        refuse_existing(file, force, model, result, option="FILE")
+        structure = read(model)
+        claim = read_result(result, structure)
+        if file.suffix.lower() != ".vtu":
+            typer.echo(str(write_forces(structure, file, claim, scale=scale, overwrite=force)))
+            return
+        if scale is not None:
+            raise LimitBlocksError(
+                "--scale is of arrows; ParaView draws its own from the vectors in a VTU file"
+            )
+        typer.echo(" ".join(map(str, write_vtu(structure, file, claim, overwrite=force))))
 
 
 def schema() -> None:

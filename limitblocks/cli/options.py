@@ -44,6 +44,16 @@ ReportFile = Annotated[
     ),
 ]
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
+ExportFile = Annotated[
+    Path,
+    typer.Argument(metavar="FILE", help="3dm, JSON (COMPAS), GLB or VTU file to write.", show_default=False),
+]
+Scale = Annotated[
+    float | None,
+    typer.Option(
+        help="Length of the arrow of 1 N, m [default: 1 m is a round number of N].", show_default=False
+    ),
+]
 ResultFiles = Annotated[
     list[Path],
     typer.Argument(metavar="[RESULT...]", help="Result files that --output wrote.", show_default=False),

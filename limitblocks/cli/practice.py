@@ -36,6 +36,10 @@ Behaviour = Annotated[
 ]
 Confidence = Annotated[float, typer.Option("--confidence", help="Confidence factor FC.")]
 Linear = Annotated[bool, typer.Option("--linear", help="The linear check alone, without a capacity curve.")]
+Filed = Annotated[
+    Path | None,
+    typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
+]
 Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
 Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
 Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
@@ -110,6 +114,7 @@ def verify(
     behaviour: Behaviour,
     confidence: Confidence = 1.35,
     linear: Linear = False,
+    filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
@@ -120,14 +125,17 @@ def verify(
         from limitblocks.io import read
         from limitblocks.practice import Spectrum, capacity_curve, verification
         from limitblocks.practice.spectra import G
+        from limitblocks.reports import files, report
 
         refuse_existing(output, force, model)
+        if filed:
+            files.suffix(filed)  # before the analysis, not after it
+            refuse_existing(filed, force, model)
         structure = read(model)
         site = Spectrum(ground * G, soil, amplification, corner)
         curve = None if linear else capacity_curve(structure, progress=_line)
-        found = verification(
-            structure, nonassociated(structure), site, q=behaviour, confidence=confidence, curve=curve
-        )
+        solved = nonassociated(structure)
+        found = verification(structure, solved, site, q=behaviour, confidence=confidence, curve=curve)
         rows = [(f"{one.symbol}: {one.meaning}", one.value, one.unit) for one in found.quantities]
         rows += [
             (
@@ -137,6 +145,9 @@ def verify(
             )
             for one in found.checks
         ]
+        if filed:
+            shown = (solved, found, curve) if curve else (solved, found)
+            report(structure, *shown).save(filed, overwrite=force)
         _tell(found, "Circolare 7/2019, C8.7.1.2", rows, as_json, output, force)
     if not all(one.satisfied for one in found.checks):
         raise typer.Exit(1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from limitblocks.drawing.motion import STILL, displaced, magnification, travel
 from limitblocks.drawing.painter import Body, painting_order, placed
 from limitblocks.drawing.sheet import WIDTH, Group, Label, Shape, Sheet
 from limitblocks.drawing.silhouette import outlines
+from limitblocks.drawing.ties import moved, tie_lines
 from limitblocks.drawing.view import towards, view_of
 from limitblocks.geometry import polyhedron
 from limitblocks.model import Model
@@ -57,6 +59,8 @@ class Picture:
         Drawn displacement over displacement rate, m/m.
     largest : str
         Name of the block with the largest displacement.
+    ties : tuple of (str, str, str)
+        State, name and SVG path of each tie from anchor to anchor; displaced.
     """
 
     height: float
@@ -66,6 +70,7 @@ class Picture:
     axes: tuple[tuple[str, float, float], ...]
     magnification: float
     largest: str
+    ties: tuple[tuple[str, str, str], ...] = ()
 
     @property
     def summary(self) -> str:
@@ -80,6 +85,7 @@ class Picture:
             Group(one.kind, one.name, tuple(Shape(f.path, f"f{f.shade}") for f in one.faces))
             for one in layers
         ]
+        groups += [Group(f"tie-{state}", name, (Shape(line),)) for state, name, line in self.ties]
         groups.append(Group("outline", "", (Shape(self.outline),) if self.outline else ()))
         arms, labels = [], []
         for name, x, y in self.axes:
@@ -93,8 +99,11 @@ class Picture:
         return Sheet("mechanism", title, text, self.height + _FOOT, (*groups, *arms), tuple(labels))
 
 
-def mechanism_picture(model: Model, rates: Array) -> Picture:
-    """Return the drawing of displacement rates (n, 6) of the blocks of `model`, from where they move to."""
+def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) -> Picture:
+    """Return the drawing of displacement rates (n, 6) of the blocks of `model`, from where they move to.
+
+    `states` are those of its interfaces, in whose colours ties are drawn; all stick without them.
+    """
     blocks = model.blocks
     middle = np.mean([block.centroid for block in blocks], axis=0)
     points = [block.vertices - middle for block in blocks]
@@ -104,7 +113,9 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
     before = [placed(p, f) for p, f in zip(points, faces, strict=True)]
     shifts = [displaced(block, rate) for block, rate in zip(blocks, rates, strict=True)]
     after = [placed(p + scale * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
-    page = _Page.around(np.concatenate([body.points for body in (*before, *after)]), view)
+    lines = tie_lines(model)
+    anchors = [moved(model, line, scale * rates) - middle for line in lines]
+    page = _Page.around(np.concatenate([*(body.points for body in (*before, *after)), *anchors]), view)
     moving = sizes > STILL * max(sizes.max(), 1e-300)
     kinds = np.where(moving, "moving", "still").tolist()
     for k, block in enumerate(blocks):
@@ -124,6 +135,14 @@ def mechanism_picture(model: Model, rates: Array) -> Picture:
         axes=_axes(live, view),
         magnification=scale,
         largest=names[int(sizes.argmax())],
+        ties=tuple(
+            (
+                states[line.interface] if states else "stick",
+                model.interfaces[line.interface].name,
+                page.path(ends @ view[:2].T, closed=False),
+            )
+            for line, ends in zip(lines, anchors, strict=True)
+        ),
     )
 
 
@@ -142,9 +161,9 @@ class _Page(NamedTuple):
         spare = (WIDTH - scale * size[0]) / 2  # a tall structure stands in the middle
         return cls(scale, scale * low - [spare, MARGIN], float(np.ceil(scale * size[1] + 2 * MARGIN)))
 
-    def path(self, flat: Array) -> str:
-        """SVG path of the closed polygon `flat` (n, 2), given in m to the right and up."""
-        return sheet.path(flat * [self.scale, -self.scale] - self.corner)
+    def path(self, flat: Array, *, closed: bool = True) -> str:
+        """SVG path of the polygon or line `flat` (n, 2), given in m to the right and up."""
+        return sheet.path(flat * [self.scale, -self.scale] - self.corner, closed=closed)
 
 
 def _drawn(name: str, kind: str, faces: polyhedron.Faces, body: Body, view: Array, page: _Page) -> Drawn:

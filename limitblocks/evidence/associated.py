@@ -102,7 +102,7 @@ class Bounds(Result):
         word = "proven" if self.proven else "not proven"
         return (
             f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
-            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}"
+            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._as_read}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -116,6 +116,7 @@ class Bounds(Result):
             "proven": self.proven,
             "proof": self.proof.to_dict(),
             "residuals": self.residuals.to_dict(),
+            "residual_details": self.residuals.details(),
             "tolerance": self.tolerance,
             "solvers": list(self.solvers),
             **as_lists(self),

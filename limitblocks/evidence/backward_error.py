@@ -81,6 +81,7 @@ class BackwardError:
             {"value": self.value}
             | parts
             | {"model": self.model, "places": [list(place) for place in self.places]}
+            | {"at": {part.name: part.where for part in self.parts}}
         )
 
 

@@ -94,12 +94,14 @@ class Check(Result):
             "analysis": "check",
             "passed": self.passed,
             "residuals": self.residuals.to_dict(),
+            "residual_details": self.residuals.details(),
             "tolerance": self.tolerance,
             "backward_error": self.backward_error.to_dict(),
             "backward_error_limit": self.limit,
             "accepted": self.accepted,
             "mechanism_found": self.mechanism_found,
             "remarks": list(self.remarks),
+            "model_digest": self.digest,
         }
 
     def __str__(self) -> str:
@@ -110,7 +112,7 @@ class Check(Result):
         place = f" at {self.worst.where}" if self.worst.where else ""
         said = "".join(f"; {remark}" for remark in self.remarks)
         worst = f"worst residual {self.worst.value:.1e} ({self.worst.name}{place})"
-        return f"check {word}: {worst}, {self.backward_error}{source}{said}"
+        return f"check {word}: {worst}, {self.backward_error}{source}{said}{self._as_read}"
 
 
 def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward_error: Any = None) -> Check:

@@ -121,7 +121,8 @@ def claim_of(model: Model, result: Any) -> Claim:
     missing = [name for name in ("load_factor", "stress_resultants") if not hasattr(result, name)]
     if missing:
         raise ModelError(
-            f"{type(result).__name__} has no {' and no '.join(missing)}; expected a Claim or a result"
+            f"{type(result).__name__} has no {' and no '.join(missing)}; expected a Claim, or the result of "
+            "bounds, nonassociated or path; of a range, one of its answers"
         )
     refuse_other(model, result)
     problem, shapes = model.problem, {}

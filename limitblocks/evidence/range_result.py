@@ -171,6 +171,7 @@ class LoadFactorRange(Result):
             f"load factor {start} by the load path; {_span(self.reached)} reached from permanent-load "
             f"states; {_span(self.certified)} certified, reachable or not{exact}{stopped}"
             + "".join(f"; {remark}" for remark in self.remarks)
+            + self._as_read
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -178,6 +179,7 @@ class LoadFactorRange(Result):
         return {
             "analysis": "range",
             "load_path": self.load_path.load_factor if self.load_path else None,
+            "load_path_place": next((k for k, one in enumerate(self.answers) if one is self.load_path), None),
             "reached": list(self.reached),
             "certified": list(self.certified),
             "intervals": [list(interval) for interval in self.intervals],

@@ -64,6 +64,10 @@ class Residuals:
         """Name and value of each residual."""
         return {entry.name: entry.value for entry in self.entries}
 
+    def details(self) -> dict[str, list[str]]:
+        """What each residual measures, and where it is largest."""
+        return {entry.name: [entry.meaning, entry.where] for entry in self.entries}
+
 
 def residual(
     name: str, values: Array | float, meaning: str, scale: Array | float = 1.0, where: Sequence[str] = ()

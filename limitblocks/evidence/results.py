@@ -147,7 +147,7 @@ class Nonassociated(Result):
         return (
             f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
             f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
-            f"{''.join(f'; {one}' for one in said)}"
+            f"{''.join(f'; {one}' for one in said)}{self._as_read}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -163,6 +163,7 @@ class Nonassociated(Result):
             "turning": self.turning.value,
             "remarks": list(self.remarks),
             "residuals": self.residuals.to_dict(),
+            "residual_details": self.residuals.details(),
             "tolerance": self.tolerance,
             "backward_error": self.backward_error.to_dict(),
             "how": self.how,

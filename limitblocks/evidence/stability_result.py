@@ -90,7 +90,7 @@ class Stability(Result):
         worst = self.residuals.worst
         return (
             f"{self.kind.value}{moving}; margin {self.margin:.3g}, worst residual {worst.value:.1e} "
-            f"({worst.name})"
+            f"({worst.name}){self._as_read}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -104,6 +104,7 @@ class Stability(Result):
             "margin": self.margin,
             "blocks": list(self.blocks),
             "residuals": self.residuals.to_dict(),
+            "residual_details": self.residuals.details(),
             **{name: None if (v := getattr(self, name)) is None else v.tolist() for name in arrays},
             "model_digest": self.digest,
         }

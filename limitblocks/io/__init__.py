@@ -1,6 +1,7 @@
 """Files in and out: the model file, the result file, and blocks in the formats of other programs."""
 
 from limitblocks.io.blocks import read_blocks, write_blocks
+from limitblocks.io.forces import write_forces
 from limitblocks.io.formats.dxf.outlines import read_drawing
 from limitblocks.io.formats.gltf.writer import write_animation
 from limitblocks.io.formats.vtu import write_vtu
@@ -23,6 +24,7 @@ __all__ = [
     "read_result",
     "write_animation",
     "write_blocks",
+    "write_forces",
     "write_result",
     "write_vtu",
 ]

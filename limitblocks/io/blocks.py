@@ -113,19 +113,19 @@ def write_blocks(
             f"{path}: suffix {path.suffix!r} is unknown; expected one of {', '.join(formats.WRITTEN)}"
         )
     given = blocks.supports if isinstance(blocks, Model | ImportedBlocks) else ()
-    bodies, supports = tuple(map(_plain, bodies)), set(map(one_line, given))
+    bodies, supports = tuple(map(plain, bodies)), set(map(one_line, given))
     layers = labels(bodies, supports or None)
     return write(path, formats.module(path.suffix).encoded(bodies, layers, supports), overwrite)
 
 
-def _plain(block: Block) -> Block:
+def plain(block: Block) -> Block:
     """Return a block with its name, layer and material as every format can have them."""
     words = {key: getattr(block, key) for key in ("name", "layer", "material")}
-    plain = {key: one_line(word) for key, word in words.items()}
-    if plain == words:
+    after = {key: one_line(word) for key, word in words.items()}
+    if after == words:
         return block
     same = copy(block)
-    same.__dict__.update(plain)
+    same.__dict__.update(after)
     return same
 
 

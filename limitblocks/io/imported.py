@@ -109,6 +109,13 @@ def one_line(name: str) -> str:
     return " ".join(_NO_LETTER.sub("\ufffd", " ".join(name.split())).split())
 
 
+def on_groups(sizes: Iterable[tuple[str, int]]) -> list[str]:
+    """Return the note on groups of a drawing, by name and number of objects; none where there are none."""
+    named = [f"{one_line(name)!r} × {size}" for name, size in sizes if size]
+    more = f" and {len(named) - 8} more" if len(named) > 8 else ""
+    return [f"groups are not kept, layers are: {', '.join(named[:8])}{more}"] if named else []
+
+
 @contextmanager
 def foreign(word: str) -> Iterator[None]:
     """Turn whatever another package does with a damaged file into one ModelError; `word` is the format."""
@@ -173,7 +180,7 @@ def imported(
     where = frame(contents, units, up)
     found = blocks_of(contents, where, twisted)
     if found.wrong and (not skip_bad or not found.blocks):
-        raise refused(found.wrong, len(found.blocks))
+        raise refused(found.wrong, len(found.blocks), found.twisted)
     weights = _weights({block.name: block.layer for block in found.blocks}, unit_weight)
     blocks = tuple(
         block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
@@ -190,7 +197,7 @@ def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) 
     found = made(named, where.metres * _upright(where.up), twisted)
     supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
     wrong = {**contents.wrong, **found.wrong}
-    return Made(found.blocks, (*renamed, *found.notes), wrong, supports)
+    return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted)
 
 
 def frame(contents: Contents, units: str | None, up: str | None) -> Frame:

@@ -21,12 +21,16 @@ _TWIST = 4.0
 
 
 class Made(NamedTuple):
-    """Blocks, what was mended, what is wrong with solids that are none, by name, and which are supports."""
+    """Blocks, what was mended, what is wrong with solids that are none, by name, and which are supports.
+
+    `twisted` is the number of solids whose fault is that faces are twisted.
+    """
 
     blocks: tuple[Block, ...]
     notes: tuple[str, ...]
     wrong: dict[str, Sequence[str]]
     supports: tuple[str, ...] = ()
+    twisted: int = 0
 
 
 _Mended = tuple[Block, tuple[str, ...]]
@@ -52,7 +56,8 @@ def made(named: Mapping[str, Solid], placement: Array, twisted: Twisted | None) 
         good |= _accurate(good, {name: named[name] for name in bent}, placement, bent)
     wrong = {name: lines for name, lines in wrong.items() if name not in good}
     kept = [good[name] for name in named if name in good]
-    return Made(tuple(block for block, _ in kept), tuple(line for _, said in kept for line in said), wrong)
+    notes = tuple(line for _, said in kept for line in said)
+    return Made(tuple(block for block, _ in kept), notes, wrong, twisted=sum(name in wrong for name in bent))
 
 
 def _made(name: str, solid: Solid, placement: Array, twisted: Twisted) -> _Mended:
@@ -82,14 +87,21 @@ def _accurate(
     return taken
 
 
-def refused(wrong: Mapping[str, Sequence[str]], good: int) -> ModelError:
-    """Return the error that lists all solids that are no blocks, beside so many `good` ones."""
+def refused(wrong: Mapping[str, Sequence[str]], good: int, twisted: int = 0) -> ModelError:
+    """Return the error that lists all solids that are no blocks, beside so many `good` ones.
+
+    The first line says what to do: about twisted faces where these are what is wrong with most.
+    """
     lines = [line for problems in wrong.values() for line in problems]
-    if good:
-        lines.insert(
-            0,
-            f"{len(wrong)} of {good + len(wrong)} blocks are bad; --skip-bad (skip_bad=True) leaves them out",
-        )
+    bad = f"{len(wrong)} of {good + len(wrong)} blocks are bad"
+    skip = "--skip-bad (skip_bad=True) leaves"
+    if 2 * twisted > len(wrong) and good + len(wrong) > 1:
+        most = f"{twisted} of them " * (twisted < len(wrong))
+        also = f"; {skip} out what is bad" * bool(good)
+        divide = "--twisted triangulate (twisted='triangulate') divides these"
+        lines.insert(0, f"{bad}, {most}by twisted faces; {divide}{also}")
+    elif good:
+        lines.insert(0, f"{bad}; {skip} them out")
     return ModelError(*lines)
 
 

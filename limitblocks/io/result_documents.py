@@ -40,6 +40,7 @@ class StateDocument(Document):
     """Generalised stresses that carry the dead loads alone."""
     # kept for the reader; no check believes a word of it
     residuals: Any = None
+    residual_details: Any = None
     tolerance: Any = None
     versions: Any = None
 

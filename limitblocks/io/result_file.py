@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.evidence.check import Check
 from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.stability_result import Stability
 from limitblocks.io import faults, strict_json
 from limitblocks.model import Model
 from limitblocks.problem import turning_of
@@ -23,13 +26,13 @@ RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel")
 _STILL = (0.0,) * 6
 _NO_CLAIM = {
-    "range": "holds a range of load factors; expected the result of bounds, nonassociated or path, or one of "
-    'its answers, which has its own under "solution"',
+    "range": "holds a range of load factors that is not all there; expected the result of bounds, "
+    'nonassociated or path, or one of its answers, which has its own under "solution"',
     "study": "holds a study, the load factors of many models; expected the result of bounds, "
     "nonassociated or path",
-    "stability": "holds the answer whether the dead loads stand, no load factor; expected the result of "
-    "bounds, nonassociated or path",
-    "check": "holds a check, not a result; expected the result of bounds, nonassociated or path",
+    "stability": "holds the answer whether the dead loads stand, no load factor, and not all of it; expected "
+    "the result of bounds, nonassociated or path",
+    "check": "holds a check that is not all there; expected the result of bounds, nonassociated or path",
 }
 
 
@@ -40,10 +43,13 @@ class Result(Protocol):
         """Return the result as plain numbers, lists and text."""
 
 
-def read_result(file: str | Path, model: Model | None = None) -> Claim:
-    """Return the claimed solution in `file`, a JSON document as described in docs/result-file.md.
+def read_result(file: str | Path, model: Model | None = None) -> Any:
+    """Return the result in `file`, a JSON document as described in docs/result-file.md.
 
-    Nothing in the file is believed: :func:`limitblocks.check_mcp` says whether it is a solution.
+    It is of the class that was saved, such as :class:`limitblocks.results.Nonassociated`, where the file has
+    all that the class needs; else, as of another program, a :class:`limitblocks.results.Claim`. Nothing in
+    the file is evidence: :func:`limitblocks.check_mcp` says whether it is a solution, and reports judge its
+    numbers anew.
 
     Parameters
     ----------
@@ -60,7 +66,14 @@ def read_result(file: str | Path, model: Model | None = None) -> Claim:
     """
     path = Path(file)
     with faults.named(path):
-        return _claim(_document(strict_json.read_text(path)), model)
+        text = strict_json.read_text(path)
+        data = strict_json.parse(text)
+        made = _made(data)
+        if isinstance(made, Stability | Check | LoadFactorRange):  # no claimed solution
+            _refuse_other(model, made.digest)
+            return made
+        claim = _claim(_document(text, data), model)
+        return claim if made is None else made
 
 
 def write_result(result: Result, file: str | Path, *, overwrite: bool = False) -> Path:
@@ -85,10 +98,24 @@ def versions() -> dict[str, str]:
     return {name: metadata.version(name) for name in _STATED}
 
 
-def _document(text: str) -> ResultDocument | BoundsDocument:
+def _made(data: Any) -> Any:
+    """The result as its own class; None where the file lacks something."""
+    from limitblocks.io.saved import Lacking, result_of  # here, to keep `import limitblocks` quick
+
+    try:
+        return result_of(data)
+    except Lacking:
+        return None
+
+
+def _refuse_other(model: Model | None, digest: str) -> None:
+    if model and digest and digest != model.digest:
+        raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+
+
+def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
     from limitblocks.io.result_documents import BoundsDocument, PathDocument, ResultDocument
 
-    data = strict_json.parse(text)
     kind = data.get("analysis") if isinstance(data, dict) else None
     if isinstance(kind, str) and kind in _NO_CLAIM:
         raise ModelError(_NO_CLAIM[kind])
@@ -101,8 +128,7 @@ def _document(text: str) -> ResultDocument | BoundsDocument:
 
 def _claim(document: ResultDocument | BoundsDocument, model: Model | None) -> Claim:
     digest = document.model_digest
-    if model and digest and digest != model.digest:
-        raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+    _refuse_other(model, digest)
     wrong = faults.Faults()
     interfaces = [interface.name for interface in model.interfaces] if model else None
     resultants = wrong.made("stress_resultants", _rows, document.stress_resultants, interfaces)

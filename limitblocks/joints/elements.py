@@ -9,7 +9,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints.base import YieldRows, checked_stress
+from limitblocks.joints.base import YieldRows, checked_stress, stress_words
 from limitblocks.problem import Mode
 
 
@@ -47,6 +47,20 @@ class Tie:
     def friction(self) -> float:
         """None: the flow is associated."""
         return 0.0
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        long = f", {self.length:.4g} m from anchor to anchor" if self.length else ""
+        return f"tie, tension up to {stress_words(self.strength)} on its section, no compression{long}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Ties are rigid until they yield, yield without end at one force, and go slack as their "
+            "ends approach.",
+            "Ties act along one line and do not bend around blocks; their anchors hold the force at "
+            "which they yield.",
+        )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return 0 <= N <= strength x area; see :class:`~limitblocks.joints.base.Joint`."""
@@ -94,6 +108,17 @@ class Dowel:
     def friction(self) -> float:
         """None: the flow is associated."""
         return 0.0
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        return f"dowel, shear up to {stress_words(self.strength)} on its section"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Dowels carry shear, the same in all directions, and neither tension nor compression; they yield "
+            "without end.",
+        )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the cone of V1, V2; see :class:`~limitblocks.joints.base.Joint`."""
@@ -146,6 +171,14 @@ class Guide:
     def friction(self) -> float:
         """None: the flow is associated."""
         return 0.0
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        return "guide, free to slide along one direction and rigid otherwise"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return ("Guides hold a block against all motion but one translation, without friction.",)
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return two rows for each resultant but V1; see :class:`~limitblocks.joints.base.Joint`."""

@@ -11,6 +11,7 @@ try:
 except ImportError as error:
     raise missing("matplotlib", "limitblocks.plots") from error
 
+from limitblocks.plots.capacities import capacity
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import bracket, convergence, load_path, polar
 from limitblocks.plots.findings import findings
@@ -20,6 +21,7 @@ from limitblocks.plots.surfaces import interaction
 
 __all__ = [
     "bracket",
+    "capacity",
     "convergence",
     "findings",
     "forces",

@@ -9,13 +9,15 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.chains import chains, crowded
+from limitblocks.drawing.ties import has_area, tie_lines
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Interface
+from limitblocks.joints import Guide
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
-from limitblocks.plots.structures import draw_structure
+from limitblocks.plots.structures import draw_structure, draw_ties
 from limitblocks.plots.style import (
     BLACK,
     BLUE,
@@ -45,6 +47,8 @@ COLOURS = {
     "hinge-twist": (YELLOW, 2.6),
     "hinge-slide-twist": ("#7b4a12", 2.6),
     "crush": (BLACK, 3.4),
+    "yield": ("#a6093d", 3.0),
+    "slack": (PALE, 1.4),
 }
 
 
@@ -150,7 +154,9 @@ def chain(model: Model) -> list[int]:
 def interface_states(
     model: Model, result: states.Collapse | LoadPath, ax: Any = None, *, plane: str | None = None
 ) -> Any:
-    """Draw each interface in the colour of its state: stick, slide, twist, hinge, crush, open.
+    """Draw each interface in the colour of its state: stick, slide, twist, hinge, crush, open, yield, slack.
+
+    Ties are lines from anchor to anchor.
 
     Dots are the centres of pressure of hinges. The legend counts the interfaces of each state.
 
@@ -171,17 +177,24 @@ def interface_states(
     interfaces = states.interface_states(model, result)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
-    counted = Counter(interfaces.state)
+    ties, drawable = tie_lines(model), has_area(model)
+    shapes = {k: _corners(one) for k, one in enumerate(model.interfaces) if drawable[k]}
+    guides = {k for k, one in enumerate(model.interfaces) if isinstance(one.joint, Guide)}
+    counted = Counter(state for k, state in enumerate(interfaces.state) if k not in guides)
     for state in sorted(counted, key=[*COLOURS, *sorted(counted)].index):
         colour, width = COLOURS.get(state, COLOURS["crush"])
-        these = [_corners(i) for i, s in zip(model.interfaces, interfaces.state, strict=True) if s == state]
+        these = [shapes[k] for k, own in enumerate(interfaces.state) if own == state and k in shapes]
+        tied = [line.anchors for line in ties if interfaces.state[line.interface] == state]
         style = {
             "facecolors": colour,
             "edgecolors": colour,
             "linewidths": width if not drawn.spatial else 0.6,
         }
         alpha = {"alpha": 0.35 if state == "stick" else 0.85} if drawn.spatial else {}
-        drawn.polygons(these, label=f"{state} ({counted[state]})", **style, **alpha)
+        label = f"{state} ({counted[state]})"
+        if these:
+            drawn.polygons(these, label=label, **style, **alpha)
+        draw_ties(drawn, tied, colors=colour, linewidths=max(width, 1.4), label="" if these else label)
     hinges = interfaces.centre_of_pressure[["hinge" in state for state in interfaces.state]]
     drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4)
     drawn.legend()
@@ -194,4 +207,5 @@ def _corners(interface: Interface) -> Array:
 
 def _pale(drawn: Canvas, model: Model) -> None:
     """The structure as a background for what is drawn over it."""
+    draw_ties(drawn, [line.anchors for line in tie_lines(model)], colors=PALE)
     draw_structure(drawn, model, edgecolor=PALE, alpha=0.25 if drawn.spatial else 1.0)

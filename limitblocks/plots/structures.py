@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import STILL, displaced, magnification, travel
+from limitblocks.drawing.ties import moved, tie_lines
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.evidence.load_path_result import LoadPath
@@ -22,7 +24,7 @@ LIVE = 0.12  # length of the arrow of the live load, over the diagonal
 def structure(
     model: Model, ax: Any = None, *, plane: str | None = None, names: bool = False, live: bool = True
 ) -> Any:
-    """Draw the blocks; supports are hatched in elevation, dark in 3D.
+    """Draw the blocks, and ties as lines; supports are hatched in elevation, dark in 3D.
 
     Parameters
     ----------
@@ -50,6 +52,7 @@ def structure(
     """
     drawn = canvas(model, ax, plane)
     draw_structure(drawn, model)
+    draw_ties(drawn, [line.anchors for line in tie_lines(model)])
     if live:
         _draw_live(drawn, model, [block.vertices for block in model.blocks])
     if names:
@@ -63,7 +66,14 @@ def draw_structure(drawn: Canvas, model: Model, **style: Any) -> None:
     points = [block.vertices for block in model.blocks]
     colours = [SUPPORT if block.name in model.supports else STONE for block in model.blocks]
     drawn.blocks(points, [block.faces for block in model.blocks], colours, **style)
-    drawn.frame(np.concatenate(points))
+    drawn.frame(np.concatenate([*points, *(line.anchors for line in tie_lines(model))]))
+
+
+def draw_ties(drawn: Canvas, lines: Sequence[Array], **style: Any) -> None:
+    """Draw ties from anchor to anchor (2, 3)."""
+    if lines:
+        drawn.lines(lines, **({"colors": EDGE, "linewidths": 1.4} | style))
+        drawn.beyond.append(np.concatenate(lines))
 
 
 def _draw_live(drawn: Canvas, model: Model, shapes: list[Array]) -> None:
@@ -141,6 +151,7 @@ def mechanism(
     colours[[block.name in model.supports for block in model.blocks]] = SUPPORT
     drawn.blocks(after, [block.faces for block in model.blocks], colours.tolist())
     outline = [before[k] for k in np.flatnonzero(moving)]
+    draw_ties(drawn, [moved(model, line, factor * rates) for line in tie_lines(model)])
     drawn.outline(outline, colors=EDGE, linewidths=0.8, linestyles=(0, (4, 2.5)))
     _draw_live(drawn, model, before + after)
     largest = f"{factor * sizes.max():.2g} m"

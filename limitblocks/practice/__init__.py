@@ -15,7 +15,8 @@ from limitblocks.practice.vehicles import (
     vehicle_load,
     worst_position,
 )
-from limitblocks.practice.verification import Inequality, Quantity, Verification, verification
+from limitblocks.practice.verification import verification
+from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 from limitblocks.practice.water import uplift
 
 __all__ = [

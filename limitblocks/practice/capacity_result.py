@@ -93,6 +93,11 @@ class CapacityCurve:
         return sound[-1]
 
     @property
+    def digest(self) -> str:
+        """SHA-256 of the model, the structure as it is."""
+        return self.points[0].result.digest
+
+    @property
     def displacements(self) -> Array:
         """Displacements of the points, m, shape (p,)."""
         return read_only(np.array([point.displacement for point in self.points]))
@@ -106,6 +111,8 @@ class CapacityCurve:
         """Return the curve as numbers and text."""
         control = self.control
         return {
+            "analysis": "capacity curve",
+            "digest": self.digest,
             "control": {"block": control.block, "point": control.point.tolist(),
                         "direction": control.direction.tolist()},
             "displacements": self.displacements.tolist(),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Tie
 from limitblocks.mechanics import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
-from limitblocks.mechanics.loads.load import number, of
+from limitblocks.mechanics.loads.load import number, of, triple
 from limitblocks.model import Model
 from limitblocks.practice.elements import Element, reinforced
 
@@ -42,6 +43,12 @@ class Repair:
         Of `model`: its static load factor is at least what was required, less 1e-5 of it.
     result : Nonassociated
         Of `model`, without dilatancy: may be less.
+    candidates : tuple of str
+        What the amounts are of.
+    required : float
+        Load factor that was required.
+    digest : str
+        SHA-256 of the model that was given.
     """
 
     amounts: Array
@@ -49,6 +56,22 @@ class Repair:
     model: Model
     bounds: Bounds
     result: Nonassociated
+    candidates: tuple[str, ...]
+    required: float
+    digest: str
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the amounts and both results as numbers and text."""
+        return {
+            "analysis": "repair",
+            "digest": self.digest,
+            "required": self.required,
+            "candidates": list(self.candidates),
+            "amounts": self.amounts.tolist(),
+            "total": self.total,
+            "bounds": self.bounds.to_dict(),
+            "result": self.result.to_dict(),
+        }
 
     def __str__(self) -> str:
         return (
@@ -94,9 +117,11 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     amounts = np.maximum(forces * weights, 0.0)[ties]
     own = [_of_force(one, amount) for one, amount in zip(candidates, amounts, strict=True)]
     kept = [one for one, amount in zip(own, amounts, strict=True) if amount > NONE * amounts.max(initial=0.0)]
-    return _repair(
-        np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0), reinforced(model, *kept), required
+    kinds = tuple(
+        f"{one.interface.name} at {triple(one.interface.centroid.tolist())} m" for one in candidates
     )
+    used = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
+    return _repair(used, reinforced(model, *kept), required, kinds, model.digest)
 
 
 def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], load_factor: float) -> Repair:
@@ -138,7 +163,8 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         dead=model.dead + of(*heaps),
         live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
     )
-    return _repair(amounts, added, required)
+    kinds = tuple(f"weight on {block} at {triple(at)} m" for block, at in places)
+    return _repair(amounts, added, required, kinds, model.digest)
 
 
 def _of_force(element: Element, force: float) -> Element:
@@ -149,10 +175,11 @@ def _of_force(element: Element, force: float) -> Element:
     return Element(replace(own, joint=replace(joint, strength=strength)))
 
 
-def _repair(amounts: Array, model: Model, required: float) -> Repair:
+def _repair(amounts: Array, model: Model, required: float, kinds: tuple[str, ...], digest: str) -> Repair:
     pair = bounds(model)
     if not pair.lower >= required * (1.0 - 10.0 * AMPLE):
         raise SolverFailure(
             f"the reinforcement found reaches {pair.lower:.6g} only, required was {required:.6g}"
         )
-    return Repair(read_only(amounts), float(amounts.sum()), model, pair, nonassociated(model))
+    total = float(amounts.sum())
+    return Repair(read_only(amounts), total, model, pair, nonassociated(model), kinds, required, digest)

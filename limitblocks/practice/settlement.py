@@ -73,6 +73,8 @@ class Settlement:
         Evidence of the first two; a result of ``settling.model``.
     result : Nonassociated or None
         Evidence of the third; its mechanism is the crack pattern.
+    digest : str
+        SHA-256 of the model that was given, whose support does not move yet.
     """
 
     settling: Settling
@@ -81,10 +83,13 @@ class Settlement:
     nonassociated: float | None
     bounds: Bounds
     result: Nonassociated | None
+    digest: str
 
     def to_dict(self) -> dict[str, Any]:
         """Return the reactions and both results as numbers and text."""
         return {
+            "analysis": "settlement",
+            "digest": self.digest,
             "support": self.settling.support,
             "direction": self.settling.direction.tolist(),
             "lower": self.lower,
@@ -151,6 +156,7 @@ def settlement(
         nonassociated=own.reaction(result.load_factor) if result else None,
         bounds=pair,
         result=result,
+        digest=model.digest,
     )
 
 

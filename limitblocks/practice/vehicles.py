@@ -100,6 +100,8 @@ class WorstPosition:
         There.
     model : Model
         There.
+    digest : str
+        SHA-256 of the model that was given.
     """
 
     positions: Array
@@ -107,10 +109,13 @@ class WorstPosition:
     position: float
     bounds: Bounds
     model: Model
+    digest: str
 
     def to_dict(self) -> dict[str, Any]:
         """Return the envelope and the bounds at the worst position as numbers and text."""
         return {
+            "analysis": "worst position",
+            "digest": self.digest,
             "positions": self.positions.tolist(),
             "load_factors": [a if np.isfinite(a) else None for a in self.load_factors.tolist()],
             "position": self.position,
@@ -219,7 +224,7 @@ def worst_position(
     assert found  # one is finite
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
-    return WorstPosition(order, values, worst, *found)
+    return WorstPosition(order, values, worst, *found, model.digest)
 
 
 def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bounds, Model] | None:

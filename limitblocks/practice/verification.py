@@ -7,8 +7,6 @@ it. No verdict of a code beyond the inequalities named.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -19,104 +17,14 @@ from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
+from limitblocks.practice.inputs import GIVEN, carried, given
 from limitblocks.practice.spectra import Floor, G, Spectrum
+from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 
 STILL = 1e-6  # of the largest displacement: a mass below it does not move
 SECTION = "Circolare 7/2019, C8.7.1.2"
 SLV, SLC = 0.4, 0.6  # of d0*: displacement at the limit state
 PERIODS = {"SLV": (SLV, 1.68), "SLC": (SLC, 1.56)}  # T = factor pi sqrt(d* / a*)
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number of the verification, with how it comes about.
-
-    Attributes
-    ----------
-    symbol, meaning, formula : str
-        As an engineer reads them.
-    value : float
-    unit : str
-        SI; "" of a pure number.
-    source : str
-        Section that names it.
-    """
-
-    symbol: str
-    meaning: str
-    formula: str
-    value: float
-    unit: str
-    source: str
-
-
-@dataclass(frozen=True)
-class Inequality:
-    """A check: capacity over demand, satisfied where it is at least one."""
-
-    name: str
-    capacity: float
-    demand: float
-    unit: str
-    source: str
-
-    @property
-    def ratio(self) -> float:
-        """Capacity over demand."""
-        return self.capacity / self.demand
-
-    @property
-    def satisfied(self) -> bool:
-        """Whether the ratio is at least one."""
-        return self.ratio >= 1.0
-
-
-@dataclass(frozen=True, eq=False)
-class Verification:
-    """Quantities in the order in which they are found, and the inequalities between them.
-
-    Attributes
-    ----------
-    quantities : tuple of Quantity
-    checks : tuple of Inequality
-    moving : tuple of str
-        Blocks of the mechanism.
-    digest : str
-        SHA-256 of the model.
-    """
-
-    quantities: tuple[Quantity, ...]
-    checks: tuple[Inequality, ...]
-    moving: tuple[str, ...]
-    digest: str
-
-    def __getitem__(self, symbol: str) -> float:
-        """Value of the quantity with a symbol; KeyError where there is none."""
-        for quantity in self.quantities:
-            if quantity.symbol == symbol:
-                return quantity.value
-        raise KeyError(symbol)
-
-    def to_dict(self) -> dict[str, Any]:
-        """Return all quantities and checks as numbers and text."""
-        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
-        return {
-            "quantities": [{key: getattr(one, key) for key in keys} for one in self.quantities],
-            "checks": [
-                {"name": one.name, "capacity": one.capacity, "demand": one.demand, "ratio": one.ratio,
-                 "unit": one.unit, "satisfied": one.satisfied, "source": one.source}
-                for one in self.checks
-            ],
-            "moving": list(self.moving),
-            "digest": self.digest,
-        }  # fmt: skip
-
-    def __str__(self) -> str:
-        checks = (
-            f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
-            for one in self.checks
-        )
-        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks))
 
 
 def verification(
@@ -176,19 +84,25 @@ def verification(
     a0 = alpha * G / (e * confidence)
     found = [
         Quantity(
-            "alpha0", "load factor of the mechanism", "without dilatancy", alpha, "", "certified result"
+            "alpha0", "load factor of the mechanism", "without dilatancy", alpha, "", "result of this report"
         ),
         Quantity("sum P", "weight that moves", "sum P_i", float(weights.sum()), "N", SECTION),
         Quantity(
             "M*", "participating mass", "(sum P_i delta_i)^2 / (g sum P_i delta_i^2)", mass, "kg", SECTION
         ),
         Quantity("e*", "participating share", "g M* / sum P_i", e, "", SECTION),
-        Quantity("FC", "confidence factor", "given", confidence, "", "NTC 2018, C8.5.4"),
+        Quantity("FC", "confidence factor", GIVEN, confidence, "", "Circolare 7/2019, C8.5.4"),
         Quantity("a0*", "acceleration that sets it off", "alpha0 g / (e* FC)", a0, "m/s2", SECTION),
     ]
     largest = floor.largest(demand) if floor else demand.a_g * demand.S
-    words = "largest floor acceleration / q" if floor else "a_g S / q"
-    found.append(Quantity("a_d", "demand of the linear check", words, largest / q, "m/s2", SECTION))
+    found += given(demand)
+    if floor:
+        found += carried(floor, largest)
+    words = "a_Z / q" if floor else "a_g S / q"
+    found += [
+        Quantity("q", "behaviour factor", GIVEN, q, "", SECTION),
+        Quantity("a_d", "demand of the linear check", words, largest / q, "m/s2", SECTION),
+    ]
     checks = [Inequality("linear, SLV", a0, largest / q, "m/s2", SECTION)]
     if curve:
         d0 = _spectral(model, collapse.displacement_rates, curve, sums)
@@ -197,6 +111,7 @@ def verification(
                      "d_k0 sum P_i delta_i^2 / (delta_k sum P_i delta_i)", d0, "m", SECTION)
         )  # fmt: skip
         for state, spectrum in (("SLV", demand), ("SLC", collapse_demand)):
+            found += given(spectrum, state) if spectrum and state != "SLV" else []
             if spectrum:
                 more, check = _non_linear(state, a0, d0, spectrum, floor)
                 found += more
@@ -219,7 +134,9 @@ def _non_linear(
         Quantity(
             f"T_{state}", f"secant period at {state}", f"{factor:g} pi sqrt(d* / a*)", period, "s", SECTION
         ),
-        Quantity(f"S_{state}", f"displacement demand at {state}", said, wanted, "m", "NTC 2018, 3.2.3.2.1"),
+        Quantity(
+            f"S_De_{state}", f"displacement demand at {state}", said, wanted, "m", "NTC 2018, 3.2.3.2.1"
+        ),
     ]
     return quantities, Inequality(f"non-linear, {state}", d, wanted, "m", SECTION)
 
@@ -257,7 +174,7 @@ def _spectral(model: Model, rates: Array, curve: CapacityCurve, sums: tuple[floa
     """d0* of the displacement of the control point at which nothing resists any more."""
     if curve.zero is None:
         raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
-    if curve.points[0].result.digest != model.digest:
+    if curve.digest != model.digest:
         raise ModelError("the capacity curve belongs to another model")
     k = [block.name for block in model.blocks].index(curve.control.block)
     arm = curve.control.point - model.blocks[k].centroid

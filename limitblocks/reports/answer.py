@@ -103,7 +103,7 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
         return None
     ratio = found.load_factor / demand
     word = "load factor" if found.certified else "upper estimate of the load factor"
-    said = f"the {word} {found.load_factor:.4g} is {_rounded_down(ratio)} times the demand {demand:.4g}"
+    said = f"the {word} {found.load_factor:.4g} is {rounded_down(ratio)} times the demand {demand:.4g}"
     if ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:
@@ -128,7 +128,7 @@ def _certified(results: Sequence[Any]) -> Iterator[tuple[float, str]]:
             yield result.load_factor, "claimed solution, checked"
 
 
-def _rounded_down(ratio: float) -> str:
+def rounded_down(ratio: float) -> str:
     """Three digits, never more than there is: .9996 is not 1.00."""
     digits = 2 - floor(log10(abs(ratio))) if ratio else 2
     scale = 10.0**digits

@@ -20,6 +20,7 @@ _SCRIPTS = (
     "palette",
     "bodies",
     "letters",
+    "ties",
     "contacts",
     "stage",
     "triad",

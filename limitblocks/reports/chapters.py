@@ -24,9 +24,9 @@ from limitblocks.reports.document import (
     Text,
 )
 from limitblocks.reports.facts import assumptions, fact_rows
-from limitblocks.reports.interfaces import active_interfaces
+from limitblocks.reports.interfaces import ELEMENT_HEADS, Active, active_interfaces, element_rows
 from limitblocks.reports.labels import Labels
-from limitblocks.reports.section import Section
+from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import acceleration
 
 GENERAL = (
@@ -51,7 +51,6 @@ SENSITIVITY = (
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
 VIEWED = (("still", "block that can move"), ("support", "support"))
-LEGEND = (("moving", "moving"), ("still", "standing still"), ("support", "support"), ("ghost", "before"))
 
 
 def document(
@@ -92,16 +91,22 @@ def document(
 def chapter(one: Section, picture: Picture | None, title: str, interfaces: Sequence[Part] = ()) -> Chapter:
     """Return what a report says of one result."""
     parts: list[Part] = [Headline(one.headline, one.quantity)]
-    parts += [Table.of("Result", ("Quantity", "Value", "From"), one.values, right=(1,)), Text(one.meaning)]
+    if one.values:
+        parts.append(Table.of("Result", ("Quantity", "Value", "From"), one.values, right=(1,)))
+    parts.append(Text(one.meaning))
     if picture:
         caption = MECHANISM.format(picture.magnification)
-        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, LEGEND))
+        ties = tuple((f"tie-{state}", f"tie: {state}") for state in dict.fromkeys(t[0] for t in picture.ties))
+        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, (*LEGEND, *ties)))
     if one.curve:
         parts.append(Figure(one.curve.sheet(), one.curve.caption))
-    parts += [*interfaces, *([one.steps] if one.steps else [])]
+    parts += [*interfaces, *one.parts]
     caption = f"Residuals, recomputed without the solver; each at most {one.tolerance:.1e}"
     checks = [(c.name, f"{c.value:.1e}", c.meaning, "pass" if c.passed else "FAIL") for c in one.checks]
-    parts.append(Table.of(caption, ("Residual", "Value", "What it measures", "Check"), checks, right=(1,)))
+    if checks:
+        parts.append(
+            Table.of(caption, ("Residual", "Value", "What it measures", "Check"), checks, right=(1,))
+        )
     return Chapter(one.title, tuple(parts))
 
 
@@ -151,6 +156,12 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     table = active_interfaces(model, result, one.title)
     if table is None:
         return ()
+    elements = element_rows(model, result)
+    tied = Table.of("Ties and dowels", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    return (*_active(table, place), *((tied,) if elements else ()))
+
+
+def _active(table: Active, place: int) -> tuple[Part, ...]:
     shown = f"; the {len(table.rows)} that move most" if len(table.rows) < table.active else ""
     caption = f"Interfaces that do not stick: {table.active} of {table.interfaces}{shown}"
     if not table.rows:

@@ -1,15 +1,26 @@
-"""A claim of somebody's, with what the checker says of it."""
+"""What was read from a file, with what the checker says of it."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
+from limitblocks.errors import LimitBlocksError
+from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.check import Check, check_mcp
-from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.claim import Claim, claim_of
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
+
+USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,5 +68,71 @@ class CheckedClaim:
 
 
 def checked(model: Model, result: Any) -> Any:
-    """Return a claim with its check; any other result as it is."""
-    return CheckedClaim(result, check_mcp(model, result)) if isinstance(result, Claim) else result
+    """Return a claim with its check, and what was read from a file as it is judged here.
+
+    What was read and proves to be what it says stays of its class, with residuals recomputed; what does not
+    is a claim with its check. A result of this session is returned as it is.
+
+    Raises
+    ------
+    LimitBlocksError
+        It belongs to another model, or a range has an answer that is no solution.
+    """
+    if isinstance(result, Claim):
+        return CheckedClaim(result, check_mcp(model, result))
+    judge = _JUDGES.get(type(result)) if getattr(result, "from_file", False) else None
+    return judge(model, result) if judge else result
+
+
+def _bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
+    tolerance = min(bounds.tolerance, USUAL_OF_BOUNDS)
+    check = check_mcp(model, bounds, tolerance=tolerance)
+    if not check.passed:
+        return CheckedClaim(claim_of(model, bounds), check)
+    found = check.residuals
+    proof = Proof(bounds.lower, bounds.upper) if bounds.proven else bounds.proof  # the check has proven them
+    gap, worth = found["gap"], found["worth"]
+    return replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
+
+
+def _nonassociated(model: Model, result: Nonassociated) -> Nonassociated | CheckedClaim:
+    tolerance = min(result.tolerance, TOLERANCE)
+    check = check_mcp(model, result, tolerance=tolerance)
+    if result.accepted and not check.passed:
+        return CheckedClaim(claim_of(model, result), check)
+    return replace(
+        result,
+        residuals=check.residuals,
+        backward_error=check.backward_error,
+        status=Status.CONVERGED if check.passed else result.status,
+        remarks=tuple(dict.fromkeys(check.remarks + result.remarks)),
+        tolerance=tolerance,
+    )
+
+
+def _path(model: Model, path: LoadPath) -> LoadPath | CheckedClaim:
+    end = _nonassociated(model, path.collapse)
+    return end if isinstance(end, CheckedClaim) else replace(path, collapse=end)
+
+
+def _range(model: Model, result: LoadFactorRange) -> LoadFactorRange:
+    answers = []
+    for one in result.answers:
+        check = check_mcp(model, one.solution)
+        if not check.passed:
+            raise LimitBlocksError(
+                f"the range that was read has an answer, load factor {one.load_factor:.6g}, that is no "
+                f"solution: {check.worst}; expected what load_factor_range saved"
+            )
+        solution = replace(one.solution, residuals=check.residuals, backward_error=check.backward_error)
+        answers.append(replace(one, solution=replace(solution, status=Status.CONVERGED), check=check))
+    first = next((k for k, one in enumerate(result.answers) if one is result.load_path), None)
+    return replace(result, answers=tuple(answers), load_path=None if first is None else answers[first])
+
+
+_JUDGES: dict[type, Callable[[Model, Any], Any]] = {
+    Bounds: _bounds,
+    Nonassociated: _nonassociated,
+    LoadPath: _path,
+    LoadFactorRange: _range,
+}

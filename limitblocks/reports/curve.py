@@ -73,8 +73,19 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
     kinds = [f", {step.kind}" if step.kind in SNAPPING else "" for step in path.steps]
     said = [f"step {k}{kinds[k]}: load factor {value:.6g}" for k, value in enumerate(loads)]
     caption = "a dot a step. The sizes of the displacements follow from the compliance chosen for the joints."
-    x_ticks, y_ticks = _numbers(*_range(x), float(label == "step")), _numbers(*_range(loads))
-    return _curve((title, f"{title}, {caption}", label, "load factor"), (x, loads), said, (x_ticks, y_ticks))
+    words = (title, f"{title}, {caption}", label, "load factor")
+    return line_curve(words, (x, loads), said, float(label == "step"))
+
+
+def line_curve(
+    words: tuple[str, str, str, str], values: tuple[Array, Array], said: Sequence[str], least: float = 0.0
+) -> Curve:
+    """Return a line through values x and y, round numbers at its axes, those of x at least `least` apart.
+
+    `words` are title, caption and what the axes show, `said` a text a dot.
+    """
+    x, y = values
+    return _curve(words, values, said, (_numbers(*_range(x), least), _numbers(*_range(y))))
 
 
 def convergence_curve(history: Sequence[Iteration]) -> Curve | None:

@@ -8,6 +8,8 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.geometry.polygon import areas
+from limitblocks.joints import Dowel, Tie
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
 from limitblocks.reports.scene import in_scene, short, without_noise
@@ -55,7 +57,7 @@ def relative_motion(model: Model, rates: Array) -> Array:
     """Return by how much the two blocks of each interface move apart or along one another, (m,).
 
     The largest over the corners of its polygon of the difference of v + w x r of both blocks, m, for
-    displacement rates (n, 6).
+    displacement rates (n, 6); of a tie along its line only.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
     centroids = np.array([block.centroid for block in model.blocks])
@@ -64,10 +66,32 @@ def relative_motion(model: Model, rates: Array) -> Array:
         i, j = place[interface.block_i], place[interface.block_j]
         if not (rates[i].any() or rates[j].any()):
             continue
-        corners = interface.centroid + interface.polygon @ interface.axes[:2]
+        tie = isinstance(interface.joint, Tie)  # counts along its line; its ends go where they like across it
+        corners = interface.centroid + (0.0 if tie else 1.0) * interface.polygon @ interface.axes[:2]
         shift = [rates[b, :3] + np.cross(rates[b, 3:], corners - centroids[b]) for b in (i, j)]
-        largest[k] = float(np.linalg.norm(shift[1] - shift[0], axis=1).max())
+        gap = shift[1] - shift[0]
+        if tie:
+            gap = gap @ np.outer(interface.axes[2], interface.axes[2])
+        largest[k] = float(np.linalg.norm(gap, axis=1).max())
     return largest
+
+
+ELEMENT_HEADS = ("Tie or dowel", "Force, kN", "Strength, kN", "Utilisation", "State")
+
+
+def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
+    """Return name, force (tension of a tie, shear of a dowel), strength, utilisation and state, as text."""
+    states = interface_states(model, result)
+    Q = without_noise(states.stress_resultants) / 1e3
+    rows: list[tuple[str, ...]] = []
+    for k, one in enumerate(model.interfaces):
+        if not isinstance(one.joint, Tie | Dowel):
+            continue
+        force = Q[k, 2] if isinstance(one.joint, Tie) else float(np.linalg.norm(Q[k, :2]))
+        most = one.joint.strength * float(areas(one.polygon)) / 1e3
+        used = float(states.utilisation[k])
+        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{used:.3f}", states.state[k]))
+    return rows
 
 
 def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:

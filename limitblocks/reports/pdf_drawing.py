@@ -29,6 +29,9 @@ _LINES = {
     "grid": (_RULE, 0.5, 0.0),
     "line": (_ACCENT, 1.2, 0.0),
     "dimension": (_QUIET, 0.6, 0.0),
+    "tie-stick": (_INK, 1.6, 0.0),
+    "tie-yield": ("#a6093d", 2.2, 0.0),
+    "tie-slack": (_QUIET, 1.2, 3.0),
 }
 _LETTER = 17.0  # user units
 _ANCHORS = {"start": "start", "middle": "middle", "end": "end"}
@@ -52,7 +55,8 @@ def legend(entries: tuple[tuple[str, str], ...], wide: float, latin: Callable[[s
     """Return a row of colours with their words."""
     row, x = Drawing(wide, 14.0), 0.0
     for style, word in entries:
-        fill = _tint(style, 1) if style in _TINTS else None
+        line, _, dashed = _LINES.get(style, (_INK, 0.5, 0.0))
+        fill = _tint(style, 1) if style in _TINTS else None if dashed else HexColor(line)
         dash = None if fill else [2, 2]
         row.add(
             Rect(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.residuals import Residuals
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
-from limitblocks.reports.section import Check, Section
+from limitblocks.reports.section import Section, checks_of
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
@@ -22,9 +22,8 @@ MEANING = (
 def range_section(
     result: LoadFactorRange,
     limits: Callable[[Nonassociated], tuple[tuple[str, str, str], ...]],
-    checks: Callable[[Residuals, float], tuple[Check, ...]],
 ) -> Section:
-    """Return the section; `limits` and `checks` say what they say of other results."""
+    """Return the section; `limits` says what it says of other results."""
     shown = result.load_path or (result.answers[0] if result.answers else None)
     (reached, below), (lowest, highest) = result.reached, result.certified
     (tried, ended), (drawn, led) = result.paths, result.mechanisms
@@ -33,6 +32,7 @@ def range_section(
         for one in result.answers
     )
     ends = [(word, end) for word, end in (("Least", result.least), ("Greatest", result.greatest)) if end]
+    told = AS_READ if result.from_file else ""
     return Section(
         title="Range of load factors",
         meaning=MEANING,
@@ -42,22 +42,24 @@ def range_section(
             ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),
             ("Certified", f"{lowest:#.6g} to {highest:#.6g}", "reachable or not"),
             *(
-                (f"{word} of all", str(end), f"mixed-integer program, gap {end.gap:.1e}")
+                (f"{word} of all", str(end), told or f"mixed-integer program, gap {end.gap:.1e}")
                 for word, end in ends
             ),
-            ("Solutions without gap", _spans(result.intervals), "every value solves, by convexity"),
+            ("Solutions without gap", _spans(result.intervals), told or "every value solves, by convexity"),
             *(limits(shown.solution) if shown else ()),
-            ("Wedging", str(result.wedging), ""),
+            ("Wedging", str(result.wedging), told),
             ("Paths", f"{ended} of {tried}", "ended at a solution"),
             ("Mechanisms", f"{led} of {drawn}", "drawn at random, led to one"),
         ),
-        checks=checks(shown.check.residuals, result.tolerance) if shown else (),
+        checks=checks_of(shown.check.residuals, result.tolerance) if shown else (),
         tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
-        steps=Table.of(
-            "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
+        parts=(
+            Table.of(
+                "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
+            ),
         ),
     )
 

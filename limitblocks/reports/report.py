@@ -11,18 +11,14 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.drawing.picture import Picture, mechanism_picture
-from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.load_path_result import LoadPath
-from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.results import Nonassociated
-from limitblocks.evidence.stability_result import Stability
+from limitblocks.evidence.interface_states import interface_states
 from limitblocks.io import strict_json
 from limitblocks.model import Model
 from limitblocks.reports import files
 from limitblocks.reports.answer import answer, verdict
 from limitblocks.reports.as_json import as_dict
 from limitblocks.reports.chapters import document
-from limitblocks.reports.claims import CheckedClaim, checked
+from limitblocks.reports.claims import checked
 from limitblocks.reports.document import Document
 from limitblocks.reports.facts import facts
 from limitblocks.reports.interfaces import interface_rows
@@ -32,17 +28,8 @@ from limitblocks.reports.page import page
 from limitblocks.reports.pdf import pdf
 from limitblocks.reports.scene import in_scene, scene
 from limitblocks.reports.section import Section
-from limitblocks.reports.sections import section
+from limitblocks.reports.sections import drawn, section
 from limitblocks.reports.terminal import text
-
-_DRAWN = (
-    Nonassociated,
-    LoadPath,
-    LoadFactorRange,
-    CheckedClaim,
-    Bounds,
-    Stability,
-)  # the mechanism of the first kind there is; one says enough
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,15 +71,17 @@ class Report:
     @cached_property
     def drawn(self) -> Section | None:
         """The section whose mechanism is drawn: one says enough."""
-        kinds = {type(result): made for result, made in zip(self.results, self.sections, strict=True)}
-        shown = (kinds[kind] for kind in _DRAWN if kind in kinds and kinds[kind].rates is not None)
-        return next(shown, None)
+        return drawn(self.results, self.sections)
 
     @cached_property
     def picture(self) -> Picture | None:
         """The static drawing of that mechanism, for print and where no 3D graphics are to be had."""
         rates = self.drawn.rates if self.drawn else None
-        return None if rates is None else mechanism_picture(self.model, rates)
+        if rates is None or self.drawn is None:
+            return None
+        drawn = self.results[self.sections.index(self.drawn)]
+        states = interface_states(self.model, drawn).state if in_scene(drawn) else ()
+        return mechanism_picture(self.model, rates, states)
 
     @cached_property
     def document(self) -> Document:
@@ -209,7 +198,7 @@ def report(
         The structure.
     *results
         What the analyses of this model returned, such as :class:`limitblocks.results.Bounds`, or what
-        :func:`limitblocks.read_result` read; a claim is checked first.
+        :func:`limitblocks.read_result` read, which is checked first.
     title : str
         Title; by default the name of the model.
     author, project, notes : str

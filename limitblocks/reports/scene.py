@@ -12,6 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.chains import chains
 from limitblocks.drawing.motion import magnification
+from limitblocks.drawing.ties import has_area, tie_lines
 from limitblocks.drawing.view import towards
 from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
@@ -128,6 +129,16 @@ def _interfaces(model: Model) -> dict[str, Any]:
             "joint": laws,
             "centroid": short([interface.centroid for interface in model.interfaces], 1e-9),
         },
+        "ties": [
+            [line.interface, *short(np.linalg.norm(np.diff(line.anchors, axis=0)))]
+            for line in tie_lines(model)
+        ],
+        "named": [
+            [k, one.name]
+            for k, one in enumerate(model.interfaces)
+            if one.name != f"{one.block_i}|{one.block_j}"
+        ],
+        "without_area": [k for k, drawn in enumerate(has_area(model)) if not drawn],
     }
 
 

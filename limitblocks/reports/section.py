@@ -6,8 +6,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import Residuals
 from limitblocks.reports.curve import Curve
-from limitblocks.reports.document import Table
+from limitblocks.reports.document import Part
+
+#: Of drawings of a mechanism.
+LEGEND = (("moving", "moving"), ("still", "standing still"), ("support", "support"), ("ghost", "before"))
 
 
 class Check(NamedTuple):
@@ -39,8 +43,8 @@ class Section:
         Displacement rates of the mechanism to draw.
     warnings : tuple of str
         What is no error but may not be meant.
-    steps : Table, optional
-        One row a step.
+    parts : tuple of Part
+        What follows: tables, sentences, drawings of this kind of result.
     curve : Curve, optional
         A plot to draw.
     """
@@ -54,5 +58,11 @@ class Section:
     rates: Array | None = None
     warnings: tuple[str, ...] = ()
     quantity: str = "load factor α"
-    steps: Table | None = None
+    parts: tuple[Part, ...] = ()
     curve: Curve | None = None
+
+
+def checks_of(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
+    """Return the residuals as checks."""
+    entries = residuals.entries
+    return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)

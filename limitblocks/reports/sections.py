@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import isfinite, isnan
 from typing import Any
 
@@ -14,19 +14,20 @@ from limitblocks.evidence.claim import Claim
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.residuals import TOLERANCE, Residuals
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
-from limitblocks.reports.claims import CheckedClaim
+from limitblocks.reports.as_read import AS_READ, as_read
+from limitblocks.reports.claims import USUAL_OF_BOUNDS, CheckedClaim
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
+from limitblocks.reports.practice_sections import KINDS, of_practice
 from limitblocks.reports.range_section import range_section
-from limitblocks.reports.section import Check, Section
+from limitblocks.reports.section import Section, checks_of
 
 _ACTIVE_SHOWN = 4
-USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
 
 
 def section(model: Model, result: Any) -> Section:
@@ -37,14 +38,20 @@ def section(model: Model, result: Any) -> Section:
     LimitBlocksError
         The result is of a kind unknown to reports, or belongs to another model.
     """
-    make = _SECTIONS.get(type(result))
+    make = _SECTIONS.get(type(result)) or of_practice(result)
     if make is None:
-        known = ", ".join(sorted(kind.__name__ for kind in _SECTIONS if kind is not CheckedClaim))
+        known = ", ".join([*sorted(kind.__name__ for kind in _SECTIONS if kind is not CheckedClaim), *KINDS])
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
     if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
         kind = type(result).__name__
         raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
-    return make(model, result)
+    return as_read(make(model, result), result)
+
+
+def drawn(results: Iterable[Any], sections: Iterable[Section]) -> Section | None:
+    """The section whose mechanism is drawn: the first of its kind would do, one says enough."""
+    kinds = {type(result): made for result, made in zip(results, sections, strict=True)}
+    return next((made for kind in _SECTIONS if (made := kinds.get(kind)) and made.rates is not None), None)
 
 
 def shown(result: Any) -> bool:
@@ -55,6 +62,9 @@ def shown(result: Any) -> bool:
 def limits(result: Nonassociated) -> tuple[tuple[str, str, str], tuple[str, str, str]]:
     """Return name, value and meaning of the load factors that no solution is below and above."""
     lower, upper = result.frictionless, result.associated
+    if result.from_file:
+        least = "not claimed" if isnan(lower) else _number(lower)
+        return ("Frictionless", least, AS_READ), ("Associated", _number(upper), AS_READ)
     return (
         ("Frictionless", "not claimed", result.unclaimed)
         if isnan(lower)
@@ -87,7 +97,7 @@ def _bounds(_model: Model, bounds: Bounds) -> Section:
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
             ("Proven", *_proven(bounds.proof)),
         ),
-        checks=_checks(bounds.residuals, bounds.tolerance),
+        checks=checks_of(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
         warnings=_loose(bounds.tolerance, USUAL_OF_BOUNDS),
@@ -114,7 +124,7 @@ def _nonassociated(_model: Model, result: Nonassociated) -> Section:
             _backward(result.backward_error),
             *_confirmation(result),
         ),
-        checks=_checks(result.residuals, result.tolerance),
+        checks=checks_of(result.residuals, result.tolerance),
         tolerance=result.tolerance,
         rates=result.displacement_rates,
         warnings=_remarks(result) + _loose(result.tolerance),
@@ -127,12 +137,13 @@ SNAP = "load factors before and after, at one displacement of the live load"
 
 def _path(model: Model, path: LoadPath) -> Section:
     end = _nonassociated(model, path.collapse)
+    told = ", as the file says" if path.from_file else ""
     last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
     return Section(
         title="Load path" if path.collapse.converged else "Load path, not converged",
         meaning=(
             "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
-            f"step is in equilibrium and within the yield surface, and the last {last}, Eqs (54)-(59). "
+            f"step is in equilibrium and within the yield surface{told}, and the last {last}, Eqs (54)-(59). "
             "Displacements before collapse are relative to the compliance of the joints."
         ),
         headline=end.headline,
@@ -150,7 +161,7 @@ def _path(model: Model, path: LoadPath) -> Section:
         tolerance=end.tolerance,
         rates=end.rates,
         warnings=end.warnings,
-        steps=_steps(path),
+        parts=(_steps(path),),
         curve=path_curve(model, path),
     )
 
@@ -184,7 +195,7 @@ def _check(_model: Model, check: mcp.Check) -> Section:
             ("Mechanism and multipliers", source, "by which the flow rule was checked"),
             _backward(check.backward_error),
         ),
-        checks=_checks(check.residuals, check.tolerance),
+        checks=checks_of(check.residuals, check.tolerance),
         tolerance=check.tolerance,
         warnings=check.remarks + _loose(check.tolerance),
     )
@@ -229,14 +240,14 @@ def _stability(_model: Model, answer: Stability) -> Section:
             ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
             ("Blocks that move", _some(list(answer.blocks)) or "none", ""),
         ),
-        checks=_checks(answer.residuals, ARISEN),
+        checks=checks_of(answer.residuals, ARISEN),
         tolerance=ARISEN,
         rates=answer.displacement_rates,
     )
 
 
 def _range(_model: Model, result: LoadFactorRange) -> Section:
-    return range_section(result, limits, _checks)
+    return range_section(result, limits)
 
 
 def _backward(error: BackwardError) -> tuple[str, str, str]:
@@ -253,17 +264,13 @@ def _proven(proof: Proof) -> tuple[str, str]:
     return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
 
 
-def _checks(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
-    entries = residuals.entries
-    return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)
-
-
 def _confirmation(result: Nonassociated) -> tuple[tuple[str, str, str], ...]:
     """The row of the table that says whether the state is a fixed point, where that is known."""
     change = result.fixed_point_change
     if change is None:
         return ()
-    return (("Fixed point", f"{change:.1e}", "change of the load factor with the flow frozen here"),)
+    said = AS_READ if result.from_file else "change of the load factor with the flow frozen here"
+    return (("Fixed point", f"{change:.1e}", said),)
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:
@@ -280,12 +287,13 @@ def _some(words: list[str]) -> str:
     return ", ".join(words[:_ACTIVE_SHOWN]) + (f" and {more} more" if more > 0 else "")
 
 
+#: In the order in which one is chosen to be drawn.
 _SECTIONS: dict[type, Callable[[Model, Any], Section]] = {
-    Bounds: _bounds,
     Nonassociated: _nonassociated,
     LoadPath: _path,
-    mcp.Check: _check,
-    Stability: _stability,
     LoadFactorRange: _range,
     CheckedClaim: _claim,
+    Bounds: _bounds,
+    Stability: _stability,
+    mcp.Check: _check,
 }

@@ -207,4 +207,5 @@ def test_the_command_prints_the_three_ranges(pushed, tmp_path):
     assert json.loads(output.read_text())["analysis"] == "range"
     done = CliRunner().invoke(app, ["check", str(file), str(output)])
     assert done.exit_code == 2
-    assert "holds a range of load factors" in done.stderr
+    assert "LoadFactorRange has no load_factor" in done.stderr
+    assert "one of its answers" in done.stderr

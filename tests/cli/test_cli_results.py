@@ -162,7 +162,7 @@ def test_turning_is_an_option_and_is_kept_in_the_file(verb, file, tmp_path):
     output = tmp_path / "out.json"
     done = run(verb, file, "--dilatancy", 0.2, "--turning", "centre of pressure", "-o", output)
     assert (done.exit_code, done.stderr) == (0, "")
-    assert lb.read_result(output).turning is Turning.PRESSURE
+    assert lb.read_result(output).collapse.turning is Turning.PRESSURE
     assert run("check", file, output).exit_code == 0
     refused = run(verb, file, "--turning", "table 5")
     assert refused.exit_code == 2
@@ -224,7 +224,7 @@ def test_stability_is_code_0_only_for_what_stands_by_itself(document, code, kind
     assert answer == json.loads(output.read_text())
     refused = run("check", file, output)
     assert refused.exit_code == 2
-    assert "no load factor" in refused.stderr
+    assert "Stability has no load_factor; expected" in refused.stderr
 
 
 def test_stopping_early_is_code_3_and_the_best_state_is_kept(solver, file, tmp_path):

@@ -68,6 +68,27 @@ def test_twisted_faces_are_refused_until_asked_for(tmp_path):
         lb.files.read_blocks(file, twisted="bend")
 
 
+def test_mostly_twisted_blocks_are_told_how_to_be_divided_first(tmp_path):
+    twisted = [box(f"t{k}", (3 * k, 9, 0.5), lift=0.05) for k in range(2)]
+    opened, good = [box(f"o{k}", (3 * k, 5, 0), faces=5) for k in range(2)], [box("g", (0, 0, 0))]
+
+    def first(*bodies):
+        with pytest.raises(lb.ModelError) as raised:
+            lb.files.read_blocks(obj(tmp_path / "a.obj", bodies))
+        return raised.value.problems[0].partition("a.obj: ")[2]
+
+    divides = "--twisted triangulate (twisted='triangulate') divides these"
+    skips = "--skip-bad (skip_bad=True) leaves"
+    assert first(*twisted) == f"2 of 2 blocks are bad, by twisted faces; {divides}"
+    assert (
+        first(*twisted, *good)
+        == f"2 of 3 blocks are bad, by twisted faces; {divides}; {skips} out what is bad"
+    )
+    assert first(*twisted, opened[0]).startswith("3 of 3 blocks are bad, 2 of them by twisted faces")
+    assert first(*twisted, *opened, *good) == f"4 of 5 blocks are bad; {skips} them out"
+    assert len(lb.files.read_blocks(tmp_path / "a.obj", twisted="triangulate", skip_bad=True).blocks) == 3
+
+
 def test_twist_within_the_digits_of_the_file_is_taken(tmp_path):
     """A stone of 5 mm with corners to 0.05 mm is twisted by up to its last digit; one of 5 m is not."""
     base = lb.Block.box("a", (0.05, 0.05, 0.05), (0.025, 0.025, 0.025))

@@ -456,3 +456,14 @@ def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
     imported = lb.files.read_drawing(file, thickness=1.0, skip_bad=True)
     assert (len(imported.blocks), len(imported.left_out)) == (1, 2)
     assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2
+
+
+def test_groups_are_told(tmp_path):
+    drawing = ezdxf.readfile(lb.files.write_blocks(STRUCTURES["arch"], tmp_path / "a.dxf"))
+    for k in range(10):
+        drawing.groups.new(f"g{k}").extend(list(drawing.modelspace())[: k + 1])
+    drawing.groups.new("empty")
+    drawing.saveas(tmp_path / "b.dxf")
+    (note,) = lb.files.read_blocks(tmp_path / "b.dxf").notes
+    assert note.startswith("groups are not kept, layers are: 'g0' × 1, 'g1' × 2, ")
+    assert note.endswith("'g7' × 8 and 2 more")

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
+from limitblocks.evidence.claim import claim_of
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -84,7 +85,8 @@ def written(file, document):
 def test_what_is_written_is_read_bit_for_bit(key, wrapped, tmp_path):
     model, result = MODELS[key], RESULTS[key]
     file = lb.files.write_result(wrapped(result), tmp_path / "result.json")
-    for claim in (lb.read_result(file), lb.read_result(str(file), model)):
+    for read in (lb.read_result(file), lb.read_result(str(file), model)):
+        claim = read.collapse
         assert (claim.load_factor, claim.dilatancy, claim.digest) == (result.load_factor, 0.2, model.digest)
         for name in STATE:
             array = getattr(claim, name)
@@ -104,7 +106,9 @@ def test_bounds_are_read_and_checked_with_associated_flow(key, tmp_path):
     check = lb.check_mcp(model, claim, tolerance=1e-6)
     assert check.passed
     assert not check.mechanism_found
-    assert not lb.check_mcp(model, replace(claim, dilatancy=0.0), tolerance=1e-6).passed  # V = mu N slides
+    assert not lb.check_mcp(
+        model, replace(claim_of(model, claim), dilatancy=0.0), tolerance=1e-6
+    ).passed  # V = mu N slides
 
 
 def test_turning_is_written_and_read(tmp_path):
@@ -201,12 +205,12 @@ FAULTS = {
     "kind": (MINIMAL | {"analysis": "modal"}, ["analysis: expected 'nonassociated'", "'modal'"]),
     "kind of kind": (MINIMAL | {"analysis": [1]}, ["analysis: expected 'nonassociated'"]),
     "stability": (
-        lb.stability(MODEL).to_dict(),
+        {"analysis": "stability"},
         ["no load factor", "result of bounds, nonassociated or path"],
     ),
     "bounds without a lower one": ({"analysis": "bounds", "upper": 1.0}, ["lower: is missing"]),
     "turning": (MINIMAL | {"turning": "table 5"}, ["turning: expected 'centroid' or 'centre of pressure'"]),
-    "check": (lb.check_mcp(MODEL, RESULT).to_dict(), ["holds a check"]),
+    "check": ({"analysis": "check"}, ["holds a check"]),
     "path without collapse": ({"analysis": "path", "steps": []}, ["collapse: is missing"]),
     "fault within a path": (
         {"analysis": "path", "collapse": MINIMAL | {"load_factor": "a"}},

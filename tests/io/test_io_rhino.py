@@ -135,6 +135,20 @@ def test_polysurfaces_extrusions_layers_and_what_is_hidden(tmp_path):
     assert (again.layers, again.supports) == (imported.layers, ("ground",))
 
 
+def test_groups_are_told(tmp_path):
+    drawing = Drawing()
+    for name in ("left", "empty"):
+        group = rhino3dm.Group()
+        group.Name = name
+        drawing.model.Groups.Add(group)
+    attributes = drawing.attributes("a")
+    attributes.AddToGroup(0)
+    drawing.model.Objects.Add(box(), attributes)
+    drawing.add(box((2, 0, 0), (3, 1, 1)), "b")
+    found = lb.files.look(drawing.saved(tmp_path / "a.3dm"))
+    assert found.notes == ("groups are not kept, layers are: 'left' × 1",)
+
+
 @pytest.mark.parametrize(("units", "metres"), [("Centimeters", 0.01), ("Feet", 0.3048), ("Inches", 0.0254)])
 def test_units(tmp_path, units, metres):
     drawing = Drawing(units)

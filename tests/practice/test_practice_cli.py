@@ -63,6 +63,21 @@ def test_verify(block, tmp_path):
     assert "F0 is 1.0" in run("verify", block, *site[:4], "--f0", 1, *site[6:]).output
 
 
+def test_verify_files_a_report(block, tmp_path):
+    """The PDF has symbols and numbers: a0* = .2 g / 1.35, M* = the mass, ratio .2 / 1.35 / .15 = .98765."""
+    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2, "--linear")
+    done = run("verify", block, *site, "--report", tmp_path / "filed.pdf")
+    assert done.exit_code == 1, done.output
+    said = " ".join(page.extract_text() for page in pypdf.PdfReader(tmp_path / "filed.pdf").pages)
+    for word in ("alpha0", "M*", "e*", "a0*", "a_g S / q", "0.987 ", "NOT satisfied", "was not seen"):
+        assert word in said, word
+    assert f"{0.2 * 9.81 / 1.35:.6g} m/s²" in said
+    assert run("verify", block, *site, "--report", tmp_path / "filed.doc").exit_code == 2
+    (tmp_path / "kept.pdf").write_text("another's")
+    assert run("verify", block, *site, "--report", tmp_path / "kept.pdf").exit_code == 2
+
+
 def test_vehicle(beam):
     """The overhang tips about x = 3: 20e3 x 4 x .5 x (3 - 2) over the moment of the axle."""
     done = run(

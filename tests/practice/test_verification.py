@@ -54,8 +54,20 @@ def test_facade_of_one_block(facade, answer, curve):
     assert found.checks[0].ratio == pytest.approx(0.495985, abs=6e-7)
     assert not found.checks[0].satisfied
     assert found.moving == ("wall",)
+    given = {
+        "a_g": 0.25 * G,
+        "S": 1.2,
+        "F0": 2.5,
+        "T_C": 0.5,
+        "T_D": 2.6,
+        "q": 2.0,
+        "FC": FC,
+        "a_g_SLC": 0.25 * G,
+    }
+    assert {symbol: found[symbol] for symbol in given} == pytest.approx(given)
+    assert len({one.symbol for one in found.quantities}) == len(found.quantities)
     wanted = SITE.a_g * SITE.S * SITE.F0 * SITE.T_C * SITE.T_D / (2 * np.pi) ** 2  # beyond T_D
-    assert found["S_SLV"] == pytest.approx(wanted, rel=1e-9)
+    assert found["S_De_SLV"] == pytest.approx(wanted, rel=1e-9)
     assert found.checks[1].ratio == pytest.approx(0.4 * d0 / wanted, rel=1e-7)
     assert found["T_SLC"] == pytest.approx(1.56 * np.pi * np.sqrt(0.6 * d0 / (0.4 * a0)), rel=1e-7)
     assert [one.name for one in found.checks] == ["linear, SLV", "non-linear, SLV", "non-linear, SLC"]
@@ -100,6 +112,8 @@ def test_mechanism_on_a_floor(facade, answer):
     floor = Floor((FloorMode(0.4, 1.3, 0.8),))
     found = verification(facade, answer, SITE, q=2.0, floor=floor)
     assert found.checks[0].demand == pytest.approx(floor.largest(SITE) / 2.0)
+    given = {"T_1": 0.4, "gamma_1": 1.3, "psi_1(Z)": 0.8, "xi_1": 0.05, "a_Z": floor.largest(SITE)}
+    assert {symbol: found[symbol] for symbol in given} == pytest.approx(given)
 
 
 @pytest.mark.parametrize(

@@ -1,28 +1,21 @@
 """The report in a browser, if there is one: Chromium with WebGL in software."""
 
 import base64
-import os
 import re
-import shutil
 from io import BytesIO
 from itertools import pairwise
 
 import numpy as np
 import pytest
+from browsers import FLAGS, FOUND, SOFTWARE, needed, watch
 
 import limitblocks as lb
+from limitblocks.practice import reinforced, tie
 
 playwright = pytest.importorskip("playwright.sync_api", reason="the package playwright is not installed")
 Image = pytest.importorskip("PIL.Image", reason="the package pillow is not installed")
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-FOUND = os.environ.get("LIMITBLOCKS_BROWSER") or next(filter(None, map(shutil.which, NAMES)), None)
-pytestmark = pytest.mark.skipif(
-    not FOUND,
-    reason=f"no browser: none of {', '.join(NAMES)} is on the PATH and LIMITBLOCKS_BROWSER is not set",
-)
-SOFTWARE = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-FLAGS = ["--no-sandbox", "--disable-quic", "--no-first-run"]
+pytestmark = needed
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 FORMULA = "=cmd|A1"
 
@@ -68,14 +61,6 @@ def open_page(chromium, file):
     page.wait_for_selector("#viewer[data-ready]")
     yield page
     browser.close()
-
-
-def watch(page):
-    page.faults, page.requests = [], []
-    page.on("console", lambda message: page.faults.append(message.text))
-    page.on("pageerror", lambda error: page.faults.append(str(error)))
-    page.on("dialog", lambda dialog: (page.faults.append("dialog"), dialog.dismiss()))
-    page.on("request", lambda request: page.requests.append(request.url))
 
 
 @pytest.fixture
@@ -346,4 +331,33 @@ def test_without_webgl_the_drawing_remains(chromium, file):
     assert page.locator("#no-webgl").is_visible()
     assert page.locator("figure.static svg").is_visible()
     assert not page.locator("#viewer").is_visible()
+    browser.close()
+
+
+def test_ties_are_seen_in_the_colour_of_their_state(chromium, tmp_path):
+    """One yields (#a6093d), one goes slack (#b9b4ab): in the mechanism, in the legend, in their cards."""
+    wall = lb.structures.block(lb.PointContact(0.6), width=0.2, height=1.0)
+    (block,), (support,) = wall.free_blocks, wall.supports
+    at = block.centroid + np.array([0.0, 0.0, 0.4])
+    rods = [
+        tie(block.name, at, support, at + np.array([x, 0.0, 0.0]), area=1e-4, strength=1e6) for x in (-1, 1)
+    ]
+    model = reinforced(wall, *rods)
+    file = lb.report(model, lb.nonassociated(model)).save(tmp_path / "tied.html")
+    browser = chromium.launch(executable_path=FOUND, args=[*FLAGS, *SOFTWARE])
+    page = browser.new_page(viewport={"width": 800, "height": 600}, color_scheme="light")
+    watch(page)
+    page.goto(file.as_uri())
+    page.wait_for_selector("#viewer[data-ready]")
+    for mode in ("mechanism", "states"):
+        show(page, mode)
+        pixels = drawn(page)
+        for colour in ((0xA6, 0x09, 0x3D), (0xB9, 0xB4, 0xAB)):
+            assert (np.abs(pixels - colour).max(axis=-1) <= 3).sum() > 30, (mode, colour)
+    show(page, "mechanism")
+    assert {"tie: yield", "tie: slack"} <= set(page.locator(".legend li").all_inner_texts())
+    page.locator("input[type=search]").fill("tie")
+    page.locator("input[type=search]").press("Enter")
+    assert card(page)[1]["State"] == "yield (Y)"
+    assert [fault for fault in page.faults if "GPU stall due to ReadPixels" not in fault] == []
     browser.close()

@@ -1,4 +1,7 @@
-"""Formats of other programs, a module each: `contents(path)` reads, `encoded(blocks, layers)` writes."""
+"""Formats of other programs, a module each: `contents(path)` reads, `encoded(blocks, layers)` writes.
+
+Those in FORCES have `with_forces(picture)`, too.
+"""
 
 from importlib import import_module
 from typing import Any
@@ -25,6 +28,8 @@ INSTEAD = {
     ".stp": "export meshes, as OBJ or STL, a solid a stone",
 }
 WRITTEN = tuple(suffix for suffix in _MODULES if suffix != ".gltf")
+#: Suffixes of files that results are written to beside the blocks.
+FORCES = (".3dm", ".json", ".glb")
 
 
 def module(suffix: str) -> Any:

@@ -16,6 +16,7 @@ class Contacts {
     const material = new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide });
     this.mesh = new THREE.Mesh(geometry, material);
     this.letters = new Letters(scene);
+    this.ties = new Ties(scene, size);
     this.arrows = new THREE.InstancedMesh(arrowGeometry(), new THREE.MeshLambertMaterial(), scene.interfaces.length);
     this.thrust = new THREE.InstancedMesh(rodGeometry(), new THREE.MeshBasicMaterial(), thrustCount(scene));
     for (const object of [this.mesh, this.arrows, this.thrust]) object.frustumCulled = false;
@@ -29,6 +30,7 @@ class Contacts {
   move(step, amplitude, layers) {
     this.step = step;
     this.largest = this.measure(step).largest;
+    this.ties.move(step, amplitude);
     if (layers.interfaces || layers.letters || layers.forces) {
       displace(this.scene, step, amplitude, this.rest, this.blocks, this.mesh.geometry);
     }
@@ -106,6 +108,7 @@ class Contacts {
   }
 
   paint(step, colourOf, picked, pickedColour) {
+    this.ties.paint(step, picked, pickedColour);
     const attribute = this.mesh.geometry.getAttribute("color");
     const chosen = colourOf(pickedColour);
     const colours = this.scene.stateNames.map((name) => colourOf(stateSign(name).colour));
@@ -116,14 +119,18 @@ class Contacts {
   // Interface under a ray, with its distance.
   hit(raycaster) {
     const [hit] = raycaster.intersectObject(this.mesh);
-    return hit && { interface: this.owners[3 * hit.faceIndex], distance: hit.distance };
+    const area = hit && { interface: this.owners[3 * hit.faceIndex], distance: hit.distance };
+    const tie = this.ties.hit(raycaster);
+    return tie && !(area && area.distance < tie.distance) ? tie : area;
   }
 }
 
 function contactGeometry(scene) {
   const parts = new Map();
   for (const { outline } of scene.interfaces) if (!parts.has(outline)) parts.set(outline, fan(outline.corners));
-  return copies(scene.interfaces.map((one, k) => ({ at: one.centroid, values: parts.get(one.outline), k })));
+  const none = [];
+  const values = (one) => (one.hasArea ? parts.get(one.outline) : none);
+  return copies(scene.interfaces.map((one, k) => ({ at: one.centroid, values: values(one), k })));
 }
 
 // Triangles of a convex polygon.

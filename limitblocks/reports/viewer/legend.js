@@ -12,6 +12,7 @@ function legendRows(scene, view) {
     rows.push({ swatch: "arrow", text: `contact force, drawn downwards; largest ${inUnits(contacts.largest, "N")}` });
   }
   if (step && layers.thrust && scene.chains.length) rows.push({ swatch: "thrust", text: "line of thrust" });
+  if (step && !layers.interfaces) rows.push(...tieRows(scene, step));
   if (step && layers.interfaces) rows.push(...stateRows(scene, step));
   return rows;
 }
@@ -22,6 +23,15 @@ function stateRows(scene, step) {
   return scene.stateNames
     .map((name, k) => ({ state: stateSign(name), text: `${name} (${counts[k]})`, count: counts[k] }))
     .filter((row) => row.count > 0);
+}
+
+// Ties are always seen; where the states of all interfaces are not told, theirs are.
+function tieRows(scene, step) {
+  const states = new Set(step.states.filter((_, k) => scene.interfaces[k].length > 0));
+  return [...states].map((state) => {
+    const name = scene.stateNames[state];
+    return { state: { colour: stateSign(name).colour, letters: "" }, text: `tie: ${name}` };
+  });
 }
 
 function showLegend(holder, rows) {

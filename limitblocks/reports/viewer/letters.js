@@ -55,7 +55,7 @@ class Letters {
   paint(scene, step, colourOf) {
     this.owners = [];
     step.states.forEach((state, k) => {
-      if (stateSign(scene.stateNames[state]).letters) this.owners.push(k);
+      if (scene.interfaces[k].hasArea && stateSign(scene.stateNames[state]).letters) this.owners.push(k);
     });
     const states = this.owners.map((k) => step.states[k]);
     const tints = states.flatMap((state) => colourOf(stateSign(scene.stateNames[state]).colour));

@@ -35,6 +35,8 @@ const STATES = {
   twist: { colour: "#9a4fb0", letters: "T" },
   "slide-twist": { colour: "#008f68", letters: "ST" },
   hinge: { colour: "#e69f00", letters: "H" },
+  yield: { colour: "#a6093d", letters: "Y" },
+  slack: { colour: "#b9b4ab", letters: "L" },
   "begins to flow": { colour: "#d55e00", letters: "F" },
   "not evaluated": { colour: "#8f99a5", letters: "" },
 };

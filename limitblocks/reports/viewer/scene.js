@@ -4,6 +4,9 @@ function readScene() {
   const data = JSON.parse(document.getElementById("scene").textContent);
   const { blocks, interfaces } = data;
   const support = new Set(blocks.support);
+  const lengths = new Map(data.ties);
+  const named = new Map(data.named);
+  const withoutArea = new Set(data.without_area);
   const scene = {
     title: data.title,
     live: data.live,
@@ -23,12 +26,14 @@ function readScene() {
       shape: data.shapes[blocks.shape[k]],
     })),
     interfaces: interfaces.i.map((i, k) => ({
-      name: `${blocks.name[i]}|${blocks.name[interfaces.j[k]]}`,
+      name: named.get(k) || `${blocks.name[i]}|${blocks.name[interfaces.j[k]]}`,
       i,
       j: interfaces.j[k],
       joint: data.joints[interfaces.joint[k]],
       centroid: interfaces.centroid.slice(3 * k, 3 * k + 3),
       outline: data.outlines[interfaces.outline[k]],
+      length: lengths.get(k) || 0, // of a tie
+      hasArea: !withoutArea.has(k),
     })),
   };
   scene.results = data.results.map((result) => ({
@@ -101,5 +106,8 @@ function boundingBox(scene) {
       }
     }
   });
+  for (const one of scene.interfaces) {
+    if (one.length > 0) for (const { point } of anchors(one)) include(point);
+  }
   return { low, high, diagonal: Math.hypot(...high.map((value, k) => value - low[k])) };
 }

@@ -27,7 +27,7 @@ class Viewer {
       forces: [arrows],
       thrust: [thrust],
     };
-    this.stage.scene.add(...Object.values(this.objects).flat(), this.marker.lines);
+    this.stage.scene.add(...Object.values(this.objects).flat(), this.contacts.ties.mesh, this.marker.lines);
     this.triad = new Triad(root.querySelector(".triad"), scene.live);
     this.stage.afterDraw.push(() => this.triad.turn(this.stage.camera));
     this.card = new Card(root.querySelector(".card"), (picked) => this.pick(picked));

@@ -1,6 +1,7 @@
 """COMPAS JSON."""
 
+from limitblocks.io.formats.compas.forces import with_forces
 from limitblocks.io.formats.compas.reader import contents
 from limitblocks.io.formats.compas.writer import encoded
 
-__all__ = ["contents", "encoded"]
+__all__ = ["contents", "encoded", "with_forces"]

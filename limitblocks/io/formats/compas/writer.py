@@ -17,11 +17,16 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
 
     The graph is that of an assembly of compas_assembly, with a part beside each block.
     """
+    return assembly(graph_of(blocks, layers, supports))
+
+
+def graph_of(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> dict[str, Any]:
+    """Return the data of the graph: a node a block, no edges."""
     nodes = {
         str(k): _node(k, block, layers.get(block.name, ""), block.name in supports)
         for k, block in enumerate(blocks)
     }
-    graph = {
+    return {
         "attributes": {},
         "default_node_attributes": {"part": None, "block": None, "is_support": False},
         "default_edge_attributes": {},
@@ -29,18 +34,22 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
         "edge": {key: {} for key in nodes},
         "max_node": len(blocks) - 1,
     }
-    document = _object(
-        "datastructures/Assembly", {"graph": graph, "attributes": {}}, "limitblocks", "assembly"
-    )
-    return json.dumps(document, allow_nan=False).encode()
+
+
+def assembly(graph: dict[str, Any]) -> bytes:
+    """Return the file of an assembly with this graph."""
+    data = {"graph": graph, "attributes": {}}
+    return json.dumps(
+        thing("datastructures/Assembly", data, "limitblocks", "assembly"), allow_nan=False
+    ).encode()
 
 
 def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
     part = {"attributes": {"name": block.name}, "key": k, "frame": _FRAME, "features": []}
     x, y, z = block.centroid.tolist()
     return {
-        "part": _object("datastructures/Part", part, block.name, f"part {k}"),
-        "block": _object("datastructures/Mesh", _mesh(block), block.name, f"block {k}"),
+        "part": thing("datastructures/Part", part, block.name, f"part {k}"),
+        "block": thing("datastructures/Mesh", mesh(block), block.name, f"block {k}"),
         "is_support": support,
         "layer": layer,
         "material": block.material,
@@ -50,7 +59,8 @@ def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
     }
 
 
-def _mesh(block: Block) -> dict[str, Any]:
+def mesh(block: Block) -> dict[str, Any]:
+    """Return the data of a mesh."""
     points = enumerate(block.vertices.tolist())
     return {
         "attributes": {},
@@ -66,6 +76,7 @@ def _mesh(block: Block) -> dict[str, Any]:
     }
 
 
-def _object(dtype: str, data: dict[str, Any], name: str, key: str) -> dict[str, Any]:
+def thing(dtype: str, data: Any, name: str, key: str) -> dict[str, Any]:
+    """Return an object of COMPAS; `key` tells it from the others of the file."""
     guid = str(uuid5(NAMESPACE_URL, f"limitblocks {key}"))  # the same blocks give the same file
     return {"dtype": f"compas.{dtype}", "data": data, "name": name, "guid": guid}

@@ -12,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io.formats.dxf.part import Part, written
-from limitblocks.io.imported import MOST_FACES, Contents, foreign, read_bytes
+from limitblocks.io.imported import MOST_FACES, Contents, foreign, on_groups, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.solid import Solid
 
@@ -47,9 +47,10 @@ def contents(path: Path) -> Contents:
                 made = shells.solids(part.name, part.layer, points, part.turned(loops))
                 solids += [solid._replace(material=part.material) for solid in made]
         solids += bodies.from_3d_faces(faces)
+        groups = on_groups((name, len(group)) for name, group in drawing.groups)
     if not solids and not wrong:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    notes = [*unit_notes(drawing), *notes_on(left_out)]
+    notes = [*unit_notes(drawing), *groups, *notes_on(left_out)]
     return Contents(solids, metres_per_unit(drawing), notes, "z", wrong)
 
 

@@ -1,6 +1,7 @@
 """Rhino's 3dm files."""
 
+from limitblocks.io.formats.rhino.forces import with_forces
 from limitblocks.io.formats.rhino.reader import contents
 from limitblocks.io.formats.rhino.writer import encoded
 
-__all__ = ["contents", "encoded"]
+__all__ = ["contents", "encoded", "with_forces"]

@@ -14,7 +14,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import shells
 from limitblocks.io.formats.rhino import breps, chunks, trial
-from limitblocks.io.imported import MOST_FACES, Contents, foreign, read_bytes
+from limitblocks.io.imported import MOST_FACES, Contents, foreign, on_groups, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.solid import Solid
 
@@ -68,6 +68,9 @@ def contents(path: Path) -> Contents:
                 made = shells.solids(part.name, part.layer, points, faces)
                 solids += [solid._replace(material=part.material) for solid in made]
         metres, units = _metres(model)
+        groups = on_groups(
+            (group.Name, len(model.Groups.GroupMembers(group.Index))) for group in model.Groups
+        )
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
     if not solids and not wrong:
         shown = "; switch on what is hidden, objects and layers, and save again" * (
@@ -76,7 +79,7 @@ def contents(path: Path) -> Contents:
         raise ModelError(
             f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces{shown}"
         )
-    notes += [*units, *([f"left out: {listed}"] if listed else [])]
+    notes += [*units, *groups, *([f"left out: {listed}"] if listed else [])]
     return Contents(solids, metres, notes, "z", wrong)
 
 

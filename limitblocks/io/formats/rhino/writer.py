@@ -17,45 +17,63 @@ _VERSION = 7  # of Rhino, that can open the file
 
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return the file; faces of more than four sides, or of blocks that are not convex, become triangles."""
-    rhino3dm = package("rhino3dm", "3dm")
-    model = rhino3dm.File3dm()
-    model.Settings.ModelUnitSystem = rhino3dm.UnitSystem.Meters
-    numbers: dict[str, int] = {}
-    materials: dict[str, int] = {}
+    drawing = Drawing()
     for block in blocks:
-        attributes = rhino3dm.ObjectAttributes()
-        attributes.Name = block.name
-        attributes.LayerIndex = _layer(rhino3dm, model, numbers, layers.get(block.name, "") or "block")
+        drawing.block(block, layers.get(block.name, "") or "block")
+    return drawing.encoded()
+
+
+class Drawing:
+    """A Rhino file to be."""
+
+    def __init__(self) -> None:
+        self.rhino3dm = package("rhino3dm", "3dm")
+        self.model = self.rhino3dm.File3dm()
+        self.model.Settings.ModelUnitSystem = self.rhino3dm.UnitSystem.Meters
+        self.layers: dict[str, int] = {}
+        self.materials: dict[str, int] = {}
+
+    def encoded(self) -> bytes:
+        """Return the file."""
+        with TemporaryDirectory() as folder:  # rhino3dm writes to files only
+            file = Path(folder) / "blocks.3dm"
+            if not self.model.Write(str(file), _VERSION):
+                raise LimitBlocksError("rhino3dm could not write the blocks")
+            return file.read_bytes()
+
+    def attributes(self, name: str, layer: str) -> Any:
+        """Return the attributes of an object with a name on a layer."""
+        attributes = self.rhino3dm.ObjectAttributes()
+        attributes.Name = name
+        attributes.LayerIndex = self.layer(layer)
+        return attributes
+
+    def block(self, block: Block, layer: str) -> None:
+        """Add a block as a mesh."""
+        attributes = self.attributes(block.name, layer)
         if block.material:
-            attributes.MaterialIndex = _material(rhino3dm, model, materials, block.material)
-            attributes.MaterialSource = rhino3dm.ObjectMaterialSource.MaterialFromObject
-        model.Objects.AddMesh(_mesh(rhino3dm, block), attributes)
-    with TemporaryDirectory() as folder:  # rhino3dm writes to files only
-        file = Path(folder) / "blocks.3dm"
-        if not model.Write(str(file), _VERSION):
-            raise LimitBlocksError("rhino3dm could not write the blocks")
-        return file.read_bytes()
+            attributes.MaterialIndex = self.material(block.material)
+            attributes.MaterialSource = self.rhino3dm.ObjectMaterialSource.MaterialFromObject
+        self.model.Objects.AddMesh(_mesh(self.rhino3dm, block), attributes)
 
+    def layer(self, path: str) -> int:
+        """Return the number of the layer with a path such as "walls::north", made where there is none."""
+        if path not in self.layers:
+            above, _, name = path.rpartition("::")
+            layer = self.rhino3dm.Layer()
+            layer.Name = name
+            if above:
+                layer.ParentLayerId = self.model.Layers[self.layer(above)].Id
+            self.layers[path] = self.model.Layers.Add(layer)
+        return self.layers[path]
 
-def _layer(rhino3dm: ModuleType, model: Any, numbers: dict[str, int], path: str) -> int:
-    """Return the number of the layer with a path such as "walls::north", made where there is none."""
-    if path not in numbers:
-        above, _, name = path.rpartition("::")
-        layer = rhino3dm.Layer()
-        layer.Name = name
-        if above:
-            layer.ParentLayerId = model.Layers[_layer(rhino3dm, model, numbers, above)].Id
-        numbers[path] = model.Layers.Add(layer)
-    return numbers[path]
-
-
-def _material(rhino3dm: ModuleType, model: Any, numbers: dict[str, int], name: str) -> int:
-    """Return the number of the material with this name, made where there is none."""
-    if name not in numbers:
-        material = rhino3dm.Material()
-        material.Name = name
-        numbers[name] = model.Materials.Add(material)
-    return numbers[name]
+    def material(self, name: str) -> int:
+        """Return the number of the material with this name, made where there is none."""
+        if name not in self.materials:
+            material = self.rhino3dm.Material()
+            material.Name = name
+            self.materials[name] = self.model.Materials.Add(material)
+        return self.materials[name]
 
 
 def _mesh(rhino3dm: ModuleType, block: Block) -> Any:

@@ -1,0 +1,46 @@
+"""Ties as lines from anchor to anchor."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.joints import Guide, Tie
+from limitblocks.model import Model
+
+
+class TieLine(NamedTuple):
+    """A tie: its place among the interfaces, its blocks i and j, its anchors (2, 3), m."""
+
+    interface: int
+    blocks: tuple[int, int]
+    anchors: Array
+
+
+def tie_lines(model: Model) -> list[TieLine]:
+    """Return the ties of a model that have a length; the first anchor of each is in block i."""
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    return [
+        TieLine(
+            k,
+            (place[one.block_i], place[one.block_j]),
+            one.centroid + np.outer([-0.5, 0.5], one.joint.length * one.axes[2]),
+        )
+        for k, one in enumerate(model.interfaces)
+        if isinstance(one.joint, Tie) and one.joint.length > 0.0
+    ]
+
+
+def moved(model: Model, line: TieLine, displacements: Array) -> Array:
+    """Return the anchors (2, 3) of a tie where displacements (n, 6) of the blocks take them, linearly."""
+    own = displacements[list(line.blocks)]
+    centres = np.array([model.blocks[k].centroid for k in line.blocks])
+    return np.asarray(line.anchors + own[:, :3] + np.cross(own[:, 3:], line.anchors - centres))
+
+
+def has_area(model: Model) -> list[bool]:
+    """Return of each interface whether its polygon is drawn: neither of a guide nor of a long tie."""
+    lines = {line.interface for line in tie_lines(model)}
+    return [k not in lines and not isinstance(one.joint, Guide) for k, one in enumerate(model.interfaces)]

@@ -1,0 +1,196 @@
+"""Results made from what they wrote of themselves: each field from its own key, by its type."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, fields, is_dataclass, replace
+from enum import Enum
+from math import inf, nan
+from types import NoneType, UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.backward_error import MEANINGS, BackwardError
+from limitblocks.evidence.check import Check
+from limitblocks.evidence.load_path_result import LoadPath, Snap
+from limitblocks.evidence.range_answer import Origin
+from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.residuals import Residual, Residuals
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.evidence.stability_result import Stability
+
+_KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}  # where the key is not the field's name
+#: What null stands for where it is not NaN.
+_NULL = {"associated": inf, "upper": inf, "lower": -inf, "stress_limit": inf, "multiplier_limit": inf}
+_COLUMNS = dict.fromkeys(("stress_resultants", "displacement_rates", "arising", "displacements"), 6)
+_MOST = 1e30  # in size: far beyond any structure, and its powers are still finite
+_STEP = {"step", "kind", "load_factor", "newly_active", "displacements", "stress_resultants"}
+
+
+class Lacking(ValueError):
+    """Something that the class needs is not there, or is of another type."""
+
+
+def result_of(data: Any) -> Any:
+    """Return the result whose ``to_dict()`` is `data`, marked as from a file.
+
+    Raises
+    ------
+    Lacking
+        It is of no known kind, or the class needs more than there is.
+    """
+    word = data.get("analysis") if isinstance(data, dict) else None
+    if not isinstance(word, str) or word not in _KINDS:
+        raise Lacking("analysis")
+    try:
+        return _KINDS[word](data)
+    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        raise Lacking(str(error)) from None
+
+
+def _plain(kind: type) -> Callable[[Mapping[str, Any]], Any]:
+    return lambda data: _made(kind, data)
+
+
+def _bounds(data: Mapping[str, Any]) -> Bounds:
+    if data["upper"] is None:
+        raise Lacking("upper")
+    made: Bounds = _made(Bounds, data)
+    return made
+
+
+def _path(data: Mapping[str, Any]) -> LoadPath:
+    """A path, whose steps have their residuals as keys of their own and whose snaps name steps."""
+    steps = [
+        step
+        | {"residuals": {k: v for k, v in step.items() if k not in _STEP}, "active": step["newly_active"]}
+        for step in data["steps"]
+    ]
+    made: LoadPath = _made(LoadPath, {**data, "steps": steps, "snaps": []})
+    end = made.collapse.displacement_rates.shape, made.collapse.stress_resultants.shape
+    if not made.steps or any(
+        (step.displacements.shape, step.stress_resultants.shape) != end for step in made.steps
+    ):
+        raise Lacking("no steps, or of another size than the collapse")
+    snaps = (Snap(made.steps[_place(i)], made.steps[_place(j)]) for i, j in data["snaps"])
+    return replace(made, snaps=tuple(snaps))
+
+
+def _range(data: Mapping[str, Any]) -> LoadFactorRange:
+    """A range, which names the answer of the load path by its place."""
+    made: LoadFactorRange = _made(LoadFactorRange, {**data, "load_path": None})
+    place = data["load_path_place"]
+    return made if place is None else replace(made, load_path=made.answers[_place(place)])
+
+
+_KINDS: dict[str, Callable[[Mapping[str, Any]], Any]] = {
+    "bounds": _bounds,
+    "nonassociated": _plain(Nonassociated),
+    "path": _path,
+    "range": _range,
+    "stability": _plain(Stability),
+    "check": _plain(Check),
+}
+
+
+def _place(data: Any) -> int:
+    if type(data) is not int or data < 0:
+        raise Lacking(f"{data!r} is no place")
+    return data
+
+
+def _made(kind: Any, data: Any) -> Any:
+    """A frozen dataclass of what the keys say; a key that is not there is the field's default."""
+    if kind is BackwardError:
+        return _backward_error(data)
+    hints = get_type_hints(kind)
+    said: dict[str, Any] = {}
+    for field in fields(kind):
+        key = _KEYS.get(field.name, field.name)
+        if field.name == "from_file":
+            said[field.name] = True
+        elif hints[field.name] is Residuals:
+            said[field.name] = _residuals(data[key], data.get("residual_details", {}))
+        elif key in data:
+            said[field.name] = _value(hints[field.name], data[key], field.name)
+        elif field.default is MISSING and field.default_factory is MISSING:
+            raise Lacking(f"{key} is missing")
+    if said.get("digest") == "":
+        raise Lacking("the model is not named")
+    return kind(**said)
+
+
+def _value(kind: Any, data: Any, name: str) -> Any:
+    """What `data` says, of the type that a field has."""
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin in (Union, UnionType):
+        if data is None:
+            return None
+        (kind,) = (part for part in parts if part is not NoneType)
+        return _value(kind, data, name)
+    if origin is np.ndarray:
+        return _array(data, name)
+    if origin is tuple and isinstance(data, list):
+        kinds = [parts[0]] * len(data) if parts[-1] is Ellipsis else parts
+        return tuple(_value(part, one, name) for part, one in zip(kinds, data, strict=True))
+    if origin is dict:
+        return {str(key): _number(one, inf) for key, one in data.items()}
+    if is_dataclass(kind):
+        return _made(kind, data)
+    if issubclass(kind, Enum):
+        return _member(kind, data)
+    if kind is float:
+        return _number(data, _NULL.get(name, nan))
+    if type(data) is not kind:
+        raise Lacking(f"{name} is {data!r}")
+    return data
+
+
+def _member(kind: type[Enum], data: Any) -> Enum:
+    for one in kind:
+        if data in (one.value, _word(one)):
+            return one
+    raise Lacking(f"{data!r} is none of {kind.__name__}")
+
+
+def _word(member: Enum) -> str:
+    """As the origin of an answer and the kind of stability are written."""
+    return member.name.lower().replace("_", " " if isinstance(member, Origin) else "-")
+
+
+def _number(data: Any, null: float) -> float:
+    if data is None:
+        return null
+    if type(data) not in (int, float) or not abs(data) < _MOST:
+        raise Lacking(f"{data!r} is no number")
+    return float(data)
+
+
+def _array(data: Any, name: str) -> Array:
+    columns = _COLUMNS.get(name, 3 if name == "trace" else None)
+    array = np.array(data)
+    numbers = array.dtype.kind in "fi" and array.ndim == (2 if columns else 1)
+    if array.size and not (numbers and np.abs(array).max() < _MOST):
+        raise Lacking(f"{name} is no array of numbers")
+    return read_only(array.reshape(-1, columns) if columns else array.ravel())
+
+
+def _residuals(data: Mapping[str, Any], details: Mapping[str, Any]) -> Residuals:
+    """Residuals by name; what they measure and where may be told beside them."""
+    if not data:
+        raise Lacking("no residuals")
+    rows = ((name, _number(value, inf), details.get(name, ("", ""))) for name, value in data.items())
+    return Residuals(tuple(Residual(name, value, str(said), str(at)) for name, value, (said, at) in rows))
+
+
+def _backward_error(data: Mapping[str, Any]) -> BackwardError:
+    where = data.get("at", {})
+    parts = {
+        name: Residual(name, _number(data[name], inf), said, str(where.get(name, "")))
+        for name, said in MEANINGS.items()
+    }
+    places = tuple((str(name), _number(change, inf)) for name, change in data["places"])
+    return BackwardError(**parts, places=places, model=_number(data["model"], inf), exact=None)

@@ -1,0 +1,45 @@
+"""Load factor against displacement, until it is zero."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from limitblocks.mechanics.loads.load import triple
+from limitblocks.plots.style import BLUE, PALE, VERMILION, curve_axes, plain
+
+if TYPE_CHECKING:  # it would load the solvers
+    from limitblocks.practice import CapacityCurve
+
+
+def capacity(curve: CapacityCurve, ax: Any = None) -> Any:
+    """Draw the load factor against the displacement of the control point.
+
+    Points at which a joint presses across a gap are hollow, the line to them broken: the load factor is then
+    one of a structure whose gap is filled.
+
+    Parameters
+    ----------
+    curve : CapacityCurve
+        Of :func:`limitblocks.practice.capacity_curve`.
+    ax : Axes, optional
+        Where to draw.
+    """
+    ax = curve_axes(ax)
+    x, loads = curve.displacements, curve.load_factors
+    across = np.array([bool(point.across) for point in curve.points])
+    first = int(across.argmax()) if across.any() else len(x)
+    ax.axhline(0.0, color=PALE, linewidth=0.8)
+    ax.plot(x[:first], loads[:first], "-", color=BLUE, linewidth=1.4)
+    ax.plot(x[~across], loads[~across], "o", color=BLUE, markersize=4.5, label="no gap is pressed across")
+    if across.any():
+        ax.plot(x[max(first - 1, 0) :], loads[max(first - 1, 0) :], "--", color=VERMILION, linewidth=1.2)
+        hollow: Any = {"linestyle": "none", "markerfacecolor": "white", "color": VERMILION}
+        ax.plot(x[across], loads[across], "o", label="presses across a gap", **hollow)
+        ax.legend(frameon=False, fontsize="small", loc="upper right")
+    control = curve.control
+    ax.set_xlabel(f"displacement of {control.block} along {triple(control.direction.tolist())} (m)")
+    ax.set_ylabel("load factor (–)")
+    plain(ax)
+    return ax

@@ -1,0 +1,167 @@
+"""What was saved is read back as what it was, and is no evidence until it is checked again."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+from limitblocks.io.result_file import result_text
+from limitblocks.reports.answer import answer
+
+MODEL = lb.structures.portal(lb.PointContact(0.6), span=1.6, pier_width=0.8, pier_blocks=2, depth=0.8)
+FOUND = lb.nonassociated(MODEL)
+SAVED = {
+    "bounds": lb.bounds(MODEL),
+    "nonassociated": FOUND,
+    "path": lb.load_path(MODEL),
+    "range": lb.load_factor_range(MODEL, paths=1, mechanisms=0),
+    "stability": lb.stability(MODEL),
+    "check": lb.check_mcp(MODEL, FOUND),
+}
+TITLES = {
+    "bounds": "Associated bounds",
+    "nonassociated": "Non-associated solution",
+    "path": "Load path",
+    "range": "Range of load factors",
+    "stability": "Stability under the dead loads, as a file says",
+    "check": "Check, as a file says",
+}
+WRONG = {"bounds": ("lower", "upper"), "nonassociated": ("load_factor",)}
+
+
+def changed(file, **values):
+    document = json.loads(file.read_text(encoding="utf-8")) | values
+    file.write_text(json.dumps(document), encoding="utf-8")
+    return file
+
+
+def without(file, *keys):
+    document = json.loads(file.read_text(encoding="utf-8"))
+    file.write_text(json.dumps({k: v for k, v in document.items() if k not in keys}), encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize("kind", SAVED)
+def test_what_was_saved_is_read_back(kind, tmp_path):
+    saved = SAVED[kind]
+    for given in ((), (MODEL,)):
+        read = lb.read_result(saved.save(tmp_path / "result.json", overwrite=True), *given)
+        assert type(read) is type(saved)
+        assert result_text(read) == result_text(saved)  # to_dict with null for what is undefined or infinite
+        assert str(read) == str(saved) + "; as a file says, not checked" or kind == "path"
+        assert "as a file says, not checked" in str(read)
+        assert (read.from_file, saved.from_file) == (True, False)
+        assert read.digest == MODEL.digest
+
+
+def test_parts_of_a_path_are_what_they_were(tmp_path):
+    path = SAVED["path"]
+    snapped = replace(path, snaps=(lb.results.Snap(path.steps[1], path.steps[2]),), tracked=np.nan)
+    read = lb.read_result(snapped.save(tmp_path / "path.json"))
+    assert read.snaps[0].after is read.steps[2]
+    assert read.snaps[0].drop == snapped.snaps[0].drop
+    assert np.isnan(read.tracked)
+    assert read.steps[-1].active == path.steps[-1].active
+    assert not read.steps[0].displacements.flags.writeable
+    assert read.collapse.history == path.collapse.history
+    assert read.collapse.residuals == path.collapse.residuals  # what each measures and where, too
+
+
+@pytest.mark.parametrize("kind", SAVED)
+def test_a_saved_result_is_reported_as_what_it_is(kind, tmp_path):
+    SAVED[kind].save(tmp_path / "result.json")
+    MODEL.save(tmp_path / "model.json")
+    output = tmp_path / "report.md"
+    files = [str(tmp_path / name) for name in ("model.json", "result.json")]
+    done = CliRunner().invoke(app, ["report", *files, "--output", str(output)])
+    assert done.exit_code == 0, done.output
+    text = output.read_text(encoding="utf-8")
+    assert f"## {TITLES[kind]}" in text
+    assert "read from a file" in text
+    assert "FAIL" not in text
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_what_a_file_says_of_itself_is_no_evidence(kind, tmp_path):
+    """The load factor raised by 1 %, with status and residuals of the true one left as they are."""
+    file = SAVED[kind].save(tmp_path / "result.json")
+    file = changed(file, tolerance=1e3, **{key: 1.01 * getattr(SAVED[kind], key) for key in WRONG[kind]})
+    read = lb.read_result(file, MODEL)
+    assert type(read) is type(SAVED[kind])
+    assert not lb.check_mcp(MODEL, read).passed
+    made = lb.report(MODEL, read)
+    assert answer(made.results).load_factor is None
+    assert "Claimed solution, check failed" in made.markdown
+    assert "FAIL" in made.markdown
+
+
+def test_a_path_to_a_wrong_collapse_is_no_path(tmp_path):
+    file = SAVED["path"].save(tmp_path / "path.json")
+    collapse = json.loads(file.read_text(encoding="utf-8"))["collapse"]
+    collapse["load_factor"] *= 1.01
+    read = lb.read_result(changed(file, collapse=collapse))
+    assert "Claimed solution, check failed" in lb.report(MODEL, read).markdown
+
+
+def test_a_range_with_an_answer_that_is_none_is_refused(tmp_path):
+    file = SAVED["range"].save(tmp_path / "range.json")
+    answers = json.loads(file.read_text(encoding="utf-8"))["answers"]
+    answers[0]["solution"]["load_factor"] *= 1.01
+    with pytest.raises(lb.LimitBlocksError, match=r"load factor .*, that is no solution: "):
+        lb.report(MODEL, lb.read_result(changed(file, answers=answers)))
+
+
+def test_a_check_and_a_stability_that_were_read_prove_nothing(tmp_path):
+    for kind in ("check", "stability"):
+        made = lb.report(MODEL, lb.read_result(SAVED[kind].save(tmp_path / f"{kind}.json")))
+        (said,) = made.sections
+        assert said.headline == "not checked"
+        assert not said.checks
+        assert said.rates is None
+    failed = changed(tmp_path / "check.json", passed=False)
+    assert lb.read_result(failed).passed == SAVED["check"].passed  # by its residuals, whatever the word
+
+
+@pytest.mark.parametrize(
+    ("kind", "key"), [("nonassociated", "history"), ("path", "steps"), ("bounds", "proof")]
+)
+def test_a_file_that_lacks_something_is_a_claim(kind, key, tmp_path):
+    """As a file of an earlier version or of another program."""
+    file = without(SAVED[kind].save(tmp_path / "result.json"), key)
+    assert type(lb.read_result(file)) is lb.results.Claim
+    assert "Claimed solution, check passed" in lb.report(MODEL, lb.read_result(file)).markdown
+
+
+@pytest.mark.parametrize("key", ["history", "status", "residuals", "backward_error", "remarks", "how"])
+@pytest.mark.parametrize("nonsense", [7, [[1]], {"a": []}, {}, None], ids=str)
+def test_nonsense_beside_the_numbers_makes_it_a_claim(key, nonsense, tmp_path):
+    file = changed(FOUND.save(tmp_path / "result.json"), **{key: nonsense})
+    assert type(lb.read_result(file)) is lb.results.Claim
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [{"steps": []}, {"snaps": [[0, 99]]}, {"snaps": [[-1, 0]]}, {"trace": [[0, 1]]}, {"tracked": 1e300}],
+    ids=str,
+)
+def test_a_path_that_is_none_is_the_claim_of_its_collapse(changes, tmp_path):
+    read = lb.read_result(changed(SAVED["path"].save(tmp_path / "path.json"), **changes))
+    assert type(read) is lb.results.Claim
+
+
+def test_files_without_the_new_keys_are_read(tmp_path):
+    file = without(FOUND.save(tmp_path / "result.json"), "residual_details")
+    read = lb.read_result(file)
+    assert type(read) is type(FOUND)
+    assert read.residuals.to_dict() == FOUND.residuals.to_dict()
+
+
+def test_result_of_another_model_is_refused(tmp_path):
+    other = lb.structures.block(lb.PointContact(0.4), width=0.5, height=1.0)
+    for kind, saved in SAVED.items():
+        with pytest.raises(lb.ModelError, match="belongs to model"):
+            lb.read_result(saved.save(tmp_path / f"{kind}.json"), other)

@@ -1,0 +1,246 @@
+"""What practice computes, in reports: every line of a verification, and refusals."""
+
+import json
+import re
+from dataclasses import replace
+from html import unescape
+from io import BytesIO
+
+import jsonschema
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.drawing.sheet import polylines
+from limitblocks.loads import added_mass
+from limitblocks.practice import (
+    Deck,
+    Spectrum,
+    Vehicle,
+    capacity_curve,
+    dowel,
+    least_ties,
+    reinforced,
+    settlement,
+    tie,
+    verification,
+    worst_position,
+)
+from limitblocks.reports import terminal
+from limitblocks.reports.interfaces import relative_motion
+from limitblocks.reports.pdf import latin, pdf
+
+pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+
+T, H, WEIGHT, FLOOR, ARM, FC, G = 0.5, 5.0, 18e3, 10e3, 0.35, 1.35, 9.81
+OWN = WEIGHT * T * H
+SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
+TIES = [tie("wall", (-T / 2, 0, z), "ground", (-6, 0, z), area=1e-3, strength=100e6) for z in (2.0, 4.5)]
+
+
+@pytest.fixture(scope="module")
+def facade():
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
+    ]
+    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    push = lb.mass_proportional((1, 0, 0), [floor])
+    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
+
+
+@pytest.fixture(scope="module")
+def beam():
+    stones = [
+        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
+        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
+        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    push = lb.mass_proportional((1, 0, 0))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), push)
+
+
+@pytest.fixture(scope="module")
+def answers(facade):
+    solved = lb.nonassociated(facade)
+    curve = capacity_curve(facade, control=("wall", (T / 2, 0.5, H)), steps=3)
+    verified = verification(facade, solved, SITE, q=2.0, confidence=FC, curve=curve, collapse_demand=SITE)
+    return solved, verified, curve, least_ties(facade, TIES, 0.3)
+
+
+@pytest.fixture(scope="module")
+def settled(beam):
+    return settlement(beam, "right", (0, 0, -1))
+
+
+@pytest.fixture(scope="module")
+def vehicle(beam):
+    return worst_position(beam, Vehicle((10e3,)), Deck(0.5), (3.2, 3.8), positions=3)
+
+
+@pytest.fixture(scope="module")
+def reports(facade, answers, beam, settled, vehicle):
+    return lb.report(facade, *answers, title="Facade"), lb.report(beam, settled, vehicle, title="Beam")
+
+
+def squeezed(text):
+    return re.sub(r"\s+", "", text)
+
+
+def in_pdf(report):
+    margins = rf"Model {report.model.digest}|Page \d+ of \d+|{report.title}\nlimitblocks report\n"
+    sheets = pypdf.PdfReader(BytesIO(pdf(report.document))).pages
+    return " ".join(re.sub(margins, "", page.extract_text()) for page in sheets)
+
+
+def in_html(report):
+    html = re.sub(r"<(script|style)[^>]*>.*?</\1>", "", report.html, flags=re.DOTALL)
+    return unescape(re.sub(r"<[^>]+>", " ", html))
+
+
+RENDERINGS = {
+    "html": in_html,
+    "json": lambda report: json.dumps(json.loads(report.json), ensure_ascii=False).replace('\\"', '"'),
+    "markdown": lambda report: re.sub(r"\\(.)", r"\1", report.markdown),
+    "terminal": lambda report: terminal.text(report.document, width=2000),
+    "pdf": in_pdf,
+}
+
+
+@pytest.mark.parametrize("rendering", RENDERINGS)
+def test_every_fact_is_in_every_rendering(rendering, reports):
+    for report in reports:
+        said = squeezed(RENDERINGS[rendering](report))
+        if rendering == "pdf":
+            said = said.replace("α", "a")
+        for fact in report.document.facts():
+            wanted = latin(fact.replace("α", "a")) if rendering == "pdf" else fact
+            assert squeezed(wanted) in said, fact
+
+
+def chapter(report, title):
+    (found,) = (one for one in report.document.chapters if one.title == title)
+    return found
+
+
+def rows(report, title, caption):
+    tables = [
+        part for part in chapter(report, title).parts if getattr(part, "caption", "").startswith(caption)
+    ]
+    return {row[0].text: [cell.text for cell in row] for row in tables[0].rows}
+
+
+def test_a_verification_is_there_line_by_line(reports):
+    """Each quantity from its formula; the facade of tests/practice/test_verification.py."""
+    P, delta = np.array([OWN, FLOOR]), np.array([H / 2, H])
+    alpha = (OWN * T / 2 + FLOOR * ARM) / (P @ delta)
+    mass = (P @ delta) ** 2 / (G * P @ delta**2)
+    e = G * mass / P.sum()
+    a0 = alpha * G / (e * FC)
+    d0 = H * np.sin(np.arctan(alpha)) * (P @ delta**2) / (H * P @ delta)
+    period = 1.68 * np.pi * np.sqrt(0.4 * d0 / (0.6 * a0))
+    expected = {"alpha0": alpha, "sum P": P.sum(), "M*": mass, "e*": e, "FC": FC, "a0*": a0, "a_g": 0.25 * G}
+    expected |= {"S": 1.2, "F0": 2.5, "q": 2.0, "a_d": 0.25 * G * 1.2 / 2, "d0*": d0, "T_SLV": period}
+    units = {"sum P": "N", "M*": "kg", "a0*": "m/s²", "a_g": "m/s²", "a_d": "m/s²", "d0*": "m", "T_SLV": "s"}
+    title = "Kinematic verification of the mechanism"
+    shown = rows(reports[0], title, "Quantities")
+    for symbol, value in expected.items():
+        number, _, unit = shown[symbol][3].partition(" ")
+        assert float(number) == pytest.approx(value, rel=1e-5), symbol
+        assert unit == units.get(symbol, "")
+        assert all(shown[symbol]), symbol  # meaning, formula and source, too
+    assert shown["M*"][2] == "(sum P_i delta_i)^2 / (g sum P_i delta_i^2)"
+    demand = 0.25 * G * 1.2 * 2.5 * 0.5 * 2.6 / (2 * np.pi) ** 2  # beyond T_D
+    checks = rows(reports[0], title, "Checks")
+    assert checks["linear, SLV"][3:] == ["0.495", "NOT satisfied"]  # .495985, never rounded up
+    assert float(checks["linear, SLV"][1].split()[0]) == pytest.approx(a0, rel=1e-5)
+    assert checks["non-linear, SLV"][4] == ("satisfied" if 0.4 * d0 >= demand else "NOT satisfied")
+    assert float(checks["non-linear, SLV"][3]) == pytest.approx(0.4 * d0 / demand, rel=0.01)
+    said = " ".join(getattr(part, "text", "") for part in chapter(reports[0], title).parts)
+    assert "Nothing is claimed beyond the inequalities named" in said
+    assert "The text of Circolare 7/2019 was not seen" in said
+
+
+def test_a_capacity_curve_has_its_points_and_its_drawing(reports):
+    shown = rows(reports[0], "Capacity curve", "Points")
+    alpha = (OWN * T / 2 + FLOOR * ARM) / (OWN * H / 2 + FLOOR * H)
+    first, *_, last = shown.values()
+    assert float(first[1]) == pytest.approx(alpha, rel=1e-5)
+    assert float(last[0]) == pytest.approx(H * np.sin(np.arctan(alpha)), rel=1e-5)
+    (drawing,) = (p for p in chapter(reports[0], "Capacity curve").parts if hasattr(p, "sheet"))
+    assert len(drawing.sheet.dots) == len(shown)
+    assert "displacement of wall along" in " ".join(label.text for label in drawing.sheet.labels)
+
+
+def test_a_repair_lists_its_candidates(reports):
+    """The upper tie alone, T z = alpha (sum of P h) - the moments that hold."""
+    force = (0.3 * (OWN * H / 2 + FLOOR * H) - OWN * T / 2 - FLOOR * ARM) / 4.5
+    shown = list(rows(reports[0], "Least reinforcement", "Reinforcement").values())
+    assert shown[0][1] == "not needed"
+    assert float(shown[1][1].split()[0]) == pytest.approx(force / 1e3, rel=1e-4)
+
+
+def test_a_settlement_has_reactions_and_its_mechanism(reports):
+    """The beam rests on the left support's inner edge and the far edge of the right one."""
+    shown = rows(reports[1], "Settlement of right", "Result")
+    least = 40.0 * (2.0 - 0.5) / (3.0 - 0.5)
+    assert float(shown["Without dilatancy"][1].split()[0]) == pytest.approx(least, rel=1e-5)
+    (drawing,) = (p for p in chapter(reports[1], "Settlement of right").parts if hasattr(p, "sheet"))
+    assert "2 of 3 blocks move" in drawing.sheet.text
+
+
+def test_the_worst_position_is_marked(reports, vehicle):
+    shown = rows(reports[1], "Vehicle on the deck", "Load factor by position")
+    assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:#.6g}"]
+
+
+def test_the_json_follows_its_schema(reports):
+    for report in reports:
+        jsonschema.validate(json.loads(report.json, parse_constant=pytest.fail), lb.files.report_schema())
+
+
+def test_answers_of_another_model_are_refused(facade, beam, answers, settled, vehicle):
+    for model, own in ((beam, answers[1:]), (facade, (settled, vehicle))):
+        for answer in own:
+            with pytest.raises(lb.LimitBlocksError, match=f"this {type(answer).__name__} belongs to another"):
+                lb.report(model, answer)
+    with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+        lb.report(replace(facade, live=2.0 * facade.live), answers[1])
+
+
+def test_ties_and_dowels_have_their_force_and_their_line(facade):
+    """A tie of 8 kN yields, one on the other side goes slack; a dowel at the hinge carries what it can."""
+    rods = [
+        tie("wall", (0, 0, 4.5), "ground", (x, 0, 4.5), area=1e-4, strength=235e6, pull_out=8e3)
+        for x in (-6.0, 6.0)
+    ]
+    joint = facade.interfaces[0]
+    model = reinforced(facade, *rods, dowel(joint, joint.centroid, diameter=0.02, capacity=5e3))
+    solved = lb.nonassociated(model)
+    alpha = (OWN * T / 2 + FLOOR * ARM + 8e3 * 4.5) / (OWN * H / 2 + FLOOR * H)
+    assert solved.load_factor == pytest.approx(alpha, rel=1e-6)  # .3123077
+    made = lb.report(model, solved, title="Tied")
+    (title,) = (one.title for one in made.document.chapters if one.title.startswith("Non-associated sol"))
+    (table,) = (p for p in chapter(made, title).parts if getattr(p, "caption", "") == "Ties and dowels")
+    held, slack, pinned = [[cell.text for cell in row] for row in table.rows]
+    assert held[1:] == ["8", "8", "1.000", "yield"]
+    assert slack[1:] == ["0", "8", "0.000", "slack"]
+    assert pinned[2] == "5"
+    assert float(pinned[3]) == pytest.approx(float(pinned[1]) / 5.0, abs=1e-3)
+    (drawing,) = (
+        p for p in chapter(made, title).parts if getattr(getattr(p, "sheet", 0), "style", "") == "mechanism"
+    )
+    drawn = [group for group in drawing.sheet.groups if group.style.startswith("tie-")]
+    assert [group.style for group in drawn] == ["tie-yield", "tie-slack"]
+    ends = [list(polylines(group.shapes[0].path)) for group in drawn]
+    (left, _), (right, _) = ends[0][0], ends[1][0]
+    assert left[:2] == right[:2]  # both anchors in the wall
+    assert (left[2] - left[0]) * (right[2] - right[0]) < 0.0
+    assert [word for _, word in drawing.legend][-2:] == ["tie: yield", "tie: slack"]
+    assert pdf(made.document).startswith(b"%PDF")
+    assert made.html.count('class="tie-yield"') == 2  # drawing and legend
+    moves = relative_motion(model, solved.collapse.displacement_rates)
+    turn = abs(solved.collapse.displacement_rates[1, 4])
+    assert moves[1:3] == pytest.approx(turn * 4.5, rel=1e-6)
