@@ -159,7 +159,8 @@ def _said(fault: Any, form: type[Document]) -> str:
         case "model_type" | "model_attributes_type" | "dict_type":
             return f"expected an object {{...}}, not {_value(fault['input'])}"
         case _:
-            said = fault["msg"].replace("Input should be", "expected").replace(" valid", "")
+            said = fault["msg"].partition(", unable to parse")[0]
+            said = said.replace("Input should be", "expected").replace(" valid", "")
             return f"{said}, not {_value(fault['input'])}"
 
 

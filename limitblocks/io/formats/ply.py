@@ -50,8 +50,8 @@ def contents(path: Path) -> Contents:
     """
     data = read_bytes(path)
     order, elements, start = _header(data)
-    source = _Binary(data[start:], order) if order else _Text(data[start:])
     try:
+        source = _Binary(data[start:], order) if order else _Text(data[start:])
         values = {element.name: _values(element, source) for element in elements}
         vertices, faces = values.get("vertex", {}), values.get("face", {})
         loops = next((_whole(faces[key]) for key in _LOOPS if key in faces), None)
