@@ -166,7 +166,7 @@ def test_the_time_limit_leaves_what_there_is():
     assert not found.complete
     assert found.load_path is None
     assert np.isnan(found.reached).all()
-    assert "stopped by the time limit" in str(found)
+    assert "stopped early, by the time limit or by hand" in str(found)
 
 
 def test_with_table_5_there_are_paths_alone():
