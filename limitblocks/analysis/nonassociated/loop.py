@@ -16,6 +16,7 @@ from limitblocks.analysis.nonassociated.start import (
     Bracket,
     Start,
     bracket,
+    close_bounds,
     flowing_state,
     load_scale,
     own_units,
@@ -123,7 +124,7 @@ def nonassociated(
         if progress is not None:
             progress(iteration)
 
-    given = enclosing.bounds if flow.associated and start is None else start
+    given = close_bounds(model, enclosing, tolerance) if flow.associated and start is None else start
     state = flowing_state(model, flow, given)
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"

@@ -104,6 +104,16 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
 
 
+def close_bounds(model: Model, enclosing: Bracket, tolerance: float) -> Bounds | None:
+    """Bounds a tenth of the tolerance apart; those of the bracket where no solver comes as close."""
+    if enclosing.bounds is None:
+        return None
+    try:
+        return bounds(model, tolerance=min(tolerance, enclosing.bounds.tolerance) / 10)
+    except SolverFailure:
+        return enclosing.bounds
+
+
 def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None:
     """A result as a state of the flow rule, polished: with associated flow bounds are a solution."""
     if not isinstance(given, Nonassociated | Bounds) or given.digest != model.digest:
