@@ -109,9 +109,7 @@ def shape(name, size):
     ("name", "size"),
     [
         ("circular", np.radians(157.5)),
-        ("circular", np.radians(140.0)),
         ("pointed", np.sqrt(3.0)),  # equilateral: the apex rises
-        ("pointed", 2.2),
         ("elliptical", 0.6),
         ("elliptical", 1.3),
     ],
