@@ -20,6 +20,7 @@ from limitblocks.evidence.measure import ROUNDING, Measure
 from limitblocks.problem import Cones, LimitProblem, State, power_of_two
 
 REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
+ROUNDED = 1e-28  # of the largest diagonal: a square of rounding errors, such as out of the plane of an arch
 UNLOADED = 1e-3  # of what acts on the lesser block: the least unit of force of an interface
 IDLE = 1e-6  # of what acts on a block: the least unit of one of its equations
 COARSER = 16.0  # a unit off by more is changed, and the programs solved again
@@ -190,5 +191,6 @@ def repaired(p: Scaled, state: State) -> State:
 
 def _factors(K: sparse.csr_array) -> linalg.SuperLU:
     diagonal = K.diagonal()  # in units of a state its entries are far apart
-    regular = sparse.diags_array(REGULAR * np.where(diagonal > 0.0, diagonal, 1.0))
+    real = diagonal > ROUNDED * diagonal.max(initial=0.0)
+    regular = sparse.diags_array(REGULAR * np.where(real, diagonal, 1.0))
     return linalg.splu(sparse.csc_array(K + regular))

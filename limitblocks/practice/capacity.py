@@ -25,9 +25,10 @@ STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 SHORTEST = 2.0**-20  # of a step: where a contact closes
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 FIRST = 1e-3  # of the size of the structure: the first step
-GROWTH = 10.0  # of a step over the one before
+GROWTH = 10.0  # of a step over the one before where the load factor rises
 TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
+NEARLY = 1e-6  # the same where a step moves nothing any more
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
 
@@ -106,14 +107,13 @@ def _curve(
     before: CapacityPoint | None = None
     while True:
         yield point
-        near = before and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
-        if near or abs(point.load_factor) <= ZERO * scale:
+        still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
+        if abs(point.load_factor) <= (NEARLY if still else ZERO) * scale:
             return
         if point.displacement >= largest * (1.0 - 1e-12):
             yield f"the displacement {largest:g} m is reached"
             return
-        step = _next_step(assembly, control, (before, point), steps)
-        step = min(step, largest - point.displacement)
+        step = min(_next_step(assembly, control, (before, point), steps), largest - point.displacement)
         for trial in range(TRIALS):
             try:
                 found = _advanced(assembly, control, point, step / 2.0**trial, scale)
@@ -123,8 +123,8 @@ def _curve(
         else:
             yield why
             return
-        if found is None:
-            yield f"a contact closes at {point.displacement:.6g} m and stops the mechanism"
+        if still or found is None:
+            yield f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
             return
         before, (assembly, control, point) = point, found
 
@@ -143,7 +143,7 @@ def _next_step(
     ahead = point.load_factor / slope
     if point.load_factor < 0.0:  # beyond the zero: back by the secant
         return ahead
-    whole = min((point.displacement + ahead) / steps, GROWTH * last_step)
+    whole = (point.displacement + ahead) / steps
     return ahead if ahead <= 1.5 * whole or ahead <= last_step else whole
 
 
@@ -160,7 +160,7 @@ def _advanced(
         goal, left = moving.closed_up(moving.moved(assembly, share * step / pace * rates), held, sliding)
         now = [own.ways[:, 2] for own in goal.contacts]
         lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
-        if left <= CLOSED * assembly.size and lowest >= least:
+        if left <= CLOSED * assembly.size and lowest >= least and not moving.meet(goal):
             break
         share /= 2.0
     else:

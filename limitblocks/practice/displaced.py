@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Block, Interface, find_interfaces
+from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.joints import Tie
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
@@ -20,6 +21,7 @@ from limitblocks.mechanics.loads.load import Term
 from limitblocks.model import Model
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
+MEETS = 1e-6  # of the size of the structure: a deeper overlap of blocks counts
 ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
 PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
 
@@ -218,6 +220,17 @@ def _rows(assembly: Assembly) -> sparse.csr_array:
     places = np.concatenate(rows), np.concatenate(columns)
     shape = start, 6 * len(assembly.model.blocks)
     return sparse.coo_array((np.concatenate(data), places), shape=shape).tocsr()
+
+
+def meet(assembly: Assembly) -> bool:
+    """Whether blocks that no interface joins overlap."""
+    blocks = assembly.model.blocks
+    joined = {tuple(sorted(own.ends)) for own in assembly.contacts}
+    low, high = (np.array([end(block.vertices, axis=0) for block in blocks]) for end in (np.min, np.max))
+    inside = np.triu((low[:, None] < high[None]).all(axis=2) & (low[None] < high[:, None]).all(axis=2), 1)
+    pairs = np.array([pair for pair in np.argwhere(inside).tolist() if tuple(pair) not in joined])
+    points = [block.vertices for block in blocks]
+    return len(pairs) > 0 and bool(find_overlaps(blocks, points, pairs, MEETS * assembly.size))
 
 
 def slid(assembly: Assembly, sliding: list[bool]) -> Assembly:

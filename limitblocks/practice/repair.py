@@ -104,7 +104,7 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     ModelError
         If there is no candidate, one has a prestress, or the ties cannot reach the load factor.
     """
-    required = number(load_factor, "load factor", "(no unit)", above=0.0)
+    required = number(load_factor, "load factor", "", above=0.0)
     if not candidates or not all(isinstance(one.interface.joint, Tie) for one in candidates):
         raise ModelError("least_ties needs at least one tie to choose from")
     if any(one.prestress for one in candidates):
@@ -141,7 +141,7 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     ModelError
         If there is no place, the live load is not mass-proportional, or no masses reach the load factor.
     """
-    required = number(load_factor, "load factor", "(no unit)", above=0.0)
+    required = number(load_factor, "load factor", "", above=0.0)
     pushes = [(factor, term) for factor, term in model.live.terms if isinstance(term, MassProportional)]
     if len(pushes) != 1 or pushes[0][0] != 1.0:
         raise ModelError("least_masses needs a live load with one mass-proportional term")

@@ -38,7 +38,7 @@ def element_acceleration(
     ModelError
         If a number is out of range.
     """
-    a, soil = number(alpha, "alpha", "(over g)", above=0.0), number(S, "S", "(no unit)", above=0.0)
+    a, soil = number(alpha, "alpha", "", above=0.0), number(S, "S", "", above=0.0)
     H = number(height, "height of the building", "m", above=0.0)
     T_1 = number(building_period, "period of the building", "s", above=0.0)
     T_a = number(element_period, "period of the element", "s", least=0.0)
@@ -51,10 +51,10 @@ def element_acceleration(
 def element_force(acceleration: float, weight: float, *, importance: float = 1.0, q_a: float = 2.0) -> float:
     """Return the horizontal force F_a = S_a W_a gamma_a / q_a on an element, N, EN 1998-1 Eq. (4.24)."""
     return (
-        number(acceleration, "S_a", "(over g)", above=0.0)
+        number(acceleration, "S_a", "", above=0.0)
         * number(weight, "weight", "N", above=0.0)
-        * number(importance, "importance factor", "(no unit)", above=0.0)
-        / number(q_a, "q_a", "(no unit)", least=1.0)
+        * number(importance, "importance factor", "", above=0.0)
+        / number(q_a, "q_a", "", least=1.0)
     )
 
 

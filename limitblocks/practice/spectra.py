@@ -51,8 +51,8 @@ class Spectrum:
 
     def __post_init__(self) -> None:
         number(self.a_g, "a_g", "m/s2", above=0.0)
-        number(self.S, "S", "(no unit)", above=0.0)
-        number(self.F0, "F0", "(no unit)", least=2.2)
+        number(self.S, "S", "", above=0.0)
+        number(self.F0, "F0", "", least=2.2)
         number(self.T_C, "T_C", "s", above=0.0)
 
     @property
@@ -105,9 +105,9 @@ class FloorMode:
 
     def __post_init__(self) -> None:
         number(self.period, "period of a mode", "s", above=0.0)
-        number(self.participation, "participation of a mode", "(no unit)")
-        number(self.shape, "shape of a mode", "(no unit)")
-        number(self.damping, "damping of a mode", "(no unit)", above=0.0)
+        number(self.participation, "participation of a mode", "")
+        number(self.shape, "shape of a mode", "")
+        number(self.damping, "damping of a mode", "", above=0.0)
 
 
 @dataclass(frozen=True)

@@ -82,7 +82,7 @@ class Deck:
 
     def __post_init__(self) -> None:
         number(self.level, "level of the road", "m")
-        number(self.spread, "spread", "(no unit)", least=0.0)
+        number(self.spread, "spread", "", least=0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -276,7 +276,7 @@ def passive_fill(
     ModelError
         If a number is out of range or no block lies under the fill with a face that leans along the deck.
     """
-    number(coefficient, "coefficient of passive pressure", "(no unit)", above=0.0)
+    number(coefficient, "coefficient of passive pressure", "", above=0.0)
     number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
     d = np.array(unit_vector(along, "direction along the deck"))
     free, names = model.free_blocks, tuple(blocks)

@@ -75,7 +75,7 @@ def verification(
     d*_SLV = .4 d0*, d*_SLC = .6 d0* on a* = a0* (1 - d* / d0*), periods 1.68 and 1.56 times pi sqrt(d* / a*).
     """
     collapse = collapse_of(model, result)
-    q, confidence = number(q, "q", "(no unit)", least=1.0), number(confidence, "FC", "(no unit)", least=1.0)
+    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
     weights, delta, moving = _weights(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
     sums = float(weights @ delta), float(weights @ delta**2)

@@ -1,11 +1,15 @@
 """Capacity curves: closed forms at finite displacement, what moves with the blocks, negative controls."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import limitblocks as lb
+from limitblocks.arrays import read_only
 from limitblocks.mechanics import added_mass, pressure
-from limitblocks.practice import capacity_curve, reinforced, tie
+from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
 from limitblocks.practice.displaced import assembly_of, closed_up, moved
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -125,3 +129,72 @@ def test_load_that_stays_behind():
     )  # fmt: skip
     with pytest.raises(lb.ModelError, match="does not move with the blocks"):
         capacity_curve(loaded)
+
+
+def test_blocks_that_meet_stop_the_curve():
+    """A block rocks towards a wall 5 cm away: its upper corner is there at asin(.05 / h)."""
+    stones = [
+        lb.Block.box("base", (3, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
+        lb.Block.box("wall", (0.3, 1, 2.0), (B / 2 + 0.05 + 0.15, 0, 1.0)),
+    ]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
+    assert curve.zero is None
+    assert curve.ended.startswith("blocks meet at 0.05")
+    assert curve.displacements[-1] == pytest.approx(0.05, abs=1e-4)
+    assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
+
+
+def test_a_gap_that_closes_is_not_stepped_over():
+    """A block turned by hand, then moved back by more than its gap: the step ends at the gap."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    result = lb.nonassociated(model)
+    forth = result.displacement_rates * 0.01 / np.abs(result.displacement_rates).max()
+    leaning = moved(assembly_of(model), forth)
+    back = replace(result, displacement_rates=-forth)
+    corner, along = toe_corner(leaning.model), read_only(np.array([-1.0, 0, 0]))
+    control, point = Control("block 1", corner, along), CapacityPoint(0.0, 0.2, 0.0, leaning.model, back, ())
+    goal, _, found = capacity._advanced(leaning, control, point, 1.5 * 0.01, 0.2)
+    assert 0.0 < found.displacement < 0.0101
+    assert goal.contacts[0].ways[:, 2].min() > -1e-7
+
+
+def test_a_tie_that_yields_on_the_way_to_zero():
+    """The load factor falls ever faster, and the secant steps beyond its zero: few points all the same."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    pull = 0.05 * model.free_blocks[0].weight
+    rod = tie("block 1", (0, 0, H), "base", (-0.4, 0, H), area=1e-4, strength=1e9, pull_out=pull)
+    curve = capacity_curve(reinforced(model, rod), control=("block 1", toe_corner(model)), steps=4)
+    assert curve.zero is not None
+    assert len(curve.points) < 12
+
+    def moment(turn):  # of weight and tie about the toe, per weight
+        at = np.array([-B * np.cos(turn) + H * np.sin(turn), B * np.sin(turn) + H * np.cos(turn)])
+        way = np.array([-0.4 - B, H]) - at
+        own = B / 2 * np.cos(turn) - H / 2 * np.sin(turn)
+        return own - 0.05 * (at[1] * way[0] - at[0] * way[1]) / np.linalg.norm(way)
+
+    turn = brentq(moment, 0.01, 1.0, xtol=1e-14)
+    assert curve.zero == pytest.approx(H * np.sin(turn), rel=1e-7)
+
+
+def test_a_curve_that_rises_goes_on_by_longer_steps():
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    result = lb.nonassociated(model)
+    before, point = (CapacityPoint(d, a, 0.0, model, result, ()) for d, a in ((0.0, 0.2), (0.001, 0.21)))
+    control = Control("block 1", toe_corner(model), read_only(np.array([1.0, 0, 0])))
+    assert capacity._next_step(assembly_of(model), control, (before, point), 20) == pytest.approx(0.01)
+
+
+def test_a_joint_that_presses_across_its_gap_is_named():
+    """The hinge of an arch moves to another joint and leaves an opened one that is pressed off its edge."""
+    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=15)
+    curve = capacity_curve(arch, steps=10, largest=0.33)
+    across = [bool(point.across) for point in curve.points]
+    assert not across[0]
+    assert across[-1]
+    assert curve.proven_to == curve.displacements[across.index(True) - 1]
+    assert "presses across a gap of" in curve.points[-1].across[0]
+    assert "joints press across their gaps" in str(curve)

@@ -89,7 +89,7 @@ def number(value: float, word: str, unit: str, *, least: float = -np.inf, above:
     if np.isfinite(real) and real >= least and real > above:
         return real
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
-    raise ModelError(f"{word} is {value!r}, expected a finite number{wanted} in {unit}")
+    raise ModelError(f"{word} is {value!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
 
 
 def along(direction: Sequence[float]) -> str:
