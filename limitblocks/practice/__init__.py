@@ -2,6 +2,8 @@
 
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
+from limitblocks.practice.collapse import settlement_to_collapse
+from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
 from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, element_acceleration, element_force
@@ -32,6 +34,8 @@ __all__ = [
     "Repair",
     "Rocking",
     "Settlement",
+    "SettlementCurve",
+    "SettlementPoint",
     "Settling",
     "Spectrum",
     "Vehicle",
@@ -46,6 +50,7 @@ __all__ = [
     "passive_fill",
     "reinforced",
     "settlement",
+    "settlement_to_collapse",
     "settling",
     "strip",
     "tie",

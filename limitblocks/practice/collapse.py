@@ -19,7 +19,7 @@ from limitblocks.practice.settlement import Settlement, settlement, settling
 
 STEP = 0.01  # of the size of the structure: the largest step
 FIRST = 1e-3  # the same: the first one
-GROWTH = 2.0  # of a step over the one before
+GROWTH = 4.0  # of a step over the one before
 ACCURACY = 1e-6  # of the size of the structure: the interval in which it falls
 
 
