@@ -87,7 +87,8 @@ def settlement_to_collapse(
         )
 
     first = SettlementPoint(0.0, found(model), ())
-    points, end = [], (None, "")
+    points: list[SettlementPoint] = []
+    end: tuple[float | None, str] = (None, "")
     for one in _way(assembly, control, first, found, (min(step, FIRST * size), step, accuracy, largest)):
         if isinstance(one, tuple):
             end = one
