@@ -8,6 +8,19 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem.plane.places import Place
 
 EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
+DECIMALS = 12  # of numbers up to one: places that agree to these are judged once
+
+
+def classes(*numbers: Array) -> tuple[Indices, Indices]:
+    """The first place of each class of places with the same numbers (K, ...), and the class of each (K,).
+
+    Structures repeat a few joints over and over.
+    """
+    flat = [np.round(part.reshape(len(part), -1), DECIMALS) + 0.0 for part in numbers]
+    seen: dict[bytes, int] = {}
+    of_place = [seen.setdefault(row.tobytes(), len(seen)) for row in np.concatenate(flat, axis=1)]
+    own = np.array(of_place, dtype=np.int64)
+    return np.unique(own, return_index=True)[1], own
 
 
 def close(a: Array, b: Array, scale: Array | float) -> bool:
@@ -24,6 +37,8 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
     scale = np.abs(there).max(axis=(1, 2))
     scale = np.where(scale > 0.0, scale, 1.0)[:, None, None]
     turned, there = turned / scale, there / scale
+    first, own = classes(turned, there)
+    turned, there = turned[first], there[first]
     partners = []
     for kinds in _same_size(kind):
         a, b = (np.stack([length_of(v[:, at]) for at in kinds], axis=1) for v in (turned, there))
@@ -34,7 +49,8 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
         partner = np.empty_like(here)
         np.put_along_axis(partner, here, kind.members.index(kinds[0]) + there_too, axis=1)
         partners.append(partner)
-    return np.concatenate(partners, axis=1) if partners else np.zeros((len(kind.rows), 0), dtype=np.int64)
+    none = np.zeros((len(first), 0), dtype=np.int64)
+    return np.concatenate(partners, axis=1)[own] if partners else none[own]
 
 
 def _numbers(kind: Place, turn: Array | None) -> Array:

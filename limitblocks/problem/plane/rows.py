@@ -16,12 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem.plane.alike import EXACT, in_order, length_of
+from limitblocks.problem.plane.alike import EXACT, classes, in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
 
 Flags = npt.NDArray[np.bool_]
-CHUNK = 1000  # places at a time: keeps the arrays small
+CHUNK = 1000  # classes of places at a time: keeps the arrays small
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +54,11 @@ class _Sets:
     linear: tuple[bool, ...]
     partner: Indices
 
+    def taken(self, chosen: Indices) -> _Sets:
+        """Return some of the sets."""
+        rows, values, partner = self.rows[chosen], self.values[chosen], self.partner[chosen]
+        return _Sets(rows, values, self.members, self.linear, partner)
+
     @cached_property
     def start(self) -> Indices:
         """First row of each member."""
@@ -70,19 +75,27 @@ class _Sets:
 def plane_rows(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> Iterator[PlaneRows]:
     """Rows of the places `own` (K,) and of their images on the stresses of the bases X (K, c, d).
 
-    Without `every_row` rows that two others imply are left out.
+    Without `every_row` rows that two others imply are left out. Places with the same numbers are judged once.
     """
-    for first in range(0, len(own), CHUNK):
-        chunk = slice(first, first + CHUNK)
-        sets = _sets(kind, own[chunk], X[chunk])
-        lines = [sets.heads[:, np.array(sets.linear)]]
-        valid = [np.ones(lines[0].shape[:2], dtype=bool)]
-        for size in sorted({m.stop - m.start for m in sets.members} - {1}):
-            cones = _cones(sets, size)
-            lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
-            valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
-            yield from _kept(sets, cones)
-        yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
+    sets = _sets(kind, own, X)
+    first, of_place = classes(sets.values, sets.partner)
+    members = np.split(np.argsort(of_place, kind="stable"), np.cumsum(np.bincount(of_place))[:-1])
+    for at in range(0, len(first), CHUNK):
+        chunk = slice(at, at + CHUNK)
+        for rows in _rows(sets.taken(first[chunk]), every_row):
+            yield _everywhere(sets, rows, members[chunk])
+
+
+def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
+    """Rows of each set: cones of two directions and more, and lines."""
+    lines = [sets.heads[:, np.array(sets.linear)]]
+    valid = [np.ones(lines[0].shape[:2], dtype=bool)]
+    for size in sorted({m.stop - m.start for m in sets.members} - {1}):
+        cones = _cones(sets, size)
+        lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
+        valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
+        yield from _kept(cones)
+    yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
 
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
@@ -97,6 +110,16 @@ def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
         linear=tuple(k < p.linear for k in range(count)) * len(there),
         partner=np.concatenate([kind.partner[k] + j * count for j, k in enumerate(there)], axis=1),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Reduced rows (c, size): the `source` of each among the rows of its set `k` (c,), and weights of these."""
+
+    size: int
+    k: Indices
+    weight: Array
+    source: Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,16 +164,15 @@ def _cones(sets: _Sets, size: int) -> _Cones:
     return _Cones(mean, rank, stands == np.arange(len(which)), start)
 
 
-def _kept(sets: _Sets, cones: _Cones) -> Iterator[PlaneRows]:
+def _kept(cones: _Cones) -> Iterator[_Rows]:
     """Cones of two directions and more."""
     for rank in np.unique(cones.rank[cones.valid & (cones.rank > 1)]).tolist():
         k, which = np.nonzero(cones.valid & (cones.rank == rank))
         weight = cones.weight[k, which, : rank + 1]
-        source = sets.rows[k[:, None], cones.start[which][:, None] + np.arange(rank + 1)]
-        yield _parts(sets, rank + 1, k, weight, source)
+        yield _Rows(rank + 1, k, weight, cones.start[which][:, None] + np.arange(rank + 1))
 
 
-def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> PlaneRows:
+def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> _Rows:
     """Linear rows, those that coincide merged in their mean."""
     values = np.where(valid[..., None], weight @ sets.values, np.inf)
     stands, share = _same(values)
@@ -159,15 +181,31 @@ def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> PlaneRo
         valid &= ~redundant(np.where(valid[..., None], values, 0.0), valid)
     k, which = np.nonzero(valid)
     mean = np.einsum("klm,kmr->klr", share, weight)[k, which][:, None]
-    source = np.take_along_axis(sets.rows[k], np.abs(mean[:, 0]).argmax(axis=1)[:, None], axis=1)
-    return _parts(sets, 1, k, mean, source)
+    return _Rows(1, k, mean, np.abs(mean[:, 0]).argmax(axis=1)[:, None])
 
 
-def _parts(sets: _Sets, size: int, k: Indices, weight: Array, source: Indices) -> PlaneRows:
-    """Triplets of weights (c, size, r) of the rows of the sets k (c,)."""
-    weight = np.where(np.abs(weight) > EXACT, weight, 0.0)
-    c, z, r = np.nonzero(weight)
-    return PlaneRows(size, source.ravel(), weight[c, z, r], c * size + z, sets.rows[k[c], r])
+def _everywhere(sets: _Sets, rows: _Rows, members: list[Indices]) -> PlaneRows:
+    """The rows of each set at all members of its class, as triplets of weights."""
+    weight = np.where(np.abs(rows.weight) > EXACT, rows.weight, 0.0)
+    count = np.array([len(members[k]) for k in rows.k], dtype=np.int64)
+    place = np.concatenate([members[k] for k in rows.k]) if len(rows.k) else rows.k
+    row, _ = _repeated(count)
+    entry, z, r = np.nonzero(weight)
+    of_entry, position = _repeated(count[entry])
+    new = (np.cumsum(count) - count)[entry][of_entry] + position
+    return PlaneRows(
+        rows.size,
+        sets.rows[place[:, None], rows.source[row]].ravel(),
+        weight[entry, z, r][of_entry],
+        new * rows.size + z[of_entry],
+        sets.rows[place[new], r[of_entry]],
+    )
+
+
+def _repeated(count: Indices) -> tuple[Indices, Indices]:
+    """Each of (c,) as often as it counts: which one it is, and its position among its copies."""
+    which = np.repeat(np.arange(len(count)), count)
+    return which, np.arange(len(which)) - (np.cumsum(count) - count)[which]
 
 
 def _same(values: Array) -> tuple[Indices, Array]:
