@@ -73,7 +73,7 @@ def settle(
             ("associated, stress state", found.upper, "N"),
             ("without dilatancy", found.nonassociated, "N"),
         ]
-        _tell(found, "Least reaction", rows, as_json, output, force)
+        tell(found, "Least reaction", rows, as_json, output, force)
 
 
 def capacity(
@@ -94,7 +94,7 @@ def capacity(
         refuse_existing(output, force, model)
         control = (block, point) if block else None
         curve = capacity_curve(read(model), control=control, steps=steps, largest=largest, progress=_line)
-        _tell(
+        tell(
             curve,
             "",
             _curve_rows(curve),
@@ -148,7 +148,7 @@ def verify(
         if filed:
             shown = (solved, found, curve) if curve else (solved, found)
             report(structure, *shown).save(filed, overwrite=force)
-        _tell(found, "Circolare 7/2019, C8.7.1.2", rows, as_json, output, force)
+        tell(found, "Circolare 7/2019, C8.7.1.2", rows, as_json, output, force)
     if not all(one.satisfied for one in found.checks):
         raise typer.Exit(1)
 
@@ -178,7 +178,7 @@ def vehicle(
             (f"x = {x:.6g} m", factor, "worst" if x == found.position else "")
             for x, factor in sorted(zip(found.positions.tolist(), found.load_factors.tolist(), strict=True))
         ]
-        _tell(found, "", rows, as_json, output, force, heads=("First axle at", "Load factor", ""))
+        tell(found, "", rows, as_json, output, force, heads=("First axle at", "Load factor", ""))
 
 
 def _curve_rows(curve: CapacityCurve) -> list[tuple[Any, ...]]:
@@ -199,7 +199,7 @@ def _line(point: Any) -> None:
     typer.echo(f"{point.displacement:.6g} m: load factor {point.load_factor:.6g}", err=True)
 
 
-def _tell(
+def tell(
     found: Any,
     title: str,
     rows: Iterable[tuple[Any, ...]],

@@ -18,6 +18,7 @@ from limitblocks.reports.words import some
 
 if TYPE_CHECKING:  # they would load the solvers, which a report does without
     from limitblocks.practice import (
+        Adequacy,
         CapacityCurve,
         CapacityPoint,
         Repair,
@@ -29,6 +30,16 @@ if TYPE_CHECKING:  # they would load the solvers, which a report does without
 SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
     "that move are the cracks. Dashed: the moving blocks before they moved."
+)
+
+
+FACTORED = (
+    "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "
+    "loads, gamma_M divides strengths and cohesion of the joints, gamma_phi (gamma_M where it is not given) "
+    "their friction coefficient, gamma_S the strength of ties and dowels (EN 1990, Eqs (6.1), (6.3); EN "
+    "1997-1, Table A.4, for friction). An adequacy factor of one is E_d = R_d, Eq. (6.8), for the loads and "
+    "factors given; which factors a code asks for is not judged here. Where dead loads help, the answer with "
+    "a gamma_G of 1 or less counts as well."
 )
 
 
@@ -232,6 +243,36 @@ def _envelope(x: Any, factors: Any) -> Curve | None:
     return line_curve((title, f"{title}, a dot a position.", "X, m", "load factor"), (x, factors), said)
 
 
+def _adequacy(_model: Model, found: Adequacy) -> Section:
+    end = found.result or found.bounds
+    real = [("Without dilatancy", f"{found.factor:#.7g}", "of the design model")] if found.result else []
+    rows = [
+        (one.symbol, one.where, _with_unit(one.characteristic, one.unit), one.factor,
+         f"{found.factors.value(one.factor):.6g}", _with_unit(one.design, one.unit))
+        for one in found.values
+    ]  # fmt: skip
+    heads = ("Symbol", "Of", "Characteristic", "Partial factor", "Its value", "Design")
+    return Section(
+        title="Adequacy with partial factors",
+        meaning=FACTORED,
+        headline=rounded_down(found.factor),
+        quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",
+        values=(
+            ("Characteristic load factor", f"{found.characteristic.lower:#.7g}", "associated, as given"),
+            ("Design load factor, static", f"{found.bounds.lower:#.7g}", "associated, of the design model"),
+            (
+                "Design load factor, kinematic",
+                f"{found.bounds.upper:#.7g}",
+                "associated, of the design model",
+            ),
+            *real,
+        ),
+        checks=checks_of(end.residuals, end.tolerance),
+        tolerance=end.tolerance,
+        parts=(Table.of("Characteristic and design values", heads, rows, right=(2, 4, 5)),),
+    )
+
+
 def _clean(load_factor: float) -> float:
     """The load factor without the rounding errors about its zero."""
     return round(load_factor, 9) + 0.0
@@ -251,6 +292,7 @@ def _word(satisfied: bool) -> str:
 
 #: By name, so that the classes need not be imported.
 KINDS: dict[str, Callable[[Model, Any], Section]] = {
+    "Adequacy": _adequacy,
     "CapacityCurve": _capacity,
     "Repair": _repair,
     "Settlement": _settlement,
