@@ -33,12 +33,9 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
 
     None where one is like none. Cones are alike where their heads are, and the lengths of their other rows.
     """
-    turned, there = _numbers(kind, turn), _numbers(other, None)
-    scale = np.abs(there).max(axis=(1, 2))
-    scale = np.where(scale > 0.0, scale, 1.0)[:, None, None]
+    turned, there = numbers(kind, turn), numbers(other, None)
+    scale = size_of(there)
     turned, there = turned / scale, there / scale
-    first, own = classes(turned, there)
-    turned, there = turned[first], there[first]
     partners = []
     for kinds in _same_size(kind):
         a, b = (np.stack([length_of(v[:, at]) for at in kinds], axis=1) for v in (turned, there))
@@ -49,11 +46,16 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
         partner = np.empty_like(here)
         np.put_along_axis(partner, here, kind.members.index(kinds[0]) + there_too, axis=1)
         partners.append(partner)
-    none = np.zeros((len(first), 0), dtype=np.int64)
-    return np.concatenate(partners, axis=1)[own] if partners else none[own]
+    return np.concatenate(partners, axis=1) if partners else np.zeros((len(kind.rows), 0), dtype=np.int64)
 
 
-def _numbers(kind: Place, turn: Array | None) -> Array:
+def size_of(values: Array) -> Array:
+    """Largest of the numbers (K, ...) of each place, one for nothing, to divide them by."""
+    size = np.abs(values).max(axis=(1, 2), keepdims=True)
+    return np.asarray(np.where(size > 0.0, size, 1.0))
+
+
+def numbers(kind: Place, turn: Array | None) -> Array:
     """Rows of F, g and G (K, r, 2 c + 1), of turned stresses."""
     F, G = (kind.F, kind.G) if turn is None else (kind.F @ turn, kind.G @ turn)
     return np.concatenate([F, kind.g[..., None], G], axis=2)

@@ -43,21 +43,15 @@ class PlaneRows:
 class _Sets:
     """Rows of K places, or of K pairs of a place and its image, on the basis of their symmetric stresses.
 
-    `rows` (K, r) are numbers of the whole problem, `values` (K, r, d + 1) F x' + g over the largest;
+    `values` (K, r, d + 1) are F x' + g over the largest;
     `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and `Mirrored`, the first
     `linear` of them linear rows.
     """
 
-    rows: Indices
     values: Array
     members: tuple[slice, ...]
     linear: tuple[bool, ...]
     partner: Indices
-
-    def taken(self, chosen: Indices) -> _Sets:
-        """Return some of the sets."""
-        rows, values, partner = self.rows[chosen], self.values[chosen], self.partner[chosen]
-        return _Sets(rows, values, self.members, self.linear, partner)
 
     @cached_property
     def start(self) -> Indices:
@@ -67,7 +61,7 @@ class _Sets:
     @cached_property
     def heads(self) -> Array:
         """Weights (K, members, r) of the head of each member and of its partner: half and half."""
-        K, r = self.rows.shape
+        K, r, _ = self.values.shape
         own = np.broadcast_to(np.eye(r)[self.start], (K, len(self.members), r))
         return np.asarray((own + np.eye(r)[self.start[self.partner]]) / 2.0)
 
@@ -77,13 +71,19 @@ def plane_rows(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> Itera
 
     Without `every_row` rows that two others imply are left out. Places with the same numbers are judged once.
     """
-    sets = _sets(kind, own, X)
-    first, of_place = classes(sets.values, sets.partner)
+    first, of_place = classes(np.stack([kind.sort[own], kind.sort[kind.image[own]]], axis=1))
     members = np.split(np.argsort(of_place, kind="stable"), np.cumsum(np.bincount(of_place))[:-1])
+    places = np.concatenate([kind.places.rows[there] for there in _pair(kind, own)], axis=1)
     for at in range(0, len(first), CHUNK):
         chunk = slice(at, at + CHUNK)
-        for rows in _rows(sets.taken(first[chunk]), every_row):
-            yield _everywhere(sets, rows, members[chunk])
+        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), every_row):
+            yield _everywhere(places, rows, members[chunk])
+
+
+def _pair(kind: Mirrored, own: Indices) -> list[Indices]:
+    """The places, and their images where these are others."""
+    image = kind.image[own]
+    return [own] if (image == own).all() else [own, image]
 
 
 def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
@@ -99,12 +99,10 @@ def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
 
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
-    p, image = kind.places, kind.image[own]
-    there = [own] if (image == own).all() else [own, image]
+    p, there = kind.places, _pair(kind, own)
     values = np.concatenate([np.concatenate([p.F[k] @ X, p.g[k][..., None]], axis=2) for k in there], axis=1)
     r, count = p.rows.shape[1], len(p.members)
     return _Sets(
-        rows=np.concatenate([p.rows[k] for k in there], axis=1),
         values=values / np.abs(values).max(axis=(1, 2), keepdims=True),
         members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
         linear=tuple(k < p.linear for k in range(count)) * len(there),
@@ -114,7 +112,7 @@ def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
 
 @dataclass(frozen=True, eq=False)
 class _Rows:
-    """Reduced rows (c, size): the `source` of each among the rows of its set `k` (c,), and weights of these."""
+    """Reduced rows (c, size) of the sets `k` (c,): their `source` among rows there, and weights of these."""
 
     size: int
     k: Indices
@@ -150,7 +148,7 @@ def _cones(sets: _Sets, size: int) -> _Cones:
         directions = np.where((rank == size - 1)[..., None, None], z, directions)
     directions = np.take_along_axis(directions, stands[..., None, None], axis=1)
     inverse = np.linalg.pinv(directions, rcond=EXACT)
-    K, r = sets.rows.shape
+    K, r, _ = sets.values.shape
     weight = np.zeros((K, len(which), directions.shape[2] + 1, r))
     weight[:, :, 0] = sets.heads[:, which]
     place = np.arange(K)[:, None, None]
@@ -184,8 +182,8 @@ def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> _Rows:
     return _Rows(1, k, mean, np.abs(mean[:, 0]).argmax(axis=1)[:, None])
 
 
-def _everywhere(sets: _Sets, rows: _Rows, members: list[Indices]) -> PlaneRows:
-    """The rows of each set at all members of its class, as triplets of weights."""
+def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRows:
+    """The rows of each set at all members of its class, as triplets; `places` (K, r) are the whole rows."""
     weight = np.where(np.abs(rows.weight) > EXACT, rows.weight, 0.0)
     count = np.array([len(members[k]) for k in rows.k], dtype=np.int64)
     place = np.concatenate([members[k] for k in rows.k]) if len(rows.k) else rows.k
@@ -195,10 +193,10 @@ def _everywhere(sets: _Sets, rows: _Rows, members: list[Indices]) -> PlaneRows:
     new = (np.cumsum(count) - count)[entry][of_entry] + position
     return PlaneRows(
         rows.size,
-        sets.rows[place[:, None], rows.source[row]].ravel(),
+        places[place[:, None], rows.source[row]].ravel(),
         weight[entry, z, r][of_entry],
         new * rows.size + z[of_entry],
-        sets.rows[place[new], r[of_entry]],
+        places[place[new], r[of_entry]],
     )
 
 
