@@ -96,6 +96,10 @@ KINDS: dict[str, Kind] = {
         home=f"{_PRACTICE}.verification_result:Verification",
         section=f"{_REPORTS}.verification_section:verification_section",
     ),
+    "adequacy": Kind(
+        home=f"{_PRACTICE}.adequacy:Adequacy",
+        section=f"{_REPORTS}.adequacy_section:adequacy_section",
+    ),
     "settlement": Kind(
         home=f"{_PRACTICE}.settlement:Settlement",
         section=f"{_REPORTS}.practice_sections:settlement_section",

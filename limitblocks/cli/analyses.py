@@ -39,6 +39,7 @@ nonassociated = _analysis("nonassociated", "analysis.nonassociated.loop", "nonas
 load_factor_range = _analysis("range", "analysis.load_factor_range.run", "load_factor_range", of_iterations)
 path = _analysis("path", "analysis.nonassociated.load_path", "load_path", of_iterations)
 settlement = _analysis("settle", "practice.settlement", "settlement", of_stages, tells=False)
+adequacy = _analysis("adequacy", "practice.adequacy", "adequacy", of_stages, tells=False)
 capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_points)
 vehicle = _analysis("vehicle", "practice.vehicles", "worst_position", of_places)
 

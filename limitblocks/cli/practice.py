@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer
-from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import AsJson, Force, ModelFile, ResultFile
+from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
 from limitblocks.cli.vectors import vector
 
 if TYPE_CHECKING:
@@ -36,10 +35,6 @@ Behaviour = Annotated[
 ]
 Confidence = Annotated[float, typer.Option("--confidence", help="Confidence factor FC.")]
 Linear = Annotated[bool, typer.Option("--linear", help="The linear check alone, without a capacity curve.")]
-Filed = Annotated[
-    Path | None,
-    typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
-]
 Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
 Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
 Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
@@ -97,26 +92,20 @@ def verify(
     force: Force = False,
 ) -> None:
     """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails."""
+    beside: list[Any] = []
 
     def solve(structure: Model) -> Verification:
         site = Spectrum(ground * G, soil, amplification, corner)
         curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
-        found = verification(structure, solved, site, q=behaviour, confidence=confidence, curve=curve)
-        if filed:
-            shown = (solved, found, curve) if curve else (solved, found)
-            report(structure, *shown).save(filed, overwrite=force)
-        return found
+        beside.extend((solved, curve) if curve else (solved,))
+        return verification(structure, solved, site, q=behaviour, confidence=confidence, curve=curve)
 
     with clean_errors():
         from limitblocks.practice import Spectrum, verification
         from limitblocks.practice.spectra import G
-        from limitblocks.reports import files, report
 
-        if filed:
-            files.suffix(filed)  # before the analysis, not after it
-            refuse_existing(filed, force, model, option="--report")
-        found = answer(solve, model, as_json, output, force)
+        found = answer(solve, model, as_json, output, force, filed, beside)
     if not all(one.satisfied for one in found.checks):
         raise typer.Exit(1)
 

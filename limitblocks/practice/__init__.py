@@ -1,5 +1,6 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
+from limitblocks.practice.adequacy import Adequacy, DesignValue, PartialFactors, adequacy, design_model
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
@@ -20,14 +21,17 @@ from limitblocks.practice.verification_result import Inequality, Quantity, Verif
 from limitblocks.practice.water import uplift
 
 __all__ = [
+    "Adequacy",
     "CapacityCurve",
     "CapacityPoint",
     "Control",
     "Deck",
+    "DesignValue",
     "Element",
     "Floor",
     "FloorMode",
     "Inequality",
+    "PartialFactors",
     "Quantity",
     "Repair",
     "Rocking",
@@ -37,7 +41,9 @@ __all__ = [
     "Vehicle",
     "Verification",
     "WorstPosition",
+    "adequacy",
     "capacity_curve",
+    "design_model",
     "dowel",
     "element_acceleration",
     "element_force",

@@ -80,17 +80,20 @@ ELEMENT_HEADS = ("Tie or dowel", "Force, kN", "Strength, kN", "Utilisation", "St
 
 
 def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
-    """Return name, force (tension of a tie, shear of a dowel), strength, utilisation and state, as text."""
+    """Return name, force (tension of a tie with its prestress, shear of a dowel), strength, share, state."""
     states = interface_states(model, result)
     Q = without_noise(states.stress_resultants) / 1e3
     rows: list[tuple[str, ...]] = []
     for k, one in enumerate(model.interfaces):
         if not isinstance(one.joint, Tie | Dowel):
             continue
-        force = Q[k, 2] if isinstance(one.joint, Tie) else float(np.linalg.norm(Q[k, :2]))
-        most = one.joint.strength * float(areas(one.polygon)) / 1e3
-        used = float(states.utilisation[k])
-        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{used:.3f}", states.state[k]))
+        area = float(areas(one.polygon)) / 1e3
+        if isinstance(one.joint, Tie):
+            force = float(Q[k, 2]) + one.joint.prestress * area
+        else:
+            force = float(np.linalg.norm(Q[k, :2]))
+        most = one.joint.strength * area
+        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k]))
     return rows
 
 

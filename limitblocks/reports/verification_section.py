@@ -6,18 +6,18 @@ from limitblocks.model import Model
 from limitblocks.practice.verification_result import UNSEEN, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import rounded_down, some
+from limitblocks.reports.words import rounded_down, some, with_unit
 
 
 def verification_section(_model: Model, found: Verification) -> Section:
     """Return the section of a kinematic verification."""
     worst = min(found.checks, key=lambda one: one.ratio)
     quantities = [
-        (one.symbol, one.meaning, one.formula, _with_unit(one.value, one.unit), one.source)
+        (one.symbol, one.meaning, one.formula, with_unit(one.value, one.unit), one.source)
         for one in found.quantities
     ]
     checks = [
-        (one.name, _with_unit(one.capacity, one.unit), _with_unit(one.demand, one.unit),
+        (one.name, with_unit(one.capacity, one.unit), with_unit(one.demand, one.unit),
          rounded_down(one.ratio), _word(one.satisfied))
         for one in found.checks
     ]  # fmt: skip
@@ -42,10 +42,6 @@ def verification_section(_model: Model, found: Verification) -> Section:
             Text(f"Blocks of the mechanism: {some(list(found.moving))}."),
         ),
     )
-
-
-def _with_unit(value: float, unit: str) -> str:
-    return f"{value:.6g} {unit.replace('s2', 's²')}".strip()
 
 
 def _word(satisfied: bool) -> str:

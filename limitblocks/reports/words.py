@@ -97,3 +97,8 @@ def rounded_down(ratio: float) -> str:
     digits = 2 - floor(log10(abs(ratio))) if ratio else 2
     scale = 10.0**digits
     return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Return a number with its unit as text."""
+    return f"{value:.6g} {unit.replace('s2', 's²')}".strip()

@@ -107,7 +107,7 @@ def test_file_keeps_ties(tmp_path):
     model = reinforced(facade(), rod(8e3, prestress=1e3))
     again = lb.read(model.save(tmp_path / "tied.json"))
     assert again.digest == model.digest
-    assert again.interfaces[1].joint == Tie(7e3 / 1e-4, 6.0 - T / 2)
+    assert again.interfaces[1].joint == Tie(8e3 / 1e-4, 6.0 - T / 2, 1e3 / 1e-4)
     assert again.interfaces[1].name == "tie wall|ground"
 
 

@@ -21,8 +21,10 @@ from limitblocks.io.result_file import result_text
 from limitblocks.kinds import KINDS, Kind, kind_of
 from limitblocks.practice import (
     Deck,
+    PartialFactors,
     Spectrum,
     Vehicle,
+    adequacy,
     capacity_curve,
     settlement,
     verification,
@@ -158,6 +160,7 @@ def practised():
     return {
         "capacity curve": (facade, curve),
         "verification": (facade, verified),
+        "adequacy": (facade, adequacy(facade, PartialFactors(1.0, 1.5, 2.0))),
         "sensitivities": (MODEL, lb.sensitivities(MODEL, lb.bounds(MODEL))),
         "settlement": (MODEL, settlement(MODEL, "right", (0, 0, -1))),
         "worst position": (
@@ -168,7 +171,7 @@ def practised():
 
 
 @pytest.mark.parametrize(
-    "word", ["capacity curve", "verification", "sensitivities", "settlement", "worst position"]
+    "word", ["capacity curve", "verification", "adequacy", "sensitivities", "settlement", "worst position"]
 )
 def test_answers_of_practice_are_saved_read_and_shown(word, practised, tmp_path):
     model, saved = practised[word]
