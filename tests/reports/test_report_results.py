@@ -163,7 +163,7 @@ def test_results_of_other_models_are_refused():
             lb.report(portal("beam"), result)
     with pytest.raises(
         lb.LimitBlocksError,
-        match="expected a result: Adequacy, Bounds, CapacityCurve, Check, LoadFactorRange, LoadPath, Nonassociated",
+        match=r"expected a result: Adequacy, Bounds, CapacityCurve, Check, .*, Nonassociated",
     ):
         lb.report(MODEL, "result")
 
