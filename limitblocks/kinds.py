@@ -104,6 +104,7 @@ KINDS: dict[str, Kind] = {
         home=f"{_PRACTICE}.settlement:Settlement",
         section=f"{_REPORTS}.practice_sections:settlement_section",
     ),
+    "settlement until collapse": Kind(home=f"{_PRACTICE}.collapse_result:SettlementCurve"),
     "repair": Kind(
         home=f"{_PRACTICE}.repair:Repair",
         section=f"{_REPORTS}.practice_sections:repair_section",

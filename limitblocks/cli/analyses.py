@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from limitblocks.cli.progress import of_iterations, of_places, of_points, of_stages
+from limitblocks.cli.progress import of_iterations, of_places, of_points, of_settlement, of_stages
 from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ nonassociated = _analysis("nonassociated", "analysis.nonassociated.loop", "nonas
 load_factor_range = _analysis("range", "analysis.load_factor_range.run", "load_factor_range", of_iterations)
 path = _analysis("path", "analysis.nonassociated.load_path", "load_path", of_iterations)
 settlement = _analysis("settle", "practice.settlement", "settlement", of_stages, tells=False)
+settlement_to_collapse = _analysis("settle", "practice.collapse", "settlement_to_collapse", of_settlement)
 adequacy = _analysis("adequacy", "practice.adequacy", "adequacy", of_stages, tells=False)
 capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_points)
 vehicle = _analysis("vehicle", "practice.vehicles", "worst_position", of_places)

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 
 Support = Annotated[str, typer.Option(help="Support that gives way.", show_default=False)]
 Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its motion.")]
+ToCollapse = Annotated[
+    bool, typer.Option("--until-collapse", help="Let it settle until the structure falls.")
+]
+Farthest = Annotated[float, typer.Option(help="Settlement at which the curve ends, m.", min=0.0)]
 Steps = Annotated[int, typer.Option(help="Points to the zero that the slope foretells.", min=2)]
 Block = Annotated[
     str, typer.Option("--block", help="Block whose displacement is measured [default: the fastest].")
@@ -52,13 +56,18 @@ def settle(
     model: ModelFile,
     support: Support,
     direction: Direction = (0.0, 0.0, -1.0),
+    until_collapse: ToCollapse = False,
+    largest: Farthest = float("inf"),
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
-    """Print the least reaction of a support that gives way, associated and without dilatancy."""
+    """Print the least reaction of a support that gives way, and how far the structure follows it."""
     with clean_errors():
-        answer(analyses.settlement, model, as_json, output, force, support=support, direction=direction)
+        solve = analyses.settlement_to_collapse if until_collapse else analyses.settlement
+        way: Any = {"support": support, "direction": direction}
+        way |= {"largest": largest} if until_collapse else {}
+        answer(solve, model, as_json, output, force, **way)
 
 
 def capacity(
