@@ -1,6 +1,7 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
 from limitblocks.practice.adequacy import Adequacy, DesignValue, PartialFactors, adequacy, design_model
+from limitblocks.practice.backfill import passive_fill
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
@@ -12,7 +13,6 @@ from limitblocks.practice.vehicles import (
     Deck,
     Vehicle,
     WorstPosition,
-    passive_fill,
     vehicle_load,
     worst_position,
 )
