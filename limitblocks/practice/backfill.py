@@ -6,13 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
+from limitblocks.geometry import Interface
+from limitblocks.joints import Backfill
 from limitblocks.mechanics import fill
 from limitblocks.mechanics.loads.load import number, unit_vector
 from limitblocks.model import Model
-from limitblocks.practice.elements import Element, tie
-
-BEHIND = 10.0  # of a block's size: where the tie that stands for passive fill is held
+from limitblocks.practice.elements import CORNERS, Element, axes_of
 
 
 def passive_fill(
@@ -28,8 +29,11 @@ def passive_fill(
 
     A block that moves into the fill along +-`along` meets up to ``coefficient unit_weight depth`` on the
     projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
-    associated, mobilised at once, no friction between fill and masonry. Each resistance is a tie that holds
-    the block from behind, at the height of the resultant.
+    associated, mobilised at once, no friction between fill and masonry. Each resistance holds the block from
+    behind, at the height of the resultant, and is held by the first support.
+
+    Fill over a pier between two spans leans on the other span, not on the ground: name in `blocks` those of
+    the end spans that push towards an abutment, unless backing or spandrel walls hold the rest.
 
     Parameters
     ----------
@@ -65,16 +69,18 @@ def passive_fill(
             continue
         height = float(load[3:] @ across) / push  # of the resultant over the centroid
         at = block.centroid + np.array([0.0, 0.0, height])
-        behind = at + np.sign(push) * BEHIND * block.size * d
-        area = abs(push) / (coefficient * unit_weight)  # m3: any area does, the force counts
+        passive = coefficient * unit_weight * (level - at[2])  # pressure where the resultant acts
+        area = abs(push) / passive
         elements.append(
-            tie(
-                block.name,
-                at.tolist(),
-                model.supports[0],
-                behind.tolist(),
-                area=area,
-                strength=abs(push) / area,
+            Element(
+                Interface(
+                    block.name,
+                    model.supports[0],
+                    read_only(at),
+                    read_only(axes_of(np.sign(push) * d)),
+                    read_only(np.sqrt(area) * CORNERS),
+                    Backfill(passive),
+                )
             )
         )
     if not elements:

@@ -214,8 +214,12 @@ def worst_position(
         raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
     k = int(factors.argmin())
     about = float(places[max(k - 1, 0)]), float(places[min(k + 1, positions - 1)])
+    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
     minimize_scalar(
-        lambda x: at(float(x)), bounds=about, method="bounded", options={"xatol": (high - low) * 1e-4}
+        lambda x: min(at(float(x)), beyond),
+        bounds=about,
+        method="bounded",
+        options={"xatol": (high - low) * 1e-4},
     )
     worst = min((x for x, found in tried.items() if found), key=at)
     found = tried[worst]
