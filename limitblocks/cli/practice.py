@@ -15,10 +15,15 @@ from limitblocks.cli.vectors import vector
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from limitblocks.model import Model
     from limitblocks.practice import CapacityCurve
 
 Support = Annotated[str, typer.Option(help="Support that gives way.", show_default=False)]
 Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its motion.")]
+ToCollapse = Annotated[
+    bool, typer.Option("--until-collapse", help="Let it settle until the structure falls.")
+]
+Farthest = Annotated[float, typer.Option(help="Settlement at which the curve ends, m.", min=0.0)]
 Steps = Annotated[int, typer.Option(help="Points to the zero that the slope foretells.", min=2)]
 Block = Annotated[
     str, typer.Option("--block", help="Block whose displacement is measured [default: the fastest].")
@@ -57,16 +62,21 @@ def settle(
     model: ModelFile,
     support: Support,
     direction: Direction = (0.0, 0.0, -1.0),
+    until_collapse: ToCollapse = False,
+    largest: Farthest = float("inf"),
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
-    """Print the least reaction of a support that gives way, associated and without dilatancy."""
+    """Print the least reaction of a support that gives way, and how far the structure follows it."""
     with clean_errors():
         from limitblocks.io import read
         from limitblocks.practice import settlement
 
         refuse_existing(output, force, model)
+        if until_collapse:
+            _settle_to_collapse(read(model), (support, direction, largest), as_json, output, force)
+            return
         found = settlement(read(model), support, direction)
         rows = [
             ("associated, mechanism", found.lower, "N"),
@@ -74,6 +84,28 @@ def settle(
             ("without dilatancy", found.nonassociated, "N"),
         ]
         tell(found, "Least reaction", rows, as_json, output, force)
+
+
+def _settle_to_collapse(
+    model: Model,
+    asked: tuple[str, Any, float],
+    as_json: bool,
+    output: Path | None,
+    force: bool,
+) -> None:
+    from limitblocks.practice import settlement_to_collapse
+
+    support, direction, largest = asked
+    curve = settlement_to_collapse(model, support, direction, largest=largest, progress=_settled)
+    rows = [
+        (f"{one.displacement:.9g}", one.reaction, "; ".join((*one.changes, *one.across)))
+        for one in curve.points
+    ]
+    tell(curve, "", rows, as_json, output, force, heads=("Settlement, m", "Reaction, N", ""))
+
+
+def _settled(point: Any) -> None:
+    typer.echo(f"{point.displacement:.6g} m: reaction {point.reaction:.6g} N", err=True)
 
 
 def capacity(

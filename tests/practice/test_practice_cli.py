@@ -45,6 +45,19 @@ def test_settle(beam, tmp_path):
     assert "'beam' is a free block" in wrong.output
 
 
+def test_settle_until_collapse(tmp_path):
+    """Two stones that lean on one another slide apart; each of the misuses is one line."""
+    ring = lb.structures.arch(lb.PointContact(0.5), radius=1.0, thickness=0.3, voussoirs=2)
+    path = ring.save(tmp_path / "ring.json")
+    way = ("settle", path, "--support", "right support", "--direction", 1, 0, 0, "--until-collapse")
+    done = run(*way, "--largest", 0.01, "--json")
+    assert done.exit_code == 0, done.output
+    found = json.loads(done.stdout)
+    assert found["displacements"][-1] == pytest.approx(0.01)
+    assert found["ended"] == "the settlement 0.01 m is reached"
+    assert "the settlement 0.01 m is reached" in run(*way, "--largest", 0.01).stdout
+
+
 def test_capacity(block):
     done = run("capacity", block, "--steps", 3, "--block", "block 1", "--point", 0.2, 0.5, 1.0, "--json")
     assert done.exit_code == 0, done.output
