@@ -157,7 +157,7 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     if table is None:
         return ()
     elements = element_rows(model, result)
-    tied = Table.of("Ties and dowels", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    tied = Table.of("Ties, dowels and passive fill", ELEMENT_HEADS, elements, right=(1, 2, 3))
     return (*_active(table, place), *((tied,) if elements else ()))
 
 

@@ -5,6 +5,8 @@ import pytest
 from facades import ARM, FLOOR, OWN, H, T, facade
 
 import limitblocks as lb
+from limitblocks.analysis.scales import frictional
+from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.joints import Tie
 from limitblocks.practice import dowel, reinforced, strip, tie
 
@@ -101,6 +103,53 @@ def test_more_tie_is_never_weaker(joint):
     factors = [lb.bounds(reinforced(facade(joint), rod(force))).upper for force in (1.0, 1e3, 4e3, 3e4)]
     assert np.all(np.diff(factors) > -1e-9)
     assert factors[0] == pytest.approx(rocking(1.0, 4.5), rel=1e-8)
+
+
+@pytest.mark.parametrize("dilatancy", [0.0, 0.3, 0.6])
+def test_ties_have_no_friction_that_limits_dilatancy(dilatancy):
+    """A wall that hinges does not slide: any dilatancy up to the friction of its joint gives one answer."""
+    model = reinforced(facade(), rod(8e3))
+    result = lb.nonassociated(model, dilatancy=dilatancy)
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    with pytest.raises(lb.ModelError, match=r"expected 0 to the least friction coefficient, 0\.6"):
+        lb.nonassociated(model, dilatancy=0.61)
+
+
+def test_what_is_unbalanced_is_not_carried_by_ties():
+    """The tree of a proof leads through the joint, however little room it has: a tie carries one force."""
+    model = reinforced(facade(), rod(8e3))
+    tree = spanning_tree(model.problem, np.array([1e-3, 1.0]))
+    assert tree.interface.tolist() == [0]
+
+
+def test_shear_of_a_dowel_is_measured_as_any_force():
+    """Shear of a joint is measured by its friction, .25; a dowel has none, and its shear is no small one."""
+    model = lb.structures.block(lb.PointContact(0.25), width=1.0, height=0.5)
+    (joint,) = model.interfaces
+    held = reinforced(model, dowel(joint, joint.centroid, diameter=0.02, capacity=1e3))
+    corners = [0.25, 0.25, 1.0] * 4
+    assert frictional(held.problem).tolist() == [*corners, 1.0, 1.0]
+
+
+def test_two_ties_in_parallel_and_number_of():
+    """Two ties side by side carry what one of twice the force carries; each is listed by itself."""
+    pair = [rod(4e3), rod(4e3)]
+    result = lb.nonassociated(reinforced(facade(), *pair))
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert result.stress_resultants[1:, 2] == pytest.approx([4e3, 4e3], rel=1e-6)
+    one = rod(np.inf, area=4e3 / 235e6 / 3, number_of=3)
+    assert lb.bounds(reinforced(facade(), one)).upper == pytest.approx(rocking(4e3, 4.5), rel=1e-8)
+
+
+def test_prestress_takes_from_what_a_tie_can_take():
+    """The load factor does not depend on the prestress of a tie that yields; N is what comes on top."""
+    result = lb.nonassociated(reinforced(facade(), rod(8e3, prestress=2e3)))
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert result.stress_resultants[1, 2] == pytest.approx(6e3, rel=1e-6)
+    # on the side to which the wall turns the prestress stays, against it
+    inward = tie("wall", (T / 2, 0, 4.5), "ground", (6, 0, 4.5), area=1e-4, strength=2e8, prestress=1e3)
+    slack = lb.nonassociated(reinforced(facade(), inward))
+    assert slack.load_factor == pytest.approx(rocking(-1e3, 4.5), rel=1e-8)
 
 
 def test_file_keeps_ties(tmp_path):

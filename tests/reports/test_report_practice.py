@@ -208,7 +208,9 @@ def test_ties_and_dowels_have_their_force_and_their_line(facade):
     assert solved.load_factor == pytest.approx(alpha, rel=1e-6)  # .3123077
     made = lb.report(model, solved, title="Tied")
     (title,) = (one.title for one in made.document.chapters if one.title.startswith("Non-associated sol"))
-    (table,) = (p for p in chapter(made, title).parts if getattr(p, "caption", "") == "Ties and dowels")
+    (table,) = (
+        p for p in chapter(made, title).parts if getattr(p, "caption", "") == "Ties, dowels and passive fill"
+    )
     held, slack, pinned = [[cell.text for cell in row] for row in table.rows]
     assert held[1:] == ["8", "8", "1.000", "yield"]
     assert slack[1:] == ["0", "8", "0.000", "slack"]
