@@ -92,6 +92,28 @@ class Tie:
 
 
 @dataclass(frozen=True)
+class Backfill(Tie):
+    """Passive resistance of fill to a block that moves into it: held from behind, up to strength x area.
+
+    A tie without length or prestress whose `strength`, Pa, is the passive pressure; the area of its interface
+    is the projection of the faces that press the fill.
+    """
+
+    word = "fill"
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        return f"passive resistance of fill, up to {stress_words(self.strength)}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Fill resists blocks that move into it with its whole passive pressure at once, along the deck "
+            "and without friction, and follows none that moves away.",
+        )
+
+
+@dataclass(frozen=True)
 class Dowel:
     """A dowel or stitch across an interface: shear ||(V1, V2)|| <= strength x area, associated flow.
 

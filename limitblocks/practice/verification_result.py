@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from limitblocks.practice.moving_masses import MovingMass
+from limitblocks.shown import Result
 
 CLAIMED = (
     "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12] and [C7.2.5] to "
@@ -59,8 +60,8 @@ class Inequality:
         return self.ratio >= 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class Verification:
+@dataclass(frozen=True, eq=False, repr=False)
+class Verification(Result):
     """Quantities in the order in which they are found, and the inequalities between them.
 
     Attributes
@@ -93,12 +94,16 @@ class Verification:
                 return quantity.value
         raise KeyError(symbol)
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each quantity."""
+        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
+        return [{key: getattr(one, key) for key in keys} for one in self.quantities]
+
     def to_dict(self) -> dict[str, Any]:
         """Return all quantities and checks as numbers and text."""
-        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
         return {
             "analysis": "verification",
-            "quantities": [{key: getattr(one, key) for key in keys} for one in self.quantities],
+            "quantities": self.rows(),
             "checks": [
                 {"name": one.name, "capacity": one.capacity, "demand": one.demand, "ratio": one.ratio,
                  "unit": one.unit, "satisfied": one.satisfied, "source": one.source}
@@ -111,7 +116,7 @@ class Verification:
                 for one in self.masses
             ],
             "remarks": list(self.remarks),
-            "digest": self.digest,
+            "model_digest": self.digest,
         }  # fmt: skip
 
     def __str__(self) -> str:
@@ -119,4 +124,4 @@ class Verification:
             f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
             for one in self.checks
         )
-        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks))
+        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks)) + self._as_read

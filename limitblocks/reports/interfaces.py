@@ -9,12 +9,13 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Dowel, Tie
+from limitblocks.joints import Backfill, Dowel, Tie
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
 from limitblocks.reports.scene import in_scene, short, without_noise
 from limitblocks.reports.words import joint_words
 
+IDLE = 1e-3  # of the strength of fill: a row prints less as 0.000
 #: Interfaces listed, those first that move most.
 MOST = 40
 
@@ -76,7 +77,7 @@ def relative_motion(model: Model, rates: Array) -> Array:
     return largest
 
 
-ELEMENT_HEADS = ("Tie or dowel", "Force, kN", "Strength, kN", "Utilisation", "State")
+ELEMENT_HEADS = ("Tie, dowel or fill", "Force, kN", "Strength, kN", "Utilisation", "State")
 
 
 def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
@@ -93,6 +94,8 @@ def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
         else:
             force = float(np.linalg.norm(Q[k, :2]))
         most = one.joint.strength * area
+        if isinstance(one.joint, Backfill) and not force > IDLE * most:
+            continue  # of fill along a whole span, what presses is enough
         rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k]))
     return rows
 
