@@ -29,7 +29,7 @@ def verification(
     result: Collapse,
     demand: Spectrum,
     *,
-    q: float,
+    q: float | None = None,
     curve: CapacityCurve | None = None,
     confidence: float = LC1,
     floor: Floor | None = None,
@@ -49,7 +49,7 @@ def verification(
     demand : Spectrum
         Of the limit state of life safety (SLV).
     q : float
-        Behaviour factor of the linear check, C8.7.1.2.1.7: 2 unless there is better.
+        Needed: behaviour factor of the linear check, C8.7.1.2.1.7: 2 unless there is better.
     curve : CapacityCurve, optional
         Of this model, to zero: gives d0* and the non-linear checks.
     confidence : float
@@ -79,6 +79,8 @@ def verification(
     straight line between a0* and d0*; the larger demand of both counts.
     """
     collapse = collapse_of(model, result)
+    if q is None:
+        raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
     q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none

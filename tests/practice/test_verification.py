@@ -208,8 +208,11 @@ def test_misuse(facade, answer, settings, words):
 
 
 def test_spectrum_without_q(facade, answer):
-    with pytest.raises(TypeError, match="q"):
+    with pytest.raises(
+        lb.ModelError, match="q is missing: the check at SLV needs a behaviour factor"
+    ) as caught:
         verification(facade, answer, SITE)
+    assert "\n" not in str(caught.value)
 
 
 def test_loads_that_are_no_weights(facade, answer):
