@@ -107,12 +107,14 @@ def _linked(region: Indices, links: Indices) -> Indices:
     return np.asarray(first[part])
 
 
-def in_turn(own: Indices, first: Indices, sides: Indices, start: Indices, end: Indices) -> tuple[Any, Indices]:
+def in_turn(
+    own: Indices, first: Indices, sides: Indices, start: Indices, end: Indices
+) -> tuple[Any, Indices]:
     """Tell which regions have one loop around them, (m,), and put their half-edges in turn, (e,).
 
-    Half-edges lie region after region, `own` (e,), at `first` and as many as `sides` (m,); `start` and `end` (e,)
-    are their vertices, numbered by block. Those of other regions, with holes or touching themselves at a
-    vertex, stay where they are.
+    Half-edges lie region after region, `own` (e,), at `first` and as many as `sides` (m,); `start` and `end`
+    (e,) are their vertices, numbered by block. Those of other regions, with holes or touching themselves at
+    a vertex, stay where they are.
     """
     leaving, arriving = np.lexsort((start, own)), np.lexsort((end, own))
     again = np.flatnonzero((np.diff(own[leaving]) == 0) & (np.diff(start[leaving]) == 0))

@@ -15,7 +15,8 @@ from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.part import Part
-from limitblocks.io.imported import Contents, ImportedBlocks, UnitWeight, foreign, frame, imported
+from limitblocks.io.imported import ImportedBlocks, UnitWeight, foreign, imported
+from limitblocks.io.placed import Contents, frame
 from limitblocks.io.solid import Solid
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
