@@ -81,8 +81,8 @@ def test_reports_info_and_paraview_have_groups_and_colours(tmp_path):
     assert drawn["groups"] == ["", "pier, phase 2", "pier"]
     assert drawn["colour"] == ["", "#b08050", "#1020ff"]
     said = said_by("info", MODEL.save(tmp_path / "a.json"))
-    assert "pier × 2, phase 2 × 1" in said
-    assert "#b08050 × 1" in said
+    assert "2 × pier, 1 × phase 2" in said
+    assert "1 × #b08050" in said
     meshio = pytest.importorskip("meshio")
     data = meshio.read(lb.files.write_vtu(MODEL, tmp_path / "a.vtu", None)[0]).cell_data
     assert np.concatenate(data["group"]).tolist() == [0] * 6 + [1] * 12  # none, pier

@@ -88,8 +88,9 @@ def encoded(
             node |= {"name": block.name, "translation": (Z_UP.T @ block.centroid).tolist()}
             mesh["name"] = block.name
             # what the material alone would not tell; its colour is for show where the block has none
-            extras = {"layer": layers.get(block.name, "")} if block.material else {}
-            extras |= {"groups": list(block.groups)} if block.groups else {}
+            extras: dict[str, Any] = {"layer": layers.get(block.name, "")} if block.material else {}
+            if block.groups:
+                extras["groups"] = list(block.groups)
             node["extras"] = extras | {"colour": block.colour}
         if states is not None:
             document["animations"] = [_animation(buffers, document["accessors"], blocks, states)]
