@@ -70,7 +70,9 @@ class Block:
         object.__setattr__(self, "vertices", given.numbers(self.name, "vertices", self.vertices, (None, 3)))
         object.__setattr__(self, "faces", given.faces_of(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
-        fault = fault or polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+        if not fault:
+            fault = polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+            fault += polyhedron.odd_places(self.vertices) if fault else ""
         fault = fault or polyhedron.plane_fault(self._points, self.mesh, self.size, self._planes)
         fault = fault or surface.loop_fault(self._points, self.mesh, self.normals)
         if not fault and not self.convex:

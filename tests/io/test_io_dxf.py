@@ -1,5 +1,6 @@
 import io
 import random
+import re
 import sys
 from dataclasses import replace
 
@@ -352,6 +353,8 @@ def test_outlines_that_are_none(tmp_path):
 
     imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
     assert len(imported.blocks) == 1
+    assert len(imported.left_out) == 3
+    assert all(re.fullmatch("(LWPOLYLINE|POLYLINE) [0-9A-F]+", word) for word in imported.left_out)
     notes = "\n".join(imported.notes)
     for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
         assert word in notes

@@ -1,4 +1,4 @@
-"""Blocks from DXF drawings: solids in space. See dxf_outlines for drawings in the plane."""
+"""Blocks from DXF drawings: solids in space. See elevation for drawings in the plane."""
 
 from __future__ import annotations
 
