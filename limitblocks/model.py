@@ -105,8 +105,9 @@ class Model(Viewed):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
-        joints = {joint_of(interface): "" for interface in self.interfaces}
-        joints = {joint: f"joint {k + 1}" for k, joint in enumerate(joints)}
+        kinds = {id(interface.joint): interface for interface in self.interfaces}
+        joint = {own: joint_of(interface) for own, interface in kinds.items()}
+        joints = {each: f"joint {k + 1}" for k, each in enumerate(dict.fromkeys(joint.values()))}
         used: dict[str, Any] = {} if self.tolerances is None else {"tolerances": self.tolerances.to_dict()}
         used |= {"left_out": list(self.left_out)} if self.left_out else {}
         return {
@@ -132,7 +133,7 @@ class Model(Viewed):
                     "centroid": interface.centroid.tolist(),
                     "axes": interface.axes.tolist(),
                     "polygon": interface.polygon.tolist(),
-                    "joint": joints[joint_of(interface)],
+                    "joint": joints[joint[id(interface.joint)]],
                 }
                 for interface in self.interfaces
             ],

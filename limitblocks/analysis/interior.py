@@ -23,7 +23,7 @@ def carried(problem: LimitProblem) -> Array | None:
 
 
 def _carried(problem: LimitProblem) -> Array | None:
-    plane = in_plane(problem, every_row=True)
+    plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
     form = form_of(scaled(problem if plane is None else plane.problem))
     p = form.problem
     x = form.stresses(solved(form.carrying(), ROUGH))

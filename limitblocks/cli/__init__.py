@@ -11,7 +11,7 @@ from io import TextIOWrapper
 
 import typer
 
-from limitblocks.cli import documents, practice, verbs
+from limitblocks.cli import design, documents, practice, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.later import Later
@@ -63,6 +63,7 @@ app.command("range")(verbs.load_factor_range)
 app.command(cls=Command)(practice.settle)
 app.command(cls=Command)(practice.capacity)
 app.command()(practice.verify)
+app.command()(design.adequacy)
 app.command()(practice.vehicle)
 app.command()(verbs.check)
 app.command()(documents.info)

@@ -23,25 +23,32 @@ class Tie:
     Parameters
     ----------
     strength : float
-        Tension per area of the interface at which it yields, is pulled out or debonds, Pa, > 0; less its
-        prestress, which is a dead load (:func:`limitblocks.practice.reinforced`).
+        Tension per area of the interface at which it yields, is pulled out or debonds, Pa, > 0.
     length : float
         Distance between its anchors, m; for pictures only.
+    prestress : float
+        Part of the tension, Pa, that is a dead load already (:func:`limitblocks.practice.reinforced`): the
+        interface carries what is left, and N is the tension beyond the prestress.
 
     Raises
     ------
     ModelError
-        If the strength is not finite and positive, or the length negative.
+        If the strength is not finite and positive, the length negative, or the prestress not from 0 to less
+        than the strength.
     """
 
     strength: float
     length: float = 0.0
+    prestress: float = 0.0
     word = "tie"
 
     def __post_init__(self) -> None:
         checked_stress("strength of a tie", self.strength, positive=True)
         if not (np.isfinite(self.length) and self.length >= 0.0):
             raise ModelError(f"length of a tie is {self.length!r} m, expected a finite length >= 0")
+        if not 0.0 <= self.prestress < self.strength:
+            most = f"expected 0 to less than its strength, {self.strength:g} Pa"
+            raise ModelError(f"prestress of a tie is {self.prestress!r} Pa, {most}")
 
     @property
     def friction(self) -> float:
@@ -51,7 +58,8 @@ class Tie:
     def in_words(self) -> str:
         """Return the joint in words."""
         long = f", {self.length:.4g} m from anchor to anchor" if self.length else ""
-        return f"tie, tension up to {stress_words(self.strength)} on its section, no compression{long}"
+        tight = f", prestress {stress_words(self.prestress)}" if self.prestress else ""
+        return f"tie, tension up to {stress_words(self.strength)} on its section, no compression{tight}{long}"
 
     def assumed(self) -> tuple[str, ...]:
         """Return a sentence for each assumption."""
@@ -63,10 +71,10 @@ class Tie:
         )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
-        """Return 0 <= N <= strength x area; see :class:`~limitblocks.joints.base.Joint`."""
+        """Return 0 <= N <= (strength - prestress) x area; see :class:`~limitblocks.joints.base.Joint`."""
         m = len(polygons)
         rows = np.broadcast_to(np.array([[1.0], [-1.0]]), (m, 2, 1))
-        most = areas(polygons) * self.strength / stress_unit
+        most = areas(polygons) * (self.strength - self.prestress) / stress_unit
         resultants = np.zeros((m, 6, 1))
         resultants[:, 2] = 1.0
         return YieldRows(
@@ -80,6 +88,28 @@ class Tie:
             cones=(),
             modes=(Mode.SLACK, Mode.YIELD),
             friction=0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Backfill(Tie):
+    """Passive resistance of fill to a block that moves into it: held from behind, up to strength x area.
+
+    A tie without length or prestress whose `strength`, Pa, is the passive pressure; the area of its interface
+    is the projection of the faces that press the fill.
+    """
+
+    word = "fill"
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        return f"passive resistance of fill, up to {stress_words(self.strength)}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Fill resists blocks that move into it with its whole passive pressure at once, along the deck "
+            "and without friction, and follows none that moves away.",
         )
 
 

@@ -122,9 +122,7 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
         contacts.append(replace(turned, interface=_placed(turned)))
     place = {block.name: k for k, block in enumerate(model.blocks)}
     blocks = tuple(
-        own
-        if own.name in model.supports
-        else Block(own.name, at(k, own.vertices), own.faces, own.unit_weight)
+        Block(own.name, at(k, own.vertices), own.faces, own.unit_weight) if displacements[k].any() else own
         for k, own in enumerate(model.blocks)
     )
 

@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Tie
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics import Load, force
@@ -27,12 +28,15 @@ class Element:
     ----------
     interface : Interface
         What carries its force; the normal of a tie points from the anchor in block i to that in block j.
-    prestress : float
-        Tension that is there from the beginning and stays, N.
     """
 
     interface: Interface
-    prestress: float = 0.0
+
+    @property
+    def prestress(self) -> float:
+        """Tension that is there from the beginning and stays, N."""
+        joint = self.interface.joint
+        return joint.prestress * float(areas(self.interface.polygon)) if isinstance(joint, Tie) else 0.0
 
     def loads(self, free: Container[str]) -> Load:
         """Return the prestress as forces on its blocks, those that are `free`."""
@@ -110,9 +114,8 @@ def tie(
             read_only((start + end) / 2.0),
             read_only(axes_of((end - start) / length)),
             read_only(side * CORNERS),
-            Tie((capacity - prestress) / section, length),
-        ),
-        float(prestress),
+            Tie(capacity / section, length, prestress / section),
+        )
     )
 
 

@@ -66,7 +66,7 @@ def document(
     """Return the report on `model`: `known` are its facts, `picture` is the mechanism of section `drawn`."""
     title = labels.title or model.name or UNTITLED
     place = 0
-    chapters = [_answer(model, results, labels), *_side_by_side(results)]
+    chapters = [_answer(model, sections, labels), *_side_by_side(sections)]
     shown = []
     for one, result in zip(sections, results, strict=True):
         moving = picture if one is drawn else None
@@ -110,8 +110,8 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     return Chapter(one.title, tuple(parts))
 
 
-def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
-    found = answer(results)
+def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapter:
+    found = answer(sections)
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
@@ -125,8 +125,8 @@ def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
     return Chapter("Load factor to design with", tuple(parts))
 
 
-def _side_by_side(results: Sequence[Any]) -> Iterator[Chapter]:
-    rows = comparison(results)
+def _side_by_side(sections: Sequence[Section]) -> Iterator[Chapter]:
+    rows = comparison(sections)
     if rows:
         heads = ("Flow", "Load factor", "What it means")
         table = Table.of("Load factors of this structure", heads, rows, right=(1,))
@@ -157,7 +157,7 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     if table is None:
         return ()
     elements = element_rows(model, result)
-    tied = Table.of("Ties and dowels", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    tied = Table.of("Ties, dowels and passive fill", ELEMENT_HEADS, elements, right=(1, 2, 3))
     return (*_active(table, place), *((tied,) if elements else ()))
 
 

@@ -9,12 +9,13 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Dowel, Tie
+from limitblocks.joints import Backfill, Dowel, Tie
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
 from limitblocks.reports.scene import in_scene, short, without_noise
 from limitblocks.reports.words import joint_words
 
+IDLE = 1e-3  # of the strength of fill: a row prints less as 0.000
 #: Interfaces listed, those first that move most.
 MOST = 40
 
@@ -76,21 +77,26 @@ def relative_motion(model: Model, rates: Array) -> Array:
     return largest
 
 
-ELEMENT_HEADS = ("Tie or dowel", "Force, kN", "Strength, kN", "Utilisation", "State")
+ELEMENT_HEADS = ("Tie, dowel or fill", "Force, kN", "Strength, kN", "Utilisation", "State")
 
 
 def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
-    """Return name, force (tension of a tie, shear of a dowel), strength, utilisation and state, as text."""
+    """Return name, force (tension of a tie with its prestress, shear of a dowel), strength, share, state."""
     states = interface_states(model, result)
     Q = without_noise(states.stress_resultants) / 1e3
     rows: list[tuple[str, ...]] = []
     for k, one in enumerate(model.interfaces):
         if not isinstance(one.joint, Tie | Dowel):
             continue
-        force = Q[k, 2] if isinstance(one.joint, Tie) else float(np.linalg.norm(Q[k, :2]))
-        most = one.joint.strength * float(areas(one.polygon)) / 1e3
-        used = float(states.utilisation[k])
-        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{used:.3f}", states.state[k]))
+        area = float(areas(one.polygon)) / 1e3
+        if isinstance(one.joint, Tie):
+            force = float(Q[k, 2]) + one.joint.prestress * area
+        else:
+            force = float(np.linalg.norm(Q[k, :2]))
+        most = one.joint.strength * area
+        if isinstance(one.joint, Backfill) and not force > IDLE * most:
+            continue  # of fill along a whole span, what presses is enough
+        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k]))
     return rows
 
 

@@ -111,6 +111,16 @@ def test_worst_position_is_the_end_of_the_overhang():
     assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
 
 
+def test_the_search_finds_the_worst_position_between_the_first_ones():
+    """Beyond the end at x = 4 nothing stands on the beam: worst is the end itself, P (4 - 3) = W (3 - 2)."""
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-4), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 4.8), positions=4)
+    assert found.position == pytest.approx(4.0, abs=2e-3)
+    assert found.bounds.upper == pytest.approx(40e3 / 10e3 / (found.position - 3.0), rel=1e-3)
+    assert found.load_factors.min() < 0.8 * found.load_factors[:4].min()
+    assert np.isinf(found.load_factors[np.argmax(found.positions)])
+
+
 def test_vehicle_of_two_axles_and_dispersion():
     """Forces and moments of two axles; through a fill each acts on contact + 2 spread depth, evenly."""
     model, deck = beam(), Deck(level=1.5, spread=0.5)

@@ -90,6 +90,15 @@ def test_misuse(support, direction, words):
         settlement(lintel(JOINTS[0]), support, direction)
 
 
+@pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
+def test_joints_of_a_settling_structure_have_states(joint):
+    """The lintel lifts off one support's inner part and turns; the guide at its strength would be wrong."""
+    found = settlement(lintel(joint), "right", DOWN)
+    states = lb.interface_states(found.settling.model, found.result)
+    assert states.state[:2].count("hinge") >= 1
+    assert states.utilisation[-1] < 0.1
+
+
 def test_only_support():
     model = lb.structures.block(JOINTS[0], width=1.0, height=1.0)
     with pytest.raises(lb.ModelError, match="the only support"):

@@ -1,0 +1,250 @@
+"""Partial factors on loads and strengths: the load factor of the design model is the adequacy factor.
+
+Sources: EN 1990:2002, Eqs (6.1) F_d = gamma_F F_rep, (6.3) X_d = X_k / gamma_M, (6.8) E_d <= R_d;
+EN 1996-1-1:2005, Section 2.4.3 (gamma_M of masonry); EN 1997-1:2004, Table A.4 (gamma_phi on tan phi).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.errors import ModelError
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.geometry.polygon import areas
+from limitblocks.joints import Dowel, Guide, Joint, Tie
+from limitblocks.joints.base import joint_of
+from limitblocks.mechanics.loads.load import number
+from limitblocks.model import Model
+from limitblocks.shown import Result
+
+FRICTION = "friction"
+STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
+SYMBOLS = {FRICTION: "mu", "cohesion": "c", "tensile_strength": "f_t", "compressive_strength": "f_cef"}
+
+
+@dataclass(frozen=True)
+class PartialFactors:
+    """Partial factors in the notation of the Eurocodes; none has a default that a code would have to back.
+
+    Parameters
+    ----------
+    gamma_G : float
+        Multiplies the dead loads, prestress included; 1 or less where they are favourable.
+    gamma_Q : float
+        Multiplies the live loads.
+    gamma_M : float
+        Divides cohesion, tensile and compressive strength of joints.
+    gamma_phi : float, optional
+        Divides the friction coefficient, the tangent of the friction angle; `gamma_M` unless given.
+    gamma_S : float, optional
+        Divides the strength of ties, strips and dowels; needed where the model has any.
+
+    Raises
+    ------
+    ModelError
+        If a factor is not a finite number > 0.
+    """
+
+    gamma_G: float
+    gamma_Q: float
+    gamma_M: float
+    gamma_phi: float | None = None
+    gamma_S: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, number(value, name, "", above=0.0))
+
+    def value(self, name: str) -> float:
+        """Value of a factor by its name."""
+        return float(getattr(self, name))
+
+    @property
+    def of_friction(self) -> tuple[str, float]:
+        """Name and value of the factor that divides friction."""
+        return ("gamma_M", self.gamma_M) if self.gamma_phi is None else ("gamma_phi", self.gamma_phi)
+
+    def of_strength(self, joint: Joint) -> tuple[str, float]:
+        """Name and value of the factor that divides the strengths of a joint."""
+        if not isinstance(joint, Tie | Dowel):
+            return "gamma_M", self.gamma_M
+        if self.gamma_S is None:
+            raise ModelError(
+                "the model has ties or dowels: give gamma_S, the factor that divides their strength"
+            )
+        return "gamma_S", self.gamma_S
+
+
+@dataclass(frozen=True)
+class DesignValue:
+    """A characteristic value, the partial factor, and the design value; `unit` in SI, "" of a number.
+
+    `where` says what it is of; `symbol` and `factor` are the names of the value and of its factor.
+    """
+
+    symbol: str
+    where: str
+    characteristic: float
+    factor: str
+    design: float
+    unit: str
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Adequacy(Result):
+    """The load factor with partial factors, beside the characteristic one.
+
+    Attributes
+    ----------
+    factors : PartialFactors
+    values : tuple of DesignValue
+        Everything that was factored.
+    characteristic : Bounds
+        Associated load factor of the model as given.
+    model : Model
+        The design model: its loads and joints have their design values.
+    bounds : Bounds
+        Of the design model, associated.
+    result : Nonassociated or None
+        Of the design model, without dilatancy; None where it was not asked for.
+    digest : str
+        SHA-256 of the model that was given.
+    """
+
+    factors: PartialFactors
+    values: tuple[DesignValue, ...]
+    characteristic: Bounds
+    model: Model
+    bounds: Bounds
+    result: Nonassociated | None
+    digest: str
+
+    @property
+    def factor(self) -> float:
+        """Adequacy factor, on the design live loads: without dilatancy where that was asked for."""
+        return float(self.result.load_factor if self.result else self.bounds.lower)
+
+    @property
+    def satisfied(self) -> bool:
+        """Whether it is at least one: E_d <= R_d, EN 1990 Eq. (6.8), for the loads and factors given."""
+        return self.factor >= 1.0
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each value that was factored."""
+        return [dict(vars(value)) for value in self.values]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return factors, values and results as numbers and text."""
+        names = ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S")
+        return {
+            "analysis": "adequacy",
+            "model_digest": self.digest,
+            "factors": {name: getattr(self.factors, name) for name in names},
+            "values": self.rows(),
+            "adequacy_factor": self.factor,
+            "satisfied": self.satisfied,
+            "model": self.model.to_dict(),
+            "characteristic": self.characteristic.to_dict(),
+            "bounds": self.bounds.to_dict(),
+            "result": self.result.to_dict() if self.result else None,
+        }
+
+    def __str__(self) -> str:
+        flow = "without dilatancy" if self.result else "associated"
+        least = "at least one" if self.satisfied else "LESS than one"
+        given = f"characteristic load factor {self.characteristic.lower:.6g}, associated"
+        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}{self._as_read}"
+
+
+def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool = True) -> Adequacy:
+    """Return the load factor of a model whose loads and strengths have their design values.
+
+    The live load of `model` is the characteristic one, so that a load factor of one means E_d = R_d. Where
+    dead loads help, as the weight of a wall against overturning, ask again with a `gamma_G` of 1 or less: the
+    smaller adequacy factor counts.
+
+    Parameters
+    ----------
+    model : Model
+        With characteristic values.
+    factors : PartialFactors
+    without_dilatancy : bool
+        Whether the design model is analysed without dilatancy as well.
+
+    Raises
+    ------
+    ModelError
+        If a joint has no friction or strength that could be factored, or a model with ties no `gamma_S`.
+    LimitBlocksError
+        As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
+    """
+    design = design_model(model, factors)
+    values = tuple(_values(model, factors))
+    pair = bounds(design)
+    result = nonassociated(design) if without_dilatancy else None
+    return Adequacy(factors, values, bounds(model), design, pair, result, model.digest)
+
+
+def design_model(model: Model, factors: PartialFactors) -> Model:
+    """Return the model with design loads and design strengths; see :func:`adequacy`."""
+    made = {joint: _design(joint, factors) for joint in _joints(model)}
+    interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]
+    dead, live = factors.gamma_G * model.dead, factors.gamma_Q * model.live
+    return replace(model, interfaces=interfaces, dead=dead, live=live)
+
+
+def _design(joint: Joint, factors: PartialFactors) -> Joint:
+    """The joint with design strengths."""
+    if isinstance(joint, Guide):  # holds whatever comes
+        return joint
+    _, strength = factors.of_strength(joint)
+    if isinstance(joint, Dowel):
+        return replace(joint, strength=joint.strength / strength)
+    if isinstance(joint, Tie):
+        prestress = factors.gamma_G * joint.prestress
+        return replace(joint, strength=joint.strength / strength, prestress=prestress)
+    known = {name: getattr(joint, name, None) for name in STRENGTHS}
+    changes = {name: value / strength for name, value in known.items() if value}
+    try:
+        changes[FRICTION] = joint.friction / factors.of_friction[1]
+        return replace(joint, **changes)  # type: ignore[type-var]
+    except TypeError:
+        raise ModelError(f"{joint}: no dataclass with a friction that partial factors could divide") from None
+
+
+def _values(model: Model, factors: PartialFactors) -> Iterator[DesignValue]:
+    yield DesignValue("G", "dead loads", 1.0, "gamma_G", factors.gamma_G, "")
+    yield DesignValue("Q", "live loads", 1.0, "gamma_Q", factors.gamma_Q, "")
+    count = _joints(model)
+    for joint, number_of in count.items():
+        where = f"{number_of} of {len(model.interfaces)} interfaces"
+        if isinstance(joint, Tie | Dowel | Guide):
+            continue
+        word, divisor = factors.of_friction
+        yield DesignValue(SYMBOLS[FRICTION], where, joint.friction, word, joint.friction / divisor, "")
+        for name in STRENGTHS:
+            value = getattr(joint, name, None)
+            if value:
+                word, divisor = factors.of_strength(joint)
+                yield DesignValue(SYMBOLS[name], where, value, word, value / divisor, "Pa")
+    for one in model.interfaces:
+        if isinstance(one.joint, Tie | Dowel):
+            word, divisor = factors.of_strength(one.joint)
+            most = one.joint.strength * float(areas(one.polygon))
+            yield DesignValue("F", one.name, most, word, most / divisor, "N")
+
+
+def _joints(model: Model) -> dict[Joint, int]:
+    """Joints of a model, each with the number of its interfaces."""
+    found: dict[Joint, int] = {}
+    for one in model.interfaces:
+        joint = joint_of(one)
+        found[joint] = found.get(joint, 0) + 1
+    return found

@@ -1,0 +1,146 @@
+"""Partial factors: closed forms of a sliding block, a tower, a crushing column, a tie; misuse; command."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.cli import app
+from limitblocks.joints import Dowel, Tie
+from limitblocks.practice import PartialFactors, adequacy, design_model, dowel, reinforced, tie
+
+G, Q, M, PHI, S = 1.35, 1.5, 2.2, 1.25, 1.15
+
+
+def block(width=1.0, height=0.4, friction=0.3, joint=lb.PointContact):
+    return lb.structures.block(joint(friction), width=width, height=height)
+
+
+@pytest.mark.parametrize("phi", [None, PHI])
+def test_block_that_slides(phi):
+    """gamma_Q alpha W = (mu / gamma) gamma_G W."""
+    found = adequacy(block(), PartialFactors(G, Q, M, gamma_phi=phi))
+    expected = 0.3 / (phi or M) * G / Q
+    assert found.factor == pytest.approx(expected, rel=1e-8)
+    assert found.bounds.upper == pytest.approx(expected, rel=1e-8)
+    assert found.characteristic.lower == pytest.approx(0.3, rel=1e-6)
+    assert not found.satisfied
+
+
+def test_tower_that_overturns_needs_the_favourable_factor():
+    """gamma_Q alpha W H / 2 = gamma_G W B / 2: the least gamma_G governs."""
+    tower = block(width=1.0, height=4.0, friction=0.9)
+    for gamma_G in (1.35, 0.9):
+        found = adequacy(tower, PartialFactors(gamma_G, Q, 1.0), without_dilatancy=False)
+        assert found.factor == pytest.approx(0.25 * gamma_G / Q, rel=1e-6)
+        assert found.result is None
+
+
+def test_column_that_crushes():
+    """gamma_G W + gamma_Q alpha P = A f_cef / gamma_M, P through the centroid."""
+    strength, load = 1e6, 50e3
+    stones = [
+        lb.Block.box("ground", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("column", (0.5, 0.4, 2.0), (0, 0, 1.0), 20e3),
+    ]
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=strength)
+    live = lb.loads.force("column", (0, 0, -load), (0, 0, 2.0))
+    model = lb.Model(stones, ["ground"], lb.find_interfaces(stones, joint), lb.self_weight(), live)
+    found = adequacy(model, PartialFactors(G, Q, M), without_dilatancy=False)
+    assert found.bounds.lower == pytest.approx((0.2 * strength / M - G * 8e3) / (Q * load), rel=1e-6)
+    assert found.satisfied
+    crushing = next(one for one in found.values if one.symbol == "f_cef")
+    assert (crushing.characteristic, crushing.factor) == (strength, "gamma_M")
+    assert crushing.design == pytest.approx(strength / M)
+
+
+def test_cohesion_is_divided():
+    """A block pushed along: gamma_Q alpha W = gamma_G mu W / gamma_phi + A c / gamma_M."""
+    model = block(width=2.0, height=0.4)
+    weight = model.free_blocks[0].weight
+    (own,) = model.interfaces
+    joint = lb.OrdunaLourenco(0.3, cohesion=500.0, tensile_strength=100.0)
+    model = replace(model, interfaces=[replace(own, joint=joint)])
+    found = adequacy(model, PartialFactors(G, Q, M, PHI), without_dilatancy=False)
+    area = abs(float(lb.joints.areas(own.polygon)))
+    assert found.factor == pytest.approx((G * 0.3 / PHI + area * 500.0 / M / weight) / Q, rel=1e-6)
+    (made,) = {one.joint for one in found.model.interfaces}
+    assert made.tensile_strength == pytest.approx(100.0 / M)
+
+
+def wall(prestress=0.0):
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.8))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=8e7, prestress=prestress)
+    return reinforced(model, rod)
+
+
+@pytest.mark.parametrize("prestress", [0.0, 1.5e3])
+def test_tie_is_divided_and_its_prestress_stays_within(prestress):
+    """gamma_Q alpha W H / 2 = gamma_G W t / 2 + F z / gamma_S, whatever part of F is a prestress."""
+    found = adequacy(wall(prestress), PartialFactors(G, Q, M, 1.0, S))
+    expected = (G * 45e3 * 0.25 + 8e3 * 4.5 / S) / (Q * 45e3 * 2.5)
+    assert found.factor == pytest.approx(expected, rel=1e-6)
+    assert found.model.interfaces[1].joint == Tie(8e7 / S, 5.75, G * (prestress / 1e-4))
+
+
+def test_dowel_is_divided():
+    model = block()
+    (own,), weight = model.interfaces, model.free_blocks[0].weight
+    held = reinforced(model, dowel(own, own.centroid, diameter=0.02, capacity=0.05 * weight))
+    found = adequacy(held, PartialFactors(1.0, 1.0, M, 1.0, S))
+    assert found.factor == pytest.approx(0.3 + 0.05 / S, rel=1e-6)
+    assert isinstance(found.model.interfaces[1].joint, Dowel)
+
+
+def test_factors_of_one_change_nothing():
+    model = wall(1e3)
+    assert design_model(model, PartialFactors(1, 1, 1, 1, 1)).digest == model.digest
+
+
+def test_report_has_design_beside_characteristic_values():
+    made = lb.report(block(), adequacy(block(), PartialFactors(G, Q, M, PHI)))
+    (chapter,) = (one for one in made.document.chapters if one.title == "Adequacy with partial factors")
+    (table,) = (part for part in chapter.parts if getattr(part, "caption", "").startswith("Characteristic"))
+    rows = {row[0].text: [cell.text for cell in row] for row in table.rows}
+    assert rows["mu"] == ["mu", "1 of 1 interfaces", "0.3", "gamma_phi", "1.25", "0.24"]
+    assert rows["G"][3:] == ["gamma_G", "1.35", "1.35"]
+    assert "LESS than one" in made.markdown
+    assert "not judged here" in made.text
+
+
+def test_command(tmp_path):
+    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+    file = block().save(tmp_path / "block.json")
+    words = ["adequacy", str(file), "--gamma-g", "1", "--gamma-q", "1.5", "--gamma-m", "1.25"]
+    done = CliRunner().invoke(app, [*words, "--json", "--report", str(tmp_path / "a.pdf")])
+    assert done.exit_code == 1, done.output
+    assert json.loads(done.stdout)["adequacy_factor"] == pytest.approx(0.3 / 1.25 / 1.5, rel=1e-8)
+    said = " ".join(page.extract_text() for page in pypdf.PdfReader(tmp_path / "a.pdf").pages)
+    for word in ("gamma_phi", "Characteristic", "adequacy factor, LESS than one"):
+        assert word in said, word
+    file = block(friction=3.0, width=4.0, height=1.0).save(tmp_path / "wide.json")
+    done = CliRunner().invoke(app, ["adequacy", str(file), *words[2:], "--associated"])
+    assert done.exit_code == 0, done.output
+    assert "--gamma-m" in CliRunner().invoke(app, words[:-2]).output
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: PartialFactors(1.35, -1.5, 2.0), "gamma_Q is -1.5, expected a finite number > 0"),
+        (lambda: PartialFactors(1.35, 1.5, 0.0), "gamma_M is 0.0"),
+        (lambda: adequacy(wall(), PartialFactors(1.0, 1.0, 1.0)), "give gamma_S"),
+        (lambda: adequacy(wall(7.9e3), PartialFactors(1.35, 1.0, 1.0, 1.0, 1.0)), "prestress of a tie"),
+        (lambda: Tie(1.0, 1.0, 2.0), "prestress of a tie is 2.0 Pa, expected 0 to less than its strength"),
+    ],
+)  # fmt: skip
+def test_misuse(make, words):
+    with pytest.raises(lb.ModelError, match=words):
+        make()
