@@ -53,6 +53,17 @@ def read(file: str | Path) -> Model:
         return _model(in_si(_document(strict_json.read_text(path))))
 
 
+def model_from(data: dict[str, Any]) -> Model:
+    """Return the model whose ``to_dict()`` is `data`.
+
+    Raises
+    ------
+    ModelError
+        The model in it is wrong, with one line per fault.
+    """
+    return _model(in_si(_document(strict_json.text(data))))
+
+
 @cache
 def model_schema() -> dict[str, Any]:
     """Return the JSON Schema (2020-12) of the model file."""

@@ -17,6 +17,7 @@ from limitblocks.mechanics import Load, top_force
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import tops
 from limitblocks.model import Model
+from limitblocks.shown import Result
 
 STRETCHES = 8  # of a dispersed axle: each a force on top of the block below it
 
@@ -83,8 +84,8 @@ class Deck:
         number(self.spread, "spread", "", least=0.0)
 
 
-@dataclass(frozen=True, eq=False)
-class WorstPosition:
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstPosition(Result):
     """Envelope of the load factor over the positions of a vehicle.
 
     Attributes
@@ -109,21 +110,27 @@ class WorstPosition:
     model: Model
     digest: str
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each position, in their order along the deck."""
+        pairs = sorted(zip(self.positions.tolist(), self.load_factors.tolist(), strict=True))
+        return [{"position": place, "load_factor": factor} for place, factor in pairs]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the envelope and the bounds at the worst position as numbers and text."""
         return {
             "analysis": "worst position",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "positions": self.positions.tolist(),
-            "load_factors": [a if np.isfinite(a) else None for a in self.load_factors.tolist()],
+            "load_factors": self.load_factors.tolist(),
             "position": self.position,
             "bounds": self.bounds.to_dict(),
+            "model": self.model.to_dict(),
         }
 
     def __str__(self) -> str:
         return (
             f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}"
+            f"{self.bounds.lower:.6g}{self._as_read}"
         )
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from limitblocks.shown import Result
+
 UNSEEN = (
     "Nothing is claimed beyond the inequalities named. The text of Circolare 7/2019 was not seen when this "
     "was written: its quantities follow worked examples, and numbers of single equations are not given."
@@ -55,8 +57,8 @@ class Inequality:
         return self.ratio >= 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class Verification:
+@dataclass(frozen=True, eq=False, repr=False)
+class Verification(Result):
     """Quantities in the order in which they are found, and the inequalities between them.
 
     Attributes
@@ -81,19 +83,23 @@ class Verification:
                 return quantity.value
         raise KeyError(symbol)
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each quantity."""
+        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
+        return [{key: getattr(one, key) for key in keys} for one in self.quantities]
+
     def to_dict(self) -> dict[str, Any]:
         """Return all quantities and checks as numbers and text."""
-        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
         return {
             "analysis": "verification",
-            "quantities": [{key: getattr(one, key) for key in keys} for one in self.quantities],
+            "quantities": self.rows(),
             "checks": [
                 {"name": one.name, "capacity": one.capacity, "demand": one.demand, "ratio": one.ratio,
                  "unit": one.unit, "satisfied": one.satisfied, "source": one.source}
                 for one in self.checks
             ],
             "moving": list(self.moving),
-            "digest": self.digest,
+            "model_digest": self.digest,
         }  # fmt: skip
 
     def __str__(self) -> str:
@@ -101,4 +107,4 @@ class Verification:
             f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
             for one in self.checks
         )
-        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks))
+        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks)) + self._as_read

@@ -68,7 +68,7 @@ def document(
     """Return the report on `model`: `known` are its facts, `picture` is the mechanism of section `drawn`."""
     title = labels.title or model.name or UNTITLED
     place = 0
-    chapters = [_answer(model, results, labels), *_side_by_side(results)]
+    chapters = [_answer(model, sections, labels), *_side_by_side(sections)]
     shown = []
     for one, result in zip(sections, results, strict=True):
         moving = picture if one is drawn else None
@@ -112,8 +112,8 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     return Chapter(one.title, tuple(parts))
 
 
-def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
-    found = answer(results)
+def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapter:
+    found = answer(sections)
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
@@ -127,8 +127,8 @@ def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
     return Chapter("Load factor to design with", tuple(parts))
 
 
-def _side_by_side(results: Sequence[Any]) -> Iterator[Chapter]:
-    rows = comparison(results)
+def _side_by_side(sections: Sequence[Section]) -> Iterator[Chapter]:
+    rows = comparison(sections)
     if rows:
         heads = ("Flow", "Load factor", "What it means")
         table = Table.of("Load factors of this structure", heads, rows, right=(1,))

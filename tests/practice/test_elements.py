@@ -2,36 +2,22 @@
 
 import numpy as np
 import pytest
+from facades import ARM, FLOOR, OWN, H, T, facade
 
 import limitblocks as lb
 from limitblocks.analysis.scales import frictional
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.joints import Tie
-from limitblocks.mechanics import added_mass
 from limitblocks.practice import dowel, reinforced, strip, tie
 
-T, H, WEIGHT, FLOOR, ARM = 0.5, 5.0, 18e3, 10e3, 0.35  # m, N/m3, N on one metre of wall
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 JOINT_NAMES = ["point contact", "paper"]
 every_joint = pytest.mark.parametrize("joint", JOINTS, ids=JOINT_NAMES)
 
 
-def facade(joint=JOINTS[0]):
-    """One metre of a facade with a floor at its top, `ARM` from its outer edge; pushed outwards along X."""
-    stones = [
-        lb.Block.box("ground", (2, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
-    ]
-    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
-    found = lb.find_interfaces(stones, joint)
-    push = lb.mass_proportional((1, 0, 0), [floor])
-    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
-
-
 def rocking(force=0.0, height=0.0):
     """Moments about the outer edge."""
-    own = WEIGHT * T * H
-    return (own * T / 2 + FLOOR * ARM + force * height) / (own * H / 2 + FLOOR * H)
+    return (OWN * T / 2 + FLOOR * ARM + force * height) / (OWN * H / 2 + FLOOR * H)
 
 
 def rod(force, height=4.5, **settings):
@@ -85,7 +71,7 @@ def test_inclined_ties_and_several(share):
 
 
 def test_prestress_that_pulls_a_wall_over_is_no_equilibrium():
-    held = WEIGHT * T * H * T / 2 + FLOOR * (T - ARM)  # about the inner edge
+    held = OWN * T / 2 + FLOOR * (T - ARM)  # about the inner edge
     for part, falls in ((0.99, False), (1.01, True)):
         model = reinforced(facade(), rod(8e3, prestress=part * held / 4.5))
         if falls:

@@ -2,6 +2,7 @@
 
 import json
 
+import facades
 import pytest
 from typer.testing import CliRunner
 
@@ -16,14 +17,7 @@ def block(tmp_path):
 
 @pytest.fixture
 def beam(tmp_path):
-    stones = [
-        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
-        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
-        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    live = lb.mass_proportional((1, 0, 0))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), live).save(tmp_path / "beam.json")
+    return facades.beam().save(tmp_path / "beam.json")
 
 
 def run(*words):
@@ -39,7 +33,7 @@ def test_settle(beam, tmp_path):
     assert done.exit_code == 0, done.output
     found = json.loads((tmp_path / "s.json").read_text())
     assert found["nonassociated"] == pytest.approx(least, rel=1e-8)
-    assert "24000" in run("settle", beam, "--support", "right").stdout
+    assert "24 kN" in run("settle", beam, "--support", "right").stdout
     wrong = run("settle", beam, "--support", "beam")
     assert wrong.exit_code == 2
     assert "'beam' is a free block" in wrong.output
@@ -53,7 +47,7 @@ def test_settle_until_collapse(tmp_path):
     done = run(*way, "--largest", 0.01, "--json")
     assert done.exit_code == 0, done.output
     found = json.loads(done.stdout)
-    assert found["displacements"][-1] == pytest.approx(0.01)
+    assert found["points"][-1]["displacement"] == pytest.approx(0.01)
     assert found["ended"] == "the settlement 0.01 m is reached"
     assert "the settlement 0.01 m is reached" in run(*way, "--largest", 0.01).stdout
 

@@ -1,26 +1,19 @@
 """Verification of a facade of one block by closed forms; spectra; misuse."""
 
+import facades
 import numpy as np
 import pytest
+from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
 
 import limitblocks as lb
-from limitblocks.loads import added_mass
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
 
-T, H, WEIGHT, FLOOR, ARM, FC, G = 0.5, 5.0, 18e3, 10e3, 0.35, 1.35, 9.81
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 
 
 @pytest.fixture(scope="module")
 def facade():
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
-    ]
-    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((1, 0, 0), [floor])
-    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
+    return facades.facade()
 
 
 @pytest.fixture(scope="module")
@@ -81,8 +74,8 @@ def test_scale_of_the_mechanism_does_not_matter(facade, answer):
 
 
 def test_spectrum_is_continuous_and_has_its_branches():
-    for T in (SITE.T_B, SITE.T_C, SITE.T_D):
-        assert SITE.acceleration(T - 1e-9) == pytest.approx(SITE.acceleration(T + 1e-9), rel=1e-6)
+    for period in (SITE.T_B, SITE.T_C, SITE.T_D):
+        assert SITE.acceleration(period - 1e-9) == pytest.approx(SITE.acceleration(period + 1e-9), rel=1e-6)
     assert SITE.acceleration(0.0) == pytest.approx(SITE.a_g * SITE.S)
     assert SITE.acceleration(0.3) == pytest.approx(SITE.a_g * SITE.S * SITE.F0)
     assert SITE.acceleration(1.0) == pytest.approx(SITE.a_g * SITE.S * SITE.F0 * SITE.T_C)
@@ -98,12 +91,12 @@ def test_floor_spectrum():
     assert floor.largest(SITE) == pytest.approx(largest)
     assert floor.acceleration(SITE, 0.0) == pytest.approx(largest)
     assert floor.acceleration(SITE, 0.35) == pytest.approx(1.1 * 0.05**-0.5 * largest)
-    for T in (0.8 * 0.4, 1.1 * 0.4):
-        assert floor.acceleration(SITE, T - 1e-9) == pytest.approx(
-            floor.acceleration(SITE, T + 1e-9), rel=1e-5
+    for period in (0.8 * 0.4, 1.1 * 0.4):
+        assert floor.acceleration(SITE, period - 1e-9) == pytest.approx(
+            floor.acceleration(SITE, period + 1e-9), rel=1e-5
         )
-    for T in np.linspace(0.0, 4.0, 50):
-        assert floor.acceleration(SITE, T) >= SITE.acceleration(T)
+    for period in np.linspace(0.0, 4.0, 50):
+        assert floor.acceleration(SITE, period) >= SITE.acceleration(period)
     still = Floor((FloorMode(period=0.4, participation=1.3, shape=0.0),))
     assert still.acceleration(SITE, 0.7) == pytest.approx(SITE.acceleration(0.7))
 

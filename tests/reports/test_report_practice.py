@@ -6,13 +6,14 @@ from dataclasses import replace
 from html import unescape
 from io import BytesIO
 
+import facades
 import jsonschema
 import numpy as np
 import pytest
+from facades import ARM, FC, FLOOR, OWN, G, H, T
 
 import limitblocks as lb
 from limitblocks.drawing.sheet import polylines
-from limitblocks.loads import added_mass
 from limitblocks.practice import (
     Deck,
     Spectrum,
@@ -32,34 +33,18 @@ from limitblocks.reports.pdf import latin, pdf
 
 pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
 
-T, H, WEIGHT, FLOOR, ARM, FC, G = 0.5, 5.0, 18e3, 10e3, 0.35, 1.35, 9.81
-OWN = WEIGHT * T * H
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 TIES = [tie("wall", (-T / 2, 0, z), "ground", (-6, 0, z), area=1e-3, strength=100e6) for z in (2.0, 4.5)]
 
 
 @pytest.fixture(scope="module")
 def facade():
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
-    ]
-    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((1, 0, 0), [floor])
-    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
+    return facades.facade()
 
 
 @pytest.fixture(scope="module")
 def beam():
-    stones = [
-        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
-        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
-        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((1, 0, 0))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), push)
+    return facades.beam()
 
 
 @pytest.fixture(scope="module")
