@@ -219,10 +219,17 @@ def test_ties_and_dowels_have_their_force_and_their_line(facade):
         p for p in chapter(made, title).parts if getattr(p, "caption", "") == "Ties, dowels and passive fill"
     )
     held, slack, pinned = [[cell.text for cell in row] for row in table.rows]
-    assert held[1:] == ["8", "8", "1.000", "yield"]
-    assert slack[1:] == ["0", "8", "0.000", "slack"]
-    assert pinned[2] == "5"
-    assert float(pinned[3]) == pytest.approx(float(pinned[1]) / 5.0, abs=1e-3)
+    assert held[1:] == ["(0, 0, 4.5) to (-6, 0, 4.5)", "8", "8", "1.000", "yield"]
+    assert slack[2:] == ["0", "8", "0.000", "slack"]
+    assert pinned[1] == "(0, 0, 0)"
+    assert pinned[3] == "5"
+    assert float(pinned[4]) == pytest.approx(float(pinned[2]) / 5.0, abs=1e-3)
+    views = next(p for p in chapter(made, "Model").parts if hasattr(p, "sheet"))
+    lines = [group for group in views.sheet.groups if group.style == "tie-stick"]
+    assert [len(group.shapes) for group in lines] == [2, 2, 2]  # both ties in front, side and plan
+    front = [abs(ends[2] - ends[0]) for s in lines[0].shapes for ends, _ in polylines(s.path)]
+    assert front[0] == pytest.approx(front[1])  # 6 m either way, at one scale
+    assert views.legend[-1] == ("tie-stick", "tie, from anchor to anchor")
     (drawing,) = (
         p for p in chapter(made, title).parts if getattr(getattr(p, "sheet", 0), "style", "") == "mechanism"
     )
