@@ -10,7 +10,8 @@ import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.mechanics import added_mass, pressure
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
-from limitblocks.practice.displaced import assembly_of, closed_up, moved
+from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.rejoined import closed_up
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
