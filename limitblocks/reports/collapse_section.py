@@ -75,7 +75,7 @@ def _points(curve: SettlementCurve) -> Table:
     ]  # fmt: skip
     heads = ("Settlement, m", "Mechanism", "Stress state", "Without dilatancy", "Contacts that change",
              "Presses across a gap")  # fmt: skip
-    return Table.of("Least reaction at each settlement", heads, rows, right=(0, 1, 2, 3))
+    return Table.of("Points of the settlement: least reaction at each", heads, rows, right=(0, 1, 2, 3))
 
 
 def _curve(curve: SettlementCurve) -> Curve | None:

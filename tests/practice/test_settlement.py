@@ -74,14 +74,17 @@ def half_arch(voussoirs, thickness, centred=False):
 
 
 def thrusts(voussoirs, thickness, centred=False):
-    """Least and greatest thrust through the extrados of the crown, over unit weight x t x depth x radius.
+    """Least and greatest thrust over unit weight x t x depth x radius.
 
-    The least turns about the intrados of a joint, the greatest about the extrados of the springing.
+    The line of the least passes the extrados of the crown and the intrados of a joint, that of the greatest
+    the extrados of the springing and the intrados of a joint.
     """
     inner, outer, area, moment = half_arch(voussoirs, thickness, centred)
     k = slice(0, -1)
     least = ((moment - area * inner[k, 0]) / (outer[-1, 1] - inner[k, 1])).max()
-    greatest = ((moment - area * outer[k, 0]) / (outer[-1, 1] - outer[k, 1])).min()
+    springing = moment[0] - area[0] * outer[0, 0]
+    above = slice(1, -1)
+    greatest = ((springing - moment[1:] + area[1:] * inner[above, 0]) / inner[above, 1]).min()
     return least / thickness, greatest / thickness
 
 

@@ -253,7 +253,7 @@ def test_a_support_that_settles_until_collapse():
     curve = settlement_to_collapse(ring, "right support", (1, 0, 0), largest=0.01)
     report = lb.report(ring, curve)
     title = "Settlement of right support until collapse"
-    shown = list(rows(report, title, "Least reaction").values())
+    shown = list(rows(report, title, "Points of the settlement").values())
     assert [float(row[0]) for row in shown] == pytest.approx(curve.displacements, rel=1e-6)
     for row, reaction in zip(shown, curve.reactions, strict=True):
         assert [float(cell.split()[0]) for cell in row[1:4]] == pytest.approx([reaction / 1e3] * 3, rel=1e-5)
