@@ -1,7 +1,7 @@
 """Slacks and multipliers of a state as pairs of numbers, one of each pair zero at a solution.
 
-A linear row is a pair already. On a second-order cone s and y of a solution share a frame: with d the unit
-direction of the tail of s - y, the eigenvalues s0 -/+ d.s and y0 -/+ d.y are two pairs (Fukushima, Luo & Tseng
+A linear row is a pair already. On a second-order cone s and y of a solution share a frame: with d the
+unit direction of the tail of s - y, the eigenvalues s0 -/+ d.s and y0 -/+ d.y are two pairs (Fukushima, Luo & Tseng
 2002, SIAM J. Optimization 12), so that a cone that lets go or takes hold is a change of one pair. Across d
 the projection on the cone gives
 
@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones
 
 LOOSE = 1e6  # kappa from which on a cone has no multiplier across its frame
@@ -84,11 +84,11 @@ class _Rows:
     """Rows of a sparse matrix on their way."""
 
     values: list[Array]
-    places: list[Array]
-    columns: list[Array]
+    places: list[Indices]
+    columns: list[Indices]
     count: int
 
-    def add(self, rows: Array, columns: Array) -> None:
+    def add(self, rows: Array, columns: Indices) -> None:
         """Add dense rows with the columns of their entries, both (k, size)."""
         self.values.append(rows.ravel())
         self.places.append(np.repeat(self.count + np.arange(len(rows)), rows.shape[1]))

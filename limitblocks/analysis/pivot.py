@@ -66,7 +66,7 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
 def _step(flow: Flow, now: State, delta: float) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
     linear = _Linearised(flow, now, delta)
-    unsure = linear.unsure
+    unsure, found = linear.unsure, None
     for _ in range(WIDENED):
         if np.count_nonzero(unsure) > LARGEST:
             return None
@@ -74,12 +74,10 @@ def _step(flow: Flow, now: State, delta: float) -> State | None:
             found = linear.solved(unsure)
         except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
             return None
-        if found is None:
-            return None
-        if not found.violated.any():
+        if found is None or not found.violated.any():
             break
         unsure = unsure | found.violated
-    return admissible(flow.problem.cones, found.state)
+    return None if found is None else admissible(flow.problem.cones, found.state)
 
 
 class _Solved(NamedTuple):
@@ -91,7 +89,7 @@ class _Solved(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Linearised:
-    """Eqs (54)-(59) linearised at a state; rates and multipliers are measured by sigma, to have like sizes."""
+    """Eqs (54)-(59) linearised at a state; rates and multipliers times sigma, to have like sizes."""
 
     flow: Flow
     now: State
@@ -145,7 +143,7 @@ class _Linearised:
         """(x, sigma u, load factor, multipliers of what is held) by unit multipliers (k), and without any."""
         p, now, delta, sigma = self.flow.problem, self.now, self.delta, self.sigma
         G, live = self.flow.matrix(now.x), sparse.csr_array(p.live[:, None])
-        n, m = p.C.shape
+        n = p.C.shape[0]
         turn = None if self.flow.constant else self.flow.derivative(now.x, sigma * now.y)
         kappa = np.concatenate([np.zeros(np.count_nonzero(tight)), self.pairs.kappa])
         blocks: list[list[Any]] = [
@@ -156,9 +154,7 @@ class _Linearised:
         ]
         J = sparse.block_array(blocks, format="csc")
         J = sparse.csc_array(J + delta * sparse.eye_array(J.shape[0]))
-        multipliers = np.concatenate(
-            [self.pairs.multiplier[tight], self.pairs.across @ (sigma * now.y)]
-        )
+        multipliers = np.concatenate([self.pairs.multiplier[tight], self.pairs.across @ (sigma * now.y)])
         before = np.concatenate([now.x, sigma * now.u, [now.load_factor], multipliers])
         known = np.concatenate([np.zeros(n), p.dead, [sigma], -(held @ p.g)])
         if turn is not None:

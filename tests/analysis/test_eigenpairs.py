@@ -17,7 +17,8 @@ def test_pairs_of_a_solution():
     assert min(found.slack.min(), found.multiplier.min()) > -1e-14
     assert np.abs(found.across @ s + found.kappa * (found.across @ y)).max() < 1e-14
     # the cone on its boundary slips: least slack 0 and multiplier y0 + |y|, largest s0 and 0; kappa 5 / 4
-    assert np.allclose(found.slack[[2, 5]], [0.0, 5.0]) and np.allclose(found.multiplier[[2, 5]], [8.0, 0.0])
+    assert np.allclose(found.slack[[2, 5]], [0.0, 5.0])
+    assert np.allclose(found.multiplier[[2, 5]], [8.0, 0.0])
     assert np.isclose(found.kappa[0], 5.0 / 4.0)
 
 
@@ -37,4 +38,5 @@ def test_multipliers_are_those_of_the_pairs_and_across():
 def test_planes_are_pairs_themselves():
     s, y = np.array([1.0, 0.0]), np.array([0.0, 2.0])
     found = pairs(Cones(2), s, y)
-    assert found.across.shape == (0, 2) and (found.signed == s - y).all()
+    assert found.across.shape == (0, 2)
+    assert (found.signed == s - y).all()

@@ -11,7 +11,6 @@ from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
-
 MEDIUM = 0.2  # size of a barrier up to which paths are tried before the increments
 
 

@@ -30,7 +30,7 @@ from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from, settled
 from limitblocks.analysis.pivot import pivoted
-from limitblocks.analysis.polish import defect, polish
+from limitblocks.analysis.polish import PATIENCE, defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.problem import Flow, State
@@ -40,7 +40,7 @@ CUT = 0.35  # of the length after a failure
 PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, AGAIN, LAST = 2e-2, 0.3, 1e-11  # theta where the polish is tried first, how often, and last
+TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
@@ -231,8 +231,8 @@ class Walk:
         if z.theta < LAST:
             raise Lost("no solution at the end")
         self.tried = AGAIN * z.theta
-        self._keep(polish(self.path.flow, self.state))
-        if TOLERANCE < self.left and defect(self.path.flow, self.state) < DEGENERATE:
+        self._keep(polish(self.path.flow, self.state, patience=PATIENCE))
+        if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
             self._keep(pivoted(self.path.flow, self.state))
         here = mcp_residuals(self.path.flow, self.state)
         if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
