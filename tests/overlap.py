@@ -36,6 +36,35 @@ def _not_drawn(axes):
             yield from (axis.label, axis.get_offset_text())
 
 
+def too_small(figure, least=7.0):
+    """Texts below `least` points, as they are on the page."""
+    return [(one.get_text(), one.get_fontsize()) for one in texts(figure) if one.get_fontsize() < least]
+
+
+def covered(figure):
+    """Legends and words written into axes that a line or a marker of them runs through."""
+    figure.canvas.draw()
+    renderer, point = figure.canvas.get_renderer(), figure.dpi / 72
+    found = []
+    for axes in figure.axes:
+        if getattr(axes, "name", "") == "3d":
+            continue
+        words = [(one.get_text(), one.get_window_extent(renderer)) for one in axes.texts if one.get_visible()]
+        legend = axes.get_legend()
+        words += [("legend", legend.get_window_extent(renderer))] if legend else []
+        for line in axes.lines:
+            path = line.get_transform().transform_path(line.get_path())
+            marks = line.get_marker() not in (None, "None", "")
+            joined = line.get_linestyle() not in ("None", "")
+            for word, box in words:
+                inner = box.padded(-TOUCH * point)
+                if (joined and path.intersects_bbox(inner, filled=False)) or (
+                    marks and inner.count_contains(path.vertices)
+                ):
+                    found.append((word, f"covers {line.get_label()}"))
+    return found
+
+
 def collisions(figure):
     """Pairs of texts that overlap, and texts outside the figure."""
     renderer = figure.canvas.get_renderer()
