@@ -162,9 +162,9 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         for one in ones
     ]
     found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
-    amounts = found * (1.0 + AMPLE)
-    amounts = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
-    heaps = [replace(one, weight=float(a)) for one, a in zip(ones, amounts, strict=True) if a > 0.0]
+    amounts = np.where(found > NONE * found.max(initial=0.0), found, 0.0)
+    made = amounts * (1.0 + AMPLE)
+    heaps = [replace(one, weight=float(a)) for one, a in zip(ones, made, strict=True) if a > 0.0]
     added = replace(
         model,
         dead=model.dead + of(*heaps),

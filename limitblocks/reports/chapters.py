@@ -8,6 +8,7 @@ from typing import Any
 
 from limitblocks.drawing.elevations import elevations
 from limitblocks.drawing.picture import Picture
+from limitblocks.drawing.ties import tie_lines
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
 from limitblocks.reports.answer import UNDEMANDED, WARNING, answer, verdict
@@ -50,6 +51,7 @@ SENSITIVITY = (
 )
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
+TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))
 
 
@@ -136,7 +138,7 @@ def _side_by_side(sections: Sequence[Section]) -> Iterator[Chapter]:
 def _model(model: Model, known: dict[str, Any]) -> Chapter:
     parts: list[Part] = [
         Table.of("Facts", ("Quantity", "Value"), fact_rows(known)),
-        Figure(elevations(model), VIEWS, VIEWED),
+        Figure(elevations(model), VIEWS, (*VIEWED, *TIED) if tie_lines(model) else VIEWED),
     ]
     given = acceleration(model)
     if given:
@@ -157,7 +159,7 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     if table is None:
         return ()
     elements = element_rows(model, result)
-    tied = Table.of("Ties, dowels and passive fill", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    tied = Table.of("Ties, dowels and passive fill", ELEMENT_HEADS, elements, right=(2, 3, 4))
     return (*_active(table, place), *((tied,) if elements else ()))
 
 

@@ -73,15 +73,20 @@ def pier(bridge, k):
     return outlines, joints
 
 
-def load_factor(bridge, at, loaded=0):
-    """Greatest multiple of 1 kN at X = `at` on the extrados of span `loaded` that a safe state carries."""
+def load_factor(bridge, at, loaded=0, pulls=()):
+    """Greatest multiple of 1 kN at X = `at` on the extrados of span `loaded` that a safe state carries.
+
+    `pulls` are forces from 0 to a limit: point, unit direction, limit, the block pulled, the block that pulls
+    (None for the ground).
+    """
     parts = [arch(bridge, k) for k in range(bridge.spans)] + [
         pier(bridge, k) for k in range(bridge.spans - 1)
     ]
     outlines = {name: outline for own, _ in parts for name, outline in own.items()}
     joints = [joint for _, own in parts for joint in own]
     row = {name: 3 * k for k, name in enumerate(outlines)}
-    equilibrium = np.zeros((3 * len(row), 4 * len(joints) + 1))
+    count = 4 * len(joints) + len(pulls) + 1
+    equilibrium = np.zeros((3 * len(row), count))
     dead = np.zeros(3 * len(row))
     for name, outline in outlines.items():
         area, centre = measures(outline)
@@ -90,7 +95,12 @@ def load_factor(bridge, at, loaded=0):
     top = [bridge.point(loaded, bridge.rings, j)[0] for j in range(bridge.voussoirs + 1)]
     own = row[loaded, bridge.rings - 1, int(np.searchsorted(top, at)) - 1]
     equilibrium[own : own + 3, -1] = 0.0, -LOAD, -LOAD * at
-    yields = np.zeros((4 * len(joints), 4 * len(joints) + 1))
+    yields = np.zeros((4 * len(joints), count))
+    for t, (point, direction, _, *ends) in enumerate(pulls):
+        force = np.array([*direction, point[0] * direction[1] - point[1] * direction[0]])
+        for name, sign in zip(ends, (1.0, -1.0), strict=True):
+            if name in row:
+                equilibrium[row[name] : row[name] + 3, 4 * len(joints) + t] += sign * force
     for c, (i, j, p, q, friction) in enumerate(joints):
         along = (q - p) / np.linalg.norm(q - p)
         normal = np.array([along[1], -along[0]])
@@ -104,7 +114,8 @@ def load_factor(bridge, at, loaded=0):
             place = 4 * c + 2 * e
             yields[place, [place, place + 1]] = -friction, 1.0
             yields[place + 1, [place, place + 1]] = -friction, -1.0
-    limits = [(0, None), (None, None)] * (2 * len(joints)) + [(None, None)]
+    limits = [(0, None), (None, None)] * (2 * len(joints)) + [(0, pull[2] / 1e3) for pull in pulls]
+    limits.append((None, None))
     objective = -np.eye(len(limits))[-1]
     scaled = equilibrium.copy()
     scaled[:, -1] /= 1e3  # forces in kN

@@ -8,7 +8,7 @@ from planar_bridge import Bridge, load_factor, measures
 
 import limitblocks as lb
 from limitblocks.loads import top_force
-from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, vehicle_load, worst_position
+from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, tie, vehicle_load, worst_position
 from limitblocks.structures import Fill, arch_bridge
 
 JOINT = lb.PointContact(0.6)
@@ -44,6 +44,43 @@ def test_another_program_has_the_same_load_factor(shape, loaded):
     found = lb.bounds(model)
     assert found.proven
     assert found.upper == pytest.approx(load_factor(own, at, loaded), rel=1e-6)
+
+
+def test_another_program_with_a_tie():
+    """A tie across the haunches, 20 kN at most, from voussoir 3 to voussoir 13 at the level of the first."""
+    own = Bridge()
+    left = (own.point(0, 0, 2) + own.point(0, 1, 3)) / 2
+    ends = left, left * (-1.0, 1.0)
+    x, z = zip(*ends, strict=True)
+    model = bridge()
+    rod = tie(
+        "span 1 voussoir 3", (x[0], 0, z[0]), "span 1 voussoir 13", (x[1], 0, z[1]), area=1e-4, strength=2e8
+    )
+    pull = (ends[0], (1.0, 0.0), 20e3, (0, 0, 2), (0, 0, 12))
+    tied = lb.bounds(reinforced(model, rod))
+    assert tied.upper == pytest.approx(load_factor(own, -0.75, pulls=[pull]), rel=1e-6)
+    assert tied.upper > 1.1 * lb.bounds(model).upper
+
+
+def test_another_program_with_passive_fill():
+    """On each facet K gamma times the integral of the depth over its height, at its centre of pressure."""
+    own, level, K, gamma = Bridge(), 1.3, 3.0, 20e3
+    pulls = []
+    for j in range(15):
+        z1, z2 = own.point(0, 1, j)[1], own.point(0, 1, j + 1)[1]
+        low, high = sorted((z1, z2))
+        if high - low < 1e-9:
+            continue
+        force = K * gamma * own.depth * ((level - low) ** 2 - (level - high) ** 2) / 2
+        below = (
+            2 / 3 * ((level - low) ** 3 - (level - high) ** 3) / ((level - low) ** 2 - (level - high) ** 2)
+        )
+        inwards = 1.0 if z2 > z1 else -1.0
+        pulls.append(((0.0, level - below), (inwards, 0.0), force, (0, 0, j), None))
+    model = bridge()
+    fill = passive_fill(model, level, unit_weight=gamma, coefficient=K)
+    found = lb.bounds(reinforced(model, *fill))
+    assert found.upper == pytest.approx(load_factor(own, -0.75, pulls=pulls), rel=1e-6)
 
 
 def test_bonded_rings_are_one_ring():

@@ -84,7 +84,12 @@ def test_prestress_that_pulls_a_wall_over_is_no_equilibrium():
 def test_strip_across_the_base_is_a_force_at_the_edge():
     model = facade()
     own = strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3)
-    assert lb.bounds(reinforced(model, own)).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
+    held = reinforced(model, own)
+    result = lb.nonassociated(held)
+    assert own.interface.name == "strip ground|wall"
+    assert lb.bounds(held).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
+    assert result.load_factor == pytest.approx(rocking(6e3, T), rel=1e-8)  # debonds at its cap
+    assert lb.interface_states(held, result).state == ("hinge", "yield")
 
 
 def test_dowel_adds_shear():
