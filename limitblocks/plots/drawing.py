@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from limitblocks.plots.style import EDGE, SUPPORT, columns, inches, legend_below
 
 LIGHT = np.array([-0.35, -0.6, 0.72])
 BESIDE = 1.3  # inches: left free beside an axonometric drawing
+LETTER, ASIDE = 0.06, 0.5  # inches: a letter of 7 pt, and how far a title may stand out
 SHORT = 0.25  # of the longest axis: one tick is enough
 ABOVE = 10_000.0  # zorder of what is drawn over all blocks
 
@@ -133,9 +135,11 @@ class Canvas:
         self._cut(0.75)
 
     def title(self, text: str) -> None:
-        """Write a line above the drawing."""
+        """Write lines above the drawing, broken to the width of the axes."""
+        most = int((inches(self.ax) + ASIDE) / LETTER)
+        text = "\n".join(part for line in text.splitlines() for part in wrap(line, most))
         low, high = self._extent()
-        place = {"x": (low[0] + high[0]) / 2, "y": high[1] + 0.03} if self.spatial else {}
+        place = {"x": (low[0] + high[0]) / 2, "y": high[1] + (0.12 if self.beyond else 0.03)} if self.spatial else {}
         self.ax.set_title(text, fontsize="small", **place)
 
     def legend(self) -> None:
@@ -168,7 +172,7 @@ class Canvas:
         side = float(
             min((room() - BESIDE) / (high - low))
         )  # of the square axes, inches; they may reach beyond the figure
-        left, right, above = 0.55, 0.75, 0.55
+        left, right, above = 0.55, 0.75, 0.75
         wide, tall = side * (high - low) + [left + right, below + above]
         self.ax.figure.set_size_inches(wide, tall)
         corner = np.array([left, below]) - side * low
