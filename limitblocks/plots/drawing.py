@@ -139,7 +139,8 @@ class Canvas:
         most = int((inches(self.ax) + ASIDE) / LETTER)
         text = "\n".join(part for line in text.splitlines() for part in wrap(line, most))
         low, high = self._extent()
-        place = {"x": (low[0] + high[0]) / 2, "y": high[1] + (0.12 if self.beyond else 0.03)} if self.spatial else {}
+        above = high[1] + (0.12 if self.beyond else 0.03)  # what is beyond the frame has a word above it
+        place = {"x": (low[0] + high[0]) / 2, "y": above} if self.spatial else {}
         self.ax.set_title(text, fontsize="small", **place)
 
     def legend(self) -> None:
