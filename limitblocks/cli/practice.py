@@ -1,4 +1,4 @@
-"""Commands of practice: settlement of a support, capacity curve, verification, a vehicle."""
+"""Commands of practice: settlement of a support, capacity curve, verification."""
 
 from __future__ import annotations
 
@@ -39,17 +39,6 @@ Behaviour = Annotated[
 ]
 Confidence = Annotated[float, typer.Option("--confidence", help="Confidence factor FC.")]
 Linear = Annotated[bool, typer.Option("--linear", help="The linear check alone, without a capacity curve.")]
-Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
-Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
-Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
-Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
-First = Annotated[
-    float, typer.Option("--first", help="First place of the first axle, X in m.", show_default=False)
-]
-Last = Annotated[
-    float, typer.Option("--last", help="Last place of the first axle, X in m.", show_default=False)
-]
-Places = Annotated[int, typer.Option("--count", help="Places to begin with.", min=3)]
 
 
 def settle(
@@ -117,32 +106,3 @@ def verify(
         found = answer(solve, model, as_json, output, force, filed, beside)
     if not all(one.satisfied for one in found.checks):
         raise typer.Exit(1)
-
-
-def vehicle(
-    model: ModelFile,
-    axles: Axles,
-    level: Level,
-    first: First,
-    last: Last,
-    distances: Distances = "0",
-    spread: Spread = 0.5,
-    count: Places = 25,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
-) -> None:
-    """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
-    with clean_errors():
-        from limitblocks.practice import Deck, Vehicle
-
-        loads = Vehicle(_numbers("--axles", axles), _numbers("--distances", distances))
-        settings: Any = {"deck": Deck(level, spread), "between": (first, last), "positions": count}
-        answer(analyses.vehicle, model, as_json, output, force, vehicle=loads, **settings)
-
-
-def _numbers(option: str, words: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(word) for word in words.replace(",", " ").split())
-    except ValueError:
-        raise typer.BadParameter(f"{words!r}: expected numbers such as 0,1.2", param_hint=option) from None
