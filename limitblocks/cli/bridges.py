@@ -11,6 +11,7 @@ from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.vectors import numbers
 
 Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
 Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
@@ -63,7 +64,7 @@ def vehicle(
 
         if (first is None) != (last is None):
             raise typer.BadParameter("give both or neither", param_hint="--first, --last")
-        loads = Vehicle(_numbers("--axles", axles), _numbers("--distances", distances), contact)
+        loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)
         between = None if first is None or last is None else (first, last)
         settings: Any = {"deck": Deck(level, spread), "between": between, "positions": count}
         answer(analyses.vehicle, model, as_json, output, force, filed, vehicle=loads, **settings)
@@ -96,10 +97,3 @@ def backfill(
         if weight:
             made = replace(made, dead=made.dead + fill(unit_weight, level))
         typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {len(held)} blocks")
-
-
-def _numbers(option: str, words: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(word) for word in words.replace(",", " ").split())
-    except ValueError:
-        raise typer.BadParameter(f"{words!r}: expected numbers such as 0,1.2", param_hint=option) from None

@@ -18,6 +18,7 @@ from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
 from limitblocks.io.registry import TERMS
+from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
 from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load, self_weight
@@ -100,7 +101,7 @@ def _model(document: ModelDocument) -> Model:
     if wrong:
         raise ModelError(*wrong)
     loads = sum(dead, Load()), sum(live, Load())
-    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances, document.left_out)
     refuse_jointless(model)
     return model
 
@@ -155,7 +156,7 @@ def _block(document: BlockDocument) -> Block:
         block = Block.box(document.name, document.box.size, document.box.at)
     else:
         block = Block(document.name, document.vertices, document.faces)  # type: ignore[arg-type]
-    return block.labelled(unit_weight=document.unit_weight, layer=document.layer, material=document.material)
+    return block.labelled(unit_weight=document.unit_weight, **{key: getattr(document, key) for key in WORDS})
 
 
 def _load(document: TermDocument) -> Load:
