@@ -10,7 +10,7 @@ A tie with the force F at the height z_t adds F z_t / (W h / 2) to the second. A
 from the toe and the height z_p adds P (x - alpha z_p). The least of each that reaches a required load factor
 is a convex program for associated flow; then the repaired wall is solved without lift.
 
-The design is factored: gamma_G on the dead loads (its favourable value, since the weight holds the wall; where
+The design is factored: gamma_G on the dead loads (its favourable value, for the weight holds the wall; where
 some dead loads help and others harm, multiply them one by one), gamma_Q on the push, gamma_phi on friction,
 gamma_S on the tie.
 
