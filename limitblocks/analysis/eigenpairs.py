@@ -1,9 +1,9 @@
 """Slacks and multipliers of a state as pairs of numbers, one of each pair zero at a solution.
 
 A linear row is a pair already. On a second-order cone s and y of a solution share a frame: with d the
-unit direction of the tail of s - y, the eigenvalues s0 -/+ d.s and y0 -/+ d.y are two pairs (Fukushima, Luo & Tseng
-2002, SIAM J. Optimization 12), so that a cone that lets go or takes hold is a change of one pair. Across d
-the projection on the cone gives
+unit direction of the tail of s - y, the eigenvalues s0 -/+ d.s and y0 -/+ d.y are two pairs (Fukushima,
+Luo & Tseng 2002, SIAM J. Optimization 12), so that a cone that lets go or takes hold is a change of one
+pair. Across d the projection on the cone gives
 
     s_perp + kappa y_perp = 0,   kappa = t / (1 - t),   t = the part of v = s - y within K, over its spread:
 

@@ -126,7 +126,7 @@ def test_increments_of_the_load_path_close_what_small_barriers_leave_open():
         joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=(0, 1, 0)
     )
     assert not lb.nonassociated(model, means=MEANS[:1], throw=False).converged
-    found = lb.nonassociated(model, means=MEANS[:2])
+    found = lb.nonassociated(model, means=(MEANS[0], Means(Barrier(3.0), 1, 1)))
     assert found.how == "increments of the load path"
     assert {one.kind for one in found.history} == {"path", "step", "polish"}
 
