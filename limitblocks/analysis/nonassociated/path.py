@@ -28,11 +28,11 @@ from limitblocks.analysis.nonassociated.path_equations import (
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
-from limitblocks.analysis.nonassociated.path_start import centred, path_from, settled
+from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import PATIENCE, defect, polish
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
@@ -234,11 +234,6 @@ class Walk:
         self._keep(polish(self.path.flow, self.state, patience=PATIENCE))
         if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
             self._keep(pivoted(self.path.flow, self.state))
-        here = mcp_residuals(self.path.flow, self.state)
-        if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
-            for point in settled(self.path, z):
-                self.factorisations += 1
-                self._keep(state_of(point))
         return self.left < TOLERANCE
 
     def _keep(self, state: State) -> None:
