@@ -136,7 +136,7 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     tell("load factor")
     plane = in_plane(problem)
     form = form_of(scaled(problem if plane is None else plane.problem))
-    state = form.limit_state(solved(form.limit(), DIRECT))
+    state = form.limit_state(solved(form.limit(), DIRECT.having(form.equations)))
     if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
         return None
     tell("proof")

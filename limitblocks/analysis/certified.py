@@ -6,7 +6,7 @@ stresses with those of the dead loads of largest margin, a mechanism with one th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,7 @@ from scipy import sparse
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import NEARLY, solved, solvers
+from limitblocks.analysis.programs import NEARLY, ROUGH, solved, solvers
 from limitblocks.analysis.scales import Projection, Scaled, compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
@@ -28,7 +28,7 @@ MOST = 0.1  # of the strictly admissible state
 ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
 MORE = 4.0
 LEAST = 1e-15
-EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is opened
+EVERYWHERE = 0.1  # of the joint that lacks most: the least that a joint is opened
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
 POLISHED = 1e-12  # residual of a state whose bounds no further polish brings closer than CLOSE
@@ -51,17 +51,15 @@ def certified(
     dead : Array, shape (s,)
         Stresses strictly within yield that carry the dead loads, dimensionless.
     patience : int, optional
-        Of a polish that comes first. Left out: the state is polished, thoroughly, where it must be.
+        Of the polish. Left out: it is thorough.
     """
     own = own_units(problem, state)
     given, p = own.dimensionless(problem.in_si(state)), scaled(own)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units)
-        if patience is not None:
-            given = _polished(problem, own, given, patience)
         found, proof = mixture.proven(given)
-        if patience is None and not proof.width <= CLOSE:
-            closer, better = mixture.proven(_polished(problem, own, given))
+        if not proof.width <= CLOSE:
+            closer, better = mixture.proven(_polished(problem, own, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
 
@@ -73,6 +71,7 @@ class _Mixture:
     problem: LimitProblem
     p: Scaled
     dead: Array
+    opened: list[tuple[Array, Array]] = field(default_factory=list)  # the mechanism, once it is found
 
     def proven(self, state: State) -> tuple[State, Proof]:
         """Both sides proven with the least part of strict states; as they were where none does."""
@@ -132,9 +131,11 @@ class _Mixture:
         most = float(lack.max(initial=0.0))
         if not most < np.inf:
             return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
-        amount = np.zeros(p.F.shape[0])
-        amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
-        u, y = _opened(self.problem, p, amount)
+        if not self.opened:
+            amount = np.zeros(p.F.shape[0])
+            amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
+            self.opened.append(_opened(self.problem, p, amount))
+        u, y = self.opened[0]
         room = p.cones.margin(y)
         return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
 
@@ -185,7 +186,8 @@ def opening(p: Scaled, amount: Array) -> tuple[Array, Array]:
     F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
     """
     form = form_of(p)
-    for solver in (NEARLY, solvers(bool(p.cones.second_order))[0]):
+    quick = (solver.having(form.equations) for solver in (ROUGH, NEARLY))
+    for solver in (*quick, solvers(bool(p.cones.second_order))[0]):
         u, y = form.mechanism(solved(form.opening(amount), solver), amount)
         state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
         y = following(p, state.u, state.y)

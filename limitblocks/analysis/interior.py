@@ -26,7 +26,7 @@ def _carried(problem: LimitProblem) -> Array | None:
     plane = in_plane(problem, every_row=True)
     form = form_of(scaled(problem if plane is None else plane.problem))
     p = form.problem
-    x = form.stresses(solved(form.carrying(), ROUGH))
+    x = form.stresses(solved(form.carrying(), ROUGH.having(form.equations)))
     if not np.isfinite(x).all():
         return None
     x = p.stress * balanced(p, p.dead, x)
