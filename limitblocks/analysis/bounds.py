@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from limitblocks.analysis.certified import certified
+from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
@@ -130,20 +131,22 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
 def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof] | None:
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
-    dead = carried(problem)
+    plane = in_plane(problem)
+    programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
+    dead = carried(problem, programs if plane is None else None)
     if dead is None:
         return None
     tell("load factor")
-    plane = in_plane(problem)
-    form = form_of(scaled(problem if plane is None else plane.problem))
-    state = form.limit_state(solved(form.limit(), DIRECT.having(form.equations)))
+    state = programs.limit_state(DIRECT)
     if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
         return None
     tell("proof")
-    state, name = form.problem.in_problem(state), DIRECT.name
+    state, name = programs.form.problem.in_problem(state), DIRECT.name
     if plane is not None:
         state, name = plane.lifted(state), f"{name} in the plane"
-    state, proof = certified(problem, state, dead, patience=form.patience)
+    state, proof = certified(
+        problem, state, dead, patience=programs.form.patience, programs=programs if plane is None else None
+    )
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     return (dead, pair, proof) if good else None

@@ -12,10 +12,11 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import NEARLY, ROUGH, solved, solvers
+from limitblocks.analysis.programs import NEARLY, ROUGH, solvers
 from limitblocks.analysis.scales import Projection, Scaled, compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
@@ -35,7 +36,12 @@ POLISHED = 1e-12  # residual of a state whose bounds no further polish brings cl
 
 
 def certified(
-    problem: LimitProblem, state: State, dead: Array, *, patience: int | None = None
+    problem: LimitProblem,
+    state: State,
+    dead: Array,
+    *,
+    patience: int | None = None,
+    programs: Programs | None = None,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
 
@@ -52,11 +58,13 @@ def certified(
         Stresses strictly within yield that carry the dead loads, dimensionless.
     patience : int, optional
         Of the polish. Left out: it is thorough.
+    programs : Programs, optional
+        Of the whole problem, compiled already.
     """
     own = own_units(problem, state)
     given, p = own.dimensionless(problem.in_si(state)), scaled(own)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units)
+        mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units, programs)
         found, proof = mixture.proven(given)
         if not proof.width <= CLOSE:
             closer, better = mixture.proven(_polished(problem, own, given, patience))
@@ -71,6 +79,7 @@ class _Mixture:
     problem: LimitProblem
     p: Scaled
     dead: Array
+    programs: Programs | None
     opened: list[tuple[Array, Array]] = field(default_factory=list)  # the mechanism, once it is found
 
     def proven(self, state: State) -> tuple[State, Proof]:
@@ -134,10 +143,29 @@ class _Mixture:
         if not self.opened:
             amount = np.zeros(p.F.shape[0])
             amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
-            self.opened.append(_opened(self.problem, p, amount))
+            self.opened.append(self._opening(amount))
         u, y = self.opened[0]
         room = p.cones.margin(y)
         return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
+
+    def _opening(self, amount: Array) -> tuple[Array, Array]:
+        """A mechanism that opens every joint by about `amount` (R,), by the programs at hand if they do."""
+        own, p = self.p.problem, self.p
+        if self.programs:
+            q = self.programs.form.problem
+            given = State(
+                0.0, np.zeros(len(p.stress)), np.zeros(p.C.shape[1]), p.load_factor * amount / p.row
+            )
+            amount_there = self.problem.dimensionless(own.in_si(given)).y * q.row / q.load_factor
+            amount_there[q.cones.heads] = np.maximum(
+                amount_there[q.cones.heads] / amount_there.max(), EVERYWHERE
+            )
+            u, y = self.programs.mechanism(amount_there, ROUGH)
+            found = own.dimensionless(self.problem.in_si(q.in_problem(State(0.0, 0.0 * given.x, u, y))))
+            y = following(p, found.u, found.y)
+            if p.cones.margin(y).min() > 0.0:
+                return found.u, y
+        return _opened(self.problem, p, amount)
 
 
 def _lack(reach: Reach) -> Array:
@@ -185,10 +213,9 @@ def opening(p: Scaled, amount: Array) -> tuple[Array, Array]:
     Not finite where there is none, exactly where the structure can be wedged: where C^T x = 0 with F x in K,
     F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
     """
-    form = form_of(p)
-    quick = (solver.having(form.equations) for solver in (ROUGH, NEARLY))
-    for solver in (*quick, solvers(bool(p.cones.second_order))[0]):
-        u, y = form.mechanism(solved(form.opening(amount), solver), amount)
+    programs = Programs(form_of(p))
+    for solver in (ROUGH, NEARLY, solvers(bool(p.cones.second_order))[0]):
+        u, y = programs.mechanism(amount, solver)
         state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
         y = following(p, state.u, state.y)
         if p.cones.margin(y).min() > 0.0:  # not where it is NaN

@@ -113,7 +113,7 @@ class Rates:
     def opening(self, amount: Array) -> Program:
         """The mechanism that opens every joint by at least `amount` (R,) at the least power. Variable: u."""
         u = cp.Variable(self.B.shape[1])
-        opened = in_cone(self.B @ u - self._enough(amount), self.cones)
+        opened = in_cone(self.B @ u - self.enough(amount), self.cones)
         return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), opened), (u,))
 
     def limit_state(self, solution: Solution) -> State:
@@ -146,7 +146,7 @@ class Rates:
             y[self.dropped] = half / self.leverage
         return y
 
-    def _enough(self, amount: Array) -> Array:
+    def enough(self, amount: Array) -> Array:
         """What the kept rows need so that they and the dropped rows have `amount`: half is theirs."""
         enough = amount.copy()
         np.maximum.at(enough, self.head, amount[self.dropped] * self.leverage)
