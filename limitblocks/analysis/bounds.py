@@ -145,7 +145,12 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     if plane is not None:
         state, name = plane.lifted(state), f"{name} in the plane"
     state, proof = certified(
-        problem, state, dead, patience=programs.form.patience, programs=programs if plane is None else None
+        problem,
+        state,
+        dead,
+        close=tolerance / 10.0,
+        patience=programs.form.patience,
+        programs=programs if plane is None else None,
     )
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance

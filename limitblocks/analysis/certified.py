@@ -24,7 +24,7 @@ from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-CLOSE = 1e-8  # width of an interval that needs no polish
+CLOSE = 1e-8  # width of an interval that needs no polish of states from elsewhere
 MOST = 0.1  # of the strictly admissible state
 ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
 MORE = 4.0
@@ -32,7 +32,7 @@ LEAST = 1e-15
 EVERYWHERE = 0.1  # of the joint that lacks most: the least that a joint is opened
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
-POLISHED = 1e-12  # residual of a state whose bounds no further polish brings closer than CLOSE
+POLISHED = 1e-12  # residual of a state that no further polish betters
 
 
 def certified(
@@ -40,12 +40,13 @@ def certified(
     state: State,
     dead: Array,
     *,
+    close: float = CLOSE,
     patience: int | None = None,
     programs: Programs | None = None,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
 
-    Where they leave more than CLOSE between them, those of the polished state are taken if closer. A side
+    Where they leave more than `close` between them, those of the polished state are taken if closer. A side
     for which no proof succeeds comes back as it was, and the proof says so.
 
     Parameters
@@ -56,6 +57,8 @@ def certified(
         A pair of bounds, dimensionless.
     dead : Array, shape (s,)
         Stresses strictly within yield that carry the dead loads, dimensionless.
+    close : float
+        Width of an interval that needs no polish.
     patience : int, optional
         Of the polish. Left out: it is thorough.
     programs : Programs, optional
@@ -66,7 +69,7 @@ def certified(
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units, programs)
         found, proof = mixture.proven(given)
-        if not proof.width <= CLOSE:
+        if not proof.width <= close:
             closer, better = mixture.proven(_polished(problem, own, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
