@@ -145,6 +145,16 @@ EXPECTED = {
         "thrusts at the least thickness": ([0.621772, 0.621772], 3e-3),
         "spread first": ([True] * 4, 0),
     },
+    "26_a_bridge_of_two_spans": {  # tests/practice/planar_bridge.py, a program of its own in the plane
+        "one span": (37.8540124, 1e-5),
+        "heavy pier": (37.8540124, 1e-4),
+        "bonded rings": (37.8540124, 1e-4),
+        "usual pier": (33.8672990, 1e-4),
+        "rings with friction .6": (15.2298211, 1e-4),
+        "rings without friction": (11.5441222, 1e-4),
+        "order": ([0, 1, 2], 0),  # the more slender the pier, the less
+        "fill brings": (True, 0),
+    },
     "22_three_ranges": {  # by hand in the example
         "certified less by hand": ([0, 0], 1e-7),
         "reached within": (1, 0),

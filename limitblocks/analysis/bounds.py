@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -18,9 +19,9 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
+from limitblocks.analysis.limit_state import limit_state
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
-    DIRECT,
     ROUNDS,
     jamming_program,
     kinematic_program,
@@ -64,7 +65,7 @@ class _Pair:
         """Dissipation less work of the dead loads: the kinematic load factor."""
         return float(self.problem.g @ self.state.y - self.problem.dead @ self.state.u)
 
-    @property
+    @cached_property
     def residuals(self) -> Residuals:
         """Of both theorems, and the gap."""
         return bounds_residuals(Flow(self.problem, ASSOCIATED), self.state, self.upper)
@@ -132,25 +133,19 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
     plane = in_plane(problem)
-    programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
-    dead = carried(problem, programs if plane is None else None)
+    programs = Programs(form_of(scaled(problem))) if plane is None else None
+    dead = carried(problem, programs)
     if dead is None:
         return None
     tell("load factor")
-    state = programs.limit_state(DIRECT)
-    if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
+    found = limit_state(problem, programs, plane)
+    if found is None:
         return None
     tell("proof")
-    state, name = programs.form.problem.in_problem(state), DIRECT.name
-    if plane is not None:
-        state, name = plane.lifted(state), f"{name} in the plane"
+    state, name = found
+    patience = 1 if programs is None else programs.form.patience
     state, proof = certified(
-        problem,
-        state,
-        dead,
-        close=tolerance / 10.0,
-        patience=programs.form.patience,
-        programs=programs if plane is None else None,
+        problem, state, dead, close=tolerance / 10.0, patience=patience, programs=programs
     )
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance

@@ -10,14 +10,12 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import NEARLY, ROUGH, solvers
-from limitblocks.analysis.scales import Projection, Scaled, compatible, scaled
+from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
+from limitblocks.analysis.scales import scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
 from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
@@ -29,7 +27,6 @@ MOST = 0.1  # of the strictly admissible state
 ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
 MORE = 4.0
 LEAST = 1e-15
-EVERYWHERE = 0.1  # of the joint that lacks most: the least that a joint is opened
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
 POLISHED = 1e-12  # residual of a state that no further polish betters
@@ -60,16 +57,20 @@ def certified(
     close : float
         Width of an interval that needs no polish.
     patience : int, optional
-        Of the polish. Left out: it is thorough.
+        Of the polish; in a plane it comes first. Left out: it is thorough.
     programs : Programs, optional
         Of the whole problem, compiled already.
     """
     own = own_units(problem, state)
-    given, p = own.dimensionless(problem.in_si(state)), scaled(own)
+    given, plane = own.dimensionless(problem.in_si(state)), in_plane(problem)
+    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        mixture = _Mixture(problem, p, dead * problem.stress_units / own.stress_units, programs)
+        mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
+        polished = plane is not None and patience is not None
+        if polished:
+            given = _polished(problem, own, given, patience)
         found, proof = mixture.proven(given)
-        if not proof.width <= close:
+        if not (polished or proof.width <= close):
             closer, better = mixture.proven(_polished(problem, own, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
@@ -77,18 +78,18 @@ def certified(
 
 @dataclass(frozen=True, eq=False)
 class _Mixture:
-    """States mixed with a little of strictly admissible ones, in units `p` of their own."""
+    """States mixed with a little of strictly admissible ones, in units of `own`."""
 
     problem: LimitProblem
-    p: Scaled
+    own: LimitProblem
+    repair: Repair | PlanarRepair
     dead: Array
-    programs: Programs | None
     opened: list[tuple[Array, Array]] = field(default_factory=list)  # the mechanism, once it is found
 
     def proven(self, state: State) -> tuple[State, Proof]:
         """Both sides proven with the least part of strict states; as they were where none does."""
-        x, y = self._balanced(state.load_factor, state.x), following(self.p, state.u, state.y)
-        reach = kinematic_reach(self.p.problem, state.u, y)
+        x, y = self.repair.balanced(state.load_factor, state.x), self.repair.following(state.u, state.y)
+        reach = kinematic_reach(self.own, state.u, y)
         static, (kinematic, v, z) = self._static_part(state.load_factor, x), self._opened(reach)
         for _ in range(ROUNDS):
             a, u = state.load_factor, state.u
@@ -96,7 +97,7 @@ class _Mixture:
             if static <= MOST:
                 mixed = replace(mixed, load_factor=(1.0 - static) * a, x=x + static * (self.inner - x))
             if kinematic <= MOST:
-                work = 1.0 + kinematic * float(self.p.problem.live @ v)  # of the live load, Eq. (55)
+                work = 1.0 + kinematic * float(self.own.live @ v)  # of the live load, Eq. (55)
                 mixed = replace(mixed, u=(u + kinematic * v) / work, y=(y + kinematic * z) / work)
             proof = self._proof(mixed)
             again = (bool(proof.static) and static <= MOST, bool(proof.kinematic) and kinematic <= MOST)
@@ -109,25 +110,15 @@ class _Mixture:
     @cached_property
     def inner(self) -> Array:
         """The stresses strictly within yield, in equilibrium with the dead loads to rounding."""
-        return self._balanced(0.0, self.dead)
-
-    @cached_property
-    def projection(self) -> Projection:
-        """Onto equilibrium."""
-        return Projection(self.p.C)
+        return self.repair.balanced(0.0, self.dead)
 
     def _proof(self, state: State) -> Proof:
-        own = self.p.problem
+        own = self.own
         return proof_of(self.problem, own.in_si(state), self.inner * own.stress_units, RESERVE)
-
-    def _balanced(self, load_factor: float, x: Array) -> Array:
-        """The nearest stresses that balance the loads, to rounding."""
-        p = self.p
-        return p.stress * self.projection.onto(p.dead + load_factor / p.load_factor * p.live, x / p.stress)
 
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
-        own = self.p.problem
+        own = self.own
         reach = static_reach(own, load_factor, x, spanning_tree(own, room_of(own, self.inner)))
         lack = _lack(reach)
         gain = (own.cones.margin(own.F @ self.inner + own.g) - reach.room)[lack > 0.0]
@@ -139,57 +130,22 @@ class _Mixture:
 
         The part is infinite where there is no such mechanism.
         """
-        p, lack = self.p, _lack(reach)
+        p, lack = self.own, _lack(reach)
         most = float(lack.max(initial=0.0))
         if not most < np.inf:
             return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         if not self.opened:
-            amount = np.zeros(p.F.shape[0])
-            amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
-            self.opened.append(self._opening(amount))
+            amount, least = np.zeros(p.F.shape[0]), self.repair.everywhere
+            amount[p.cones.heads] = np.maximum(lack / most, least) if most > 0.0 else 1.0
+            self.opened.append(self.repair.opened(amount))
         u, y = self.opened[0]
         room = p.cones.margin(y)
         return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
-
-    def _opening(self, amount: Array) -> tuple[Array, Array]:
-        """A mechanism that opens every joint by about `amount` (R,), by the programs at hand if they do."""
-        own, p = self.p.problem, self.p
-        if self.programs:
-            q = self.programs.form.problem
-            given = State(
-                0.0, np.zeros(len(p.stress)), np.zeros(p.C.shape[1]), p.load_factor * amount / p.row
-            )
-            amount_there = self.problem.dimensionless(own.in_si(given)).y * q.row / q.load_factor
-            amount_there[q.cones.heads] = np.maximum(
-                amount_there[q.cones.heads] / amount_there.max(), EVERYWHERE
-            )
-            u, y = self.programs.mechanism(amount_there, ROUGH)
-            found = own.dimensionless(self.problem.in_si(q.in_problem(State(0.0, 0.0 * given.x, u, y))))
-            y = following(p, found.u, found.y)
-            if p.cones.margin(y).min() > 0.0:
-                return found.u, y
-        return _opened(self.problem, p, amount)
 
 
 def _lack(reach: Reach) -> Array:
     """What each linear row and each cone lacks of the room that is needed."""
     return np.asarray(np.nan_to_num(np.maximum(NEEDED * reach.need - reach.room, 0.0), nan=np.inf))
-
-
-def _opened(problem: LimitProblem, p: Scaled, amount: Array) -> tuple[Array, Array]:
-    """A mechanism that opens every joint by about `amount` (R,); in the plane if there is one.
-
-    Where one exists, one does in the plane.
-    """
-    plane = in_plane(problem, every_row=True)
-    if plane is None:
-        return opening(p, amount * p.row / p.load_factor)
-    plane = plane.measured(p.problem)
-    flat = scaled(plane.problem)
-    least = sparse.csr_array(abs(plane.multipliers).multiply(amount[:, None])).max(axis=0).toarray().ravel()
-    u, y = opening(flat, least * flat.cones.identity * flat.row / flat.load_factor)
-    found = plane.lifted(State(0.0, np.zeros(plane.problem.C.shape[0]), u, y))
-    return found.u, following(p, found.u, found.y)
 
 
 def _polished(problem: LimitProblem, own: LimitProblem, state: State, patience: int | None = None) -> State:
@@ -200,27 +156,3 @@ def _polished(problem: LimitProblem, own: LimitProblem, state: State, patience: 
     plane = plane.measured(own)
     flow = Flow(plane.problem, ASSOCIATED)
     return plane.lifted(polish(flow, plane.averaged(state), until=POLISHED, patience=patience))
-
-
-def following(p: Scaled, u: Array, y: Array) -> Array:
-    """The nearest multipliers that satisfy the flow rule with the rates, to rounding."""
-    rates, multipliers = u * p.equation / p.load_factor, y * p.row / p.load_factor
-    if not (np.isfinite(rates).all() and np.isfinite(multipliers).all()):
-        return np.full_like(y, np.nan)
-    return np.asarray(compatible(p, rates, multipliers) * p.load_factor / p.row)
-
-
-def opening(p: Scaled, amount: Array) -> tuple[Array, Array]:
-    """Rates and multipliers of a mechanism that opens the joints by about `amount` (R,) at the least power.
-
-    Not finite where there is none, exactly where the structure can be wedged: where C^T x = 0 with F x in K,
-    F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
-    """
-    programs = Programs(form_of(p))
-    for solver in (ROUGH, NEARLY, solvers(bool(p.cones.second_order))[0]):
-        u, y = programs.mechanism(amount, solver)
-        state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
-        y = following(p, state.u, state.y)
-        if p.cones.margin(y).min() > 0.0:  # not where it is NaN
-            return state.u, y
-    return np.full(p.C.shape[1], np.nan), np.full(p.F.shape[0], np.nan)

@@ -32,10 +32,11 @@ def carried(problem: LimitProblem, programs: Programs | None = None) -> Array | 
 
 
 def _carried(problem: LimitProblem, programs: Programs | None) -> Array | None:
-    plane = None if programs else in_plane(problem, every_row=True)
-    programs = programs or Programs(form_of(scaled(problem if plane is None else plane.problem)))
+    plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
+    if programs is None or plane is not None:
+        programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
     p = programs.form.problem
-    for solver in (ROUGH, NEARLY):
+    for solver in (ROUGH, NEARLY):  # from 10,000 blocks the first stops too early
         x = programs.stresses(solver)
         if not np.isfinite(x).all():
             return None

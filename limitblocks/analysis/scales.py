@@ -139,9 +139,9 @@ def unit(sizes: Array) -> Array:
     return np.asarray(power_of_two(np.where(sizes > 0.0, sizes, 1.0)))
 
 
-def scaled(problem: LimitProblem) -> Scaled:
+def scaled(problem: LimitProblem, load_factor: float = 1.0) -> Scaled:
     """Return the problem in the units known before any solution: shears by friction."""
-    return Scaled(problem, np.ones(len(problem.interfaces)), np.ones(problem.C.shape[1]), 1.0)
+    return Scaled(problem, np.ones(len(problem.interfaces)), np.ones(problem.C.shape[1]), load_factor)
 
 
 def frictional(problem: LimitProblem) -> Array:
@@ -182,6 +182,13 @@ def compatible(p: Scaled, u: Array, y: Array) -> Array:
         y = y - p.F @ lu.solve(p.C @ u + p.F.T @ y)
     y[p.cones.heads] -= np.minimum(p.cones.margin(y), 0.0)
     return y
+
+
+def compatible_with(F: sparse.csr_array, strain: Array) -> Array:
+    """Return the smallest y with F^T y = strain, where there is one."""
+    lu = _factors(F.T @ F)
+    y = F @ lu.solve(strain)
+    return np.asarray(y + F @ lu.solve(strain - F.T @ y))
 
 
 def repaired(p: Scaled, state: State) -> State:

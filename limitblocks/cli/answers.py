@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,12 +21,22 @@ def answer(
     as_json: bool,
     output: Path | None,
     force: bool,
+    filed: Path | None = None,
+    beside: Sequence[Any] = (),
     **settings: Any,
 ) -> Any:
-    """Solve the model in `file`, write and print the result; write the best state where it stopped early."""
+    """Solve the model in `file`, write and print the result; write the best state where it stopped early.
+
+    A report goes to `filed`, with the results `beside` this one, which may come about while it is solved.
+    """
     from limitblocks.io import read, write_result
 
     refuse_existing(output, force, file)
+    if filed:
+        from limitblocks.reports.files import suffix
+
+        suffix(filed)  # before the analysis, not after it
+        refuse_existing(filed, force, file, option="--report")
     model = read(file)
     try:
         result = solve(model, **settings)
@@ -37,6 +47,10 @@ def answer(
         raise
     if output:
         write_result(result, output, overwrite=force)
+    if filed:
+        from limitblocks.reports import report
+
+        report(model, result, *beside).save(filed, overwrite=force)
     show(model, result, as_json)
     return result
 

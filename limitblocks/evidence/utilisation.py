@@ -39,9 +39,10 @@ def utilisation(model: Model, stresses: Array) -> Array:
     np.maximum.at(used, problem.member_interface, problem.cones.share(held, rest, NOISE))
     points = np.flatnonzero(np.diff(N.indptr) > 1)  # rows that act on the forces of points
     if len(points):
-        sizes = np.hypot(x[V1.indices], x[V2.indices])
-        owner = np.repeat(np.arange(len(used)), np.diff(V1.indptr))
-        friction = np.bincount(owner, weights=sizes, minlength=len(used))[points]
+        along, across = V1[points], V2[points]  # a guide has the second alone
+        sizes = np.hypot(x[along.indices], x[across.indices])
+        owner = np.repeat(np.arange(len(points)), np.diff(along.indptr))
+        friction = np.bincount(owner, weights=sizes, minlength=len(points))
         used[points] = ratio(friction, problem.friction[points] * -(N @ x)[points], NOISE)
         Q = (problem.resultants @ x).reshape(-1, 6)
         for k in points.tolist():

@@ -152,22 +152,20 @@ def model_of(
     contacts.require()
     loads = self_weight() if dead is None else dead
     try:
-        model = Model(blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)  # type: ignore[arg-type]
+        model = Model(
+            blocks,
+            names,
+            contacts.interfaces,
+            loads,
+            live,  # type: ignore[arg-type]
+            name,
+            contacts.tolerances,
+            imported.left_out,
+        )
     except ModelError as error:
-        raise ModelError(*error.problems, *open_joints(contacts, blocks), *_missing(imported)) from None
+        raise ModelError(*error.problems, *open_joints(contacts, blocks)) from None
     refuse_jointless(model)
     return model, contacts, vain
-
-
-def _missing(imported: ImportedBlocks) -> list[str]:
-    """Return the line that says which parts of the file are missing in the model; none where none is."""
-    gone = imported.left_out
-    if not gone:
-        return []
-    shown = ", ".join(map(repr, gone[:8])) + (f" and {len(gone) - 8} more" if len(gone) > 8 else "")
-    return [
-        f"{len(gone)} parts of the file are no blocks and were left out: {shown}; are they what is missing?"
-    ]
 
 
 def _refuse_missing(

@@ -11,7 +11,7 @@ try:
 except ImportError as error:
     raise missing("matplotlib", "limitblocks.plots") from error
 
-from limitblocks.plots.capacities import capacity
+from limitblocks.plots.capacities import capacity, settlement
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import bracket, convergence, load_path, polar
 from limitblocks.plots.findings import findings
@@ -31,6 +31,7 @@ __all__ = [
     "mechanism",
     "polar",
     "sensitivity",
+    "settlement",
     "structure",
     "thrust_line",
 ]

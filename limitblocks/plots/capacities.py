@@ -1,4 +1,4 @@
-"""Load factor against displacement, until it is zero."""
+"""Load factor against displacement until it is zero; reaction against settlement until it falls."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from limitblocks.mechanics.loads.load import triple
 from limitblocks.plots.style import BLUE, PALE, VERMILION, curve_axes, plain
 
 if TYPE_CHECKING:  # it would load the solvers
-    from limitblocks.practice import CapacityCurve
+    from limitblocks.practice import CapacityCurve, SettlementCurve
 
 
 def capacity(curve: CapacityCurve, ax: Any = None) -> Any:
@@ -41,5 +41,31 @@ def capacity(curve: CapacityCurve, ax: Any = None) -> Any:
     control = curve.control
     ax.set_xlabel(f"displacement of {control.block} along {triple(control.direction.tolist())} (m)")
     ax.set_ylabel("load factor (–)")
+    plain(ax)
+    return ax
+
+
+def settlement(curve: SettlementCurve, ax: Any = None) -> Any:
+    """Draw the reaction of a support against its settlement, to where the structure falls.
+
+    Parameters
+    ----------
+    curve : SettlementCurve
+        Of :func:`limitblocks.practice.settlement_to_collapse`.
+    ax : Axes, optional
+        Where to draw.
+    """
+    ax = curve_axes(ax)
+    x, across = curve.displacements, np.array([bool(point.across) for point in curve.points])
+    for name, color, dash in (("lower", BLUE, "-"), ("upper", PALE, "--")):
+        ax.plot(x, [getattr(one.found, name) / 1e3 for one in curve.points], dash, color=color, linewidth=1.4)
+    ax.plot(x[~across], curve.reactions[~across] / 1e3, "o", color=BLUE, markersize=4.5)
+    ax.plot(x[across], curve.reactions[across] / 1e3, "o", markerfacecolor="white", color=VERMILION)
+    if curve.falls is not None:
+        ax.axvline(curve.falls, color=VERMILION, linewidth=1.0)
+        ax.annotate("falls", (curve.falls, curve.reactions.max() / 1e3), (-4, 0), textcoords="offset points",
+                    ha="right", va="top", color=VERMILION)  # fmt: skip
+    ax.set_xlabel(f"settlement of {curve.support} along {triple(curve.direction.tolist())} (m)")
+    ax.set_ylabel("reaction (kN)")
     plain(ax)
     return ax

@@ -1,8 +1,11 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
 from limitblocks.practice.adequacy import Adequacy, DesignValue, PartialFactors, adequacy, design_model
+from limitblocks.practice.backfill import passive_fill
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
+from limitblocks.practice.collapse import settlement_to_collapse
+from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
 from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, element_acceleration, element_force
@@ -12,7 +15,6 @@ from limitblocks.practice.vehicles import (
     Deck,
     Vehicle,
     WorstPosition,
-    passive_fill,
     vehicle_load,
     worst_position,
 )
@@ -36,6 +38,8 @@ __all__ = [
     "Repair",
     "Rocking",
     "Settlement",
+    "SettlementCurve",
+    "SettlementPoint",
     "Settling",
     "Spectrum",
     "Vehicle",
@@ -52,6 +56,7 @@ __all__ = [
     "passive_fill",
     "reinforced",
     "settlement",
+    "settlement_to_collapse",
     "settling",
     "strip",
     "tie",

@@ -6,24 +6,19 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
-import shapely
 
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
-from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import vector
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
+from limitblocks.practice.advance import STILL, across, advanced, refuse_left_behind, velocity
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
-from limitblocks.practice.displaced import CLOSED, Assembly, Truths
+from limitblocks.practice.displaced import CLOSED, Assembly
 
-FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
-STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
-SHORTEST = 2.0**-20  # of a step: where a contact closes
-NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
 TRIALS = 4  # of halving a step beyond which no answer is found
@@ -89,13 +84,7 @@ def _refuse(model: Model, steps: int, largest: float) -> None:
     checked_count("steps", steps, 2)
     if not largest > 0.0:
         raise ModelError(f"largest is {largest!r}, expected a displacement > 0 in m")
-    for word, load in (("dead", model.dead), ("live", model.live)):
-        for _, term in load.terms:
-            if not isinstance(term, FOLLOWS):
-                raise ModelError(
-                    f"the {word} load has a {type(term).__name__}, which does not move with the blocks; a "
-                    "capacity curve needs weights, added masses, forces and moments"
-                )
+    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
 
 
 def _curve(
@@ -151,29 +140,14 @@ def _advanced(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | None:
     """The structure one step on and its point; None where contacts allow no step."""
-    rates = point.result.displacement_rates
-    pace = float(_velocity(assembly, control, rates) @ control.direction)
-    held, sliding = _motion(assembly, rates)
-    was = [own.ways[:, 2] for own in assembly.contacts]
-    share, least = 1.0, -10.0 * CLOSED * assembly.size
-    while share >= SHORTEST:
-        goal, left = moving.closed_up(moving.moved(assembly, share * step / pace * rates), held, sliding)
-        now = [own.ways[:, 2] for own in goal.contacts]
-        lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
-        if left <= CLOSED * assembly.size and lowest >= least and not moving.meet(goal):
-            break
-        share /= 2.0
-    else:
+    there = advanced(assembly, control, point.result.displacement_rates, step)
+    if there is None:
         return None
-    changes = _changes(assembly, was, now, -least)
-    carried = _carried(assembly, goal, control)
-    goal = moving.slid(goal, sliding)
-    shift, loaded, result = _answered(goal.model, scale)
-    at = point.displacement + float((carried.point - control.point) @ control.direction)
-    found = CapacityPoint(
-        at, result.load_factor - shift, shift, loaded, result, changes, _across(goal, result)
-    )
-    return goal, carried, found
+    shift, loaded, result = _answered(there.assembly.model, scale)
+    at = point.displacement + float((there.control.point - control.point) @ control.direction)
+    pressed = across(there.assembly, result.stress_resultants)
+    found = CapacityPoint(at, result.load_factor - shift, shift, loaded, result, there.changes, pressed)
+    return there.assembly, there.control, found
 
 
 def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:
@@ -183,69 +157,6 @@ def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:
     except NoEquilibrium:
         held = replace(model, dead=model.dead + (-HELD * scale) * model.live)
         return HELD * scale, held, nonassociated(held)
-
-
-def _across(assembly: Assembly, result: Nonassociated) -> tuple[str, ...]:
-    """Opened joints whose normal force acts off their closed corners."""
-    said, least = [], 1e-6 * np.abs(result.stress_resultants[:, 2]).max()
-    for own, Q in zip(assembly.contacts, result.stress_resultants, strict=True):
-        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
-        closed = gap <= 10.0 * CLOSED * assembly.size
-        if own.tied or closed.all() or not -Q[2] > least:
-            continue
-        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
-        shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
-        if not closed.any() or shut.distance(pressed) > NEAR * size:
-            said.append(f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm")
-    return tuple(said)
-
-
-def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:
-    """Which corners of each contact are closed and stay so, and which contacts slide."""
-    centres = np.stack([block.centroid for block in assembly.model.blocks])
-    sizes = np.array([block.size for block in assembly.model.blocks])
-    least = STILL * float(
-        (np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)).max()
-    )
-    held, sliding = [], []
-    for own in assembly.contacts:
-        speeds = [
-            rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
-            for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
-        ]
-        relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
-        closed = (own.ways[:, 2] <= 10.0 * CLOSED * assembly.size) & (relative[:, 2] <= least)
-        held.append(closed & (not own.tied))
-        sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
-    return held, sliding
-
-
-def _carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
-    """The control point on its moved block: the same combination of its vertices."""
-    k = [block.name for block in assembly.model.blocks].index(control.block)
-    old, new = assembly.model.blocks[k], goal.model.blocks[k]
-    about = old.vertices - old.centroid
-    turn = np.linalg.lstsq(about, new.vertices - new.centroid, rcond=None)[0]
-    return replace(control, point=read_only(new.centroid + (control.point - old.centroid) @ turn))
-
-
-def _velocity(assembly: Assembly, control: Control, rates: Array) -> Array:
-    """Velocity of the control point, shape (3,)."""
-    k = [block.name for block in assembly.model.blocks].index(control.block)
-    arm = control.point - assembly.model.blocks[k].centroid
-    return np.asarray(rates[k, :3] + np.cross(rates[k, 3:], arm))
-
-
-def _changes(assembly: Assembly, was: list[Array], now: list[Array], least: float) -> tuple[str, ...]:
-    """Sentences on the contacts that opened or closed."""
-    said = []
-    for own, before, after in zip(assembly.contacts, was, now, strict=True):
-        if own.tied:
-            continue
-        shut, opened = (before > least) & (after <= least), (before <= least) & (after > least)
-        said += [f"{own.interface.name} closes"] if shut.any() else []
-        said += [f"{own.interface.name} opens"] if opened.any() else []
-    return tuple(said)
 
 
 def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:
@@ -266,6 +177,6 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         block, point = model.blocks[place[name]], np.array(vector(at, "control point"))
     control = Control(block.name, read_only(point), direction)
     largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
-    if not _velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:
+    if not velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:
         raise ModelError(f"the control point of block {block.name!r} does not move along the live load")
     return control

@@ -15,9 +15,11 @@ def places(problem: LimitProblem) -> tuple[Indices, Indices]:
     Returns the place of each linear row and cone (degree,) and of each stress (s,) that it acts on.
     """
     cones = problem.cones
-    rows = np.arange(cones.height)
-    acts = sparse.coo_array((np.ones(len(rows)), (cones.member, rows))).tocsr() @ abs(problem.F)
-    graph = sparse.block_array([[None, acts], [acts.T, None]])
+    F = problem.F.tocoo()
+    acts = F.data != 0.0
+    pairs = cones.member[F.row[acts]], cones.degree + F.col[acts]
+    count = cones.degree + F.shape[1]
+    graph = sparse.coo_array((np.ones(len(pairs[0])), pairs), shape=(count, count)).tocsr()
     _, label = sparse.csgraph.connected_components(graph, directed=False)
     numbers = np.asarray(label, dtype=np.int64)
     return numbers[: cones.degree], numbers[cones.degree :]

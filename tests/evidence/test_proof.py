@@ -239,7 +239,7 @@ def wedged(joint):
 
 
 def test_opening_mechanism_exists_where_nothing_can_be_wedged():
-    from limitblocks.analysis.certified import opening
+    from limitblocks.analysis.repair import opening
     from limitblocks.analysis.scales import scaled
 
     def opens(model):

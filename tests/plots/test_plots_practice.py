@@ -8,7 +8,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.drawing.ties import has_area, moved, tie_lines
 from limitblocks.joints import Dowel, Guide, Tie
-from limitblocks.practice import capacity_curve, reinforced, settling, tie
+from limitblocks.practice import capacity_curve, reinforced, settlement_to_collapse, settling, tie
 from limitblocks.reports.words import assumed, joint_words
 
 pytest.importorskip("matplotlib", reason="the package matplotlib is not installed")
@@ -104,3 +104,18 @@ def test_joints_of_ties_in_words():
     for joint in (Tie(1e6), Dowel(1e6), Guide(1e6)):
         assert joint.word in joint_words(joint)
         assert all(one.startswith(f"{joint.word.capitalize()}s ") for one in assumed(joint))
+
+
+def test_a_settling_support_goes_to_where_the_structure_falls():
+    ring = lb.structures.arch(lb.PointContact(0.5), radius=1.0, thickness=0.3, voussoirs=2)
+    curve = settlement_to_collapse(ring, "right support", (1, 0, 0), step=0.4, accuracy=0.1)
+    ax = lb.plots.settlement(curve)
+    lower, upper, dots = (ax.lines[k].get_ydata() for k in range(3))
+    assert dots == pytest.approx(curve.reactions / 1e3)
+    assert lower == pytest.approx(upper, rel=1e-5)
+    assert curve.falls == ax.lines[-1].get_xdata()[0]
+    assert ax.get_ylabel() == "reaction (kN)"
+    points = (curve.points[0], replace(curve.points[1], across=("a|b presses",)))
+    hollow = lb.plots.settlement(replace(curve, points=points, falls=None)).lines[-1]
+    assert hollow.get_markerfacecolor() == "white"
+    assert len(hollow.get_xdata()) == 1

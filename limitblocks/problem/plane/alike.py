@@ -8,6 +8,19 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem.plane.places import Place
 
 EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
+DECIMALS = 12  # of numbers up to one: places that agree to these are judged once
+
+
+def classes(*numbers: Array) -> tuple[Indices, Indices]:
+    """The first place of each class of places with the same numbers (K, ...), and the class of each (K,).
+
+    Structures repeat a few joints over and over.
+    """
+    flat = [np.round(part.reshape(len(part), -1), DECIMALS) + 0.0 for part in numbers]
+    seen: dict[bytes, int] = {}
+    of_place = [seen.setdefault(row.tobytes(), len(seen)) for row in np.concatenate(flat, axis=1)]
+    own = np.array(of_place, dtype=np.int64)
+    return np.unique(own, return_index=True)[1], own
 
 
 def close(a: Array, b: Array, scale: Array | float) -> bool:
@@ -20,9 +33,8 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
 
     None where one is like none. Cones are alike where their heads are, and the lengths of their other rows.
     """
-    turned, there = _numbers(kind, turn), _numbers(other, None)
-    scale = np.abs(there).max(axis=(1, 2))
-    scale = np.where(scale > 0.0, scale, 1.0)[:, None, None]
+    turned, there = numbers(kind, turn), numbers(other, None)
+    scale = size_of(there)
     turned, there = turned / scale, there / scale
     partners = []
     for kinds in _same_size(kind):
@@ -37,7 +49,13 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
     return np.concatenate(partners, axis=1) if partners else np.zeros((len(kind.rows), 0), dtype=np.int64)
 
 
-def _numbers(kind: Place, turn: Array | None) -> Array:
+def size_of(values: Array) -> Array:
+    """Largest of the numbers (K, ...) of each place, one for nothing, to divide them by."""
+    size = np.abs(values).max(axis=(1, 2), keepdims=True)
+    return np.asarray(np.where(size > 0.0, size, 1.0))
+
+
+def numbers(kind: Place, turn: Array | None) -> Array:
     """Rows of F, g and G (K, r, 2 c + 1), of turned stresses."""
     F, G = (kind.F, kind.G) if turn is None else (kind.F @ turn, kind.G @ turn)
     return np.concatenate([F, kind.g[..., None], G], axis=2)

@@ -13,7 +13,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.limit_problem import LimitProblem
-from limitblocks.problem.plane.alike import EXACT, alike, close
+from limitblocks.problem.plane.alike import EXACT, alike, classes, close, numbers, size_of
 from limitblocks.problem.plane.places import Place, kinds_of, owned
 
 UNIQUE = 1e-6  # of all normals and forces: less across two directions leaves the plane open
@@ -34,12 +34,15 @@ class Mirrored:
         The stresses there per stress.
     partner : Indices, shape (K, members)
         The linear row or cone of the place itself that the mirror makes of each.
+    sort : Indices, shape (K,)
+        Equal for places with the same rows, up to their unit, and the same turn.
     """
 
     places: Place
     image: Indices
     turn: Array
     partner: Indices
+    sort: Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,12 +136,15 @@ def _mirrored(kind: Place, rates: Array) -> Mirrored | None:
         return None
     if not (close(turn @ turn, np.eye(c)[None], 1.0) and close(turn[image], turn, 1.0)):
         return None
-    partner = alike(kind, kind, turn)
+    values = numbers(kind, None)
+    first, sort = classes(values / size_of(values), turn)
+    few = kind.taken(first)
+    partner = alike(few, few, turn[first])
     if partner is None:
         return None
     if (image != np.arange(K)).any() and alike(kind, kind.taken(image), None) is None:
         return None
-    return Mirrored(kind, image, turn, partner)
+    return Mirrored(kind, image, turn, partner[sort], sort)
 
 
 def _images(kind: Place, rates: Array) -> tuple[Indices, Array]:

@@ -168,7 +168,8 @@ def _stresses_and_rows(
 def _rows_of(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> list[PlaneRows]:
     """Rows of the places `own` and of their images, on the stresses of the basis X (K, c, d)."""
     twice = kind.image[own] != own
-    return [part for its in (~twice, twice) for part in plane_rows(kind, own[its], X[its], every_row)]
+    some = [its for its in (~twice, twice) if its.any()]
+    return [part for its in some for part in plane_rows(kind, own[its], X[its], every_row)]
 
 
 def symmetric(turn: Array) -> Array:

@@ -16,12 +16,12 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem.plane.alike import EXACT, in_order, length_of
+from limitblocks.problem.plane.alike import EXACT, classes, in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
 
 Flags = npt.NDArray[np.bool_]
-CHUNK = 1000  # places at a time: keeps the arrays small
+CHUNK = 1000  # classes of places at a time: keeps the arrays small
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,12 +43,11 @@ class PlaneRows:
 class _Sets:
     """Rows of K places, or of K pairs of a place and its image, on the basis of their symmetric stresses.
 
-    `rows` (K, r) are numbers of the whole problem, `values` (K, r, d + 1) F x' + g over the largest;
+    `values` (K, r, d + 1) are F x' + g over the largest;
     `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and `Mirrored`, the first
     `linear` of them linear rows.
     """
 
-    rows: Indices
     values: Array
     members: tuple[slice, ...]
     linear: tuple[bool, ...]
@@ -62,7 +61,7 @@ class _Sets:
     @cached_property
     def heads(self) -> Array:
         """Weights (K, members, r) of the head of each member and of its partner: half and half."""
-        K, r = self.rows.shape
+        K, r, _ = self.values.shape
         own = np.broadcast_to(np.eye(r)[self.start], (K, len(self.members), r))
         return np.asarray((own + np.eye(r)[self.start[self.partner]]) / 2.0)
 
@@ -70,33 +69,55 @@ class _Sets:
 def plane_rows(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> Iterator[PlaneRows]:
     """Rows of the places `own` (K,) and of their images on the stresses of the bases X (K, c, d).
 
-    Without `every_row` rows that two others imply are left out.
+    Without `every_row` rows that two others imply are left out. Places with the same numbers are judged once.
     """
-    for first in range(0, len(own), CHUNK):
-        chunk = slice(first, first + CHUNK)
-        sets = _sets(kind, own[chunk], X[chunk])
-        lines = [sets.heads[:, np.array(sets.linear)]]
-        valid = [np.ones(lines[0].shape[:2], dtype=bool)]
-        for size in sorted({m.stop - m.start for m in sets.members} - {1}):
-            cones = _cones(sets, size)
-            lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
-            valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
-            yield from _kept(sets, cones)
-        yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
+    first, of_place = classes(np.stack([kind.sort[own], kind.sort[kind.image[own]]], axis=1))
+    members = np.split(np.argsort(of_place, kind="stable"), np.cumsum(np.bincount(of_place))[:-1])
+    places = np.concatenate([kind.places.rows[there] for there in _pair(kind, own)], axis=1)
+    for at in range(0, len(first), CHUNK):
+        chunk = slice(at, at + CHUNK)
+        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), every_row):
+            yield _everywhere(places, rows, members[chunk])
+
+
+def _pair(kind: Mirrored, own: Indices) -> list[Indices]:
+    """The places, and their images where these are others."""
+    image = kind.image[own]
+    return [own] if (image == own).all() else [own, image]
+
+
+def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
+    """Rows of each set: cones of two directions and more, and lines."""
+    lines = [sets.heads[:, np.array(sets.linear)]]
+    valid = [np.ones(lines[0].shape[:2], dtype=bool)]
+    for size in sorted({m.stop - m.start for m in sets.members} - {1}):
+        cones = _cones(sets, size)
+        lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
+        valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
+        yield from _kept(cones)
+    yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
 
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
-    p, image = kind.places, kind.image[own]
-    there = [own] if (image == own).all() else [own, image]
+    p, there = kind.places, _pair(kind, own)
     values = np.concatenate([np.concatenate([p.F[k] @ X, p.g[k][..., None]], axis=2) for k in there], axis=1)
     r, count = p.rows.shape[1], len(p.members)
     return _Sets(
-        rows=np.concatenate([p.rows[k] for k in there], axis=1),
         values=values / np.abs(values).max(axis=(1, 2), keepdims=True),
         members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
         linear=tuple(k < p.linear for k in range(count)) * len(there),
         partner=np.concatenate([kind.partner[k] + j * count for j, k in enumerate(there)], axis=1),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """Reduced rows (c, size) of the sets `k` (c,): their `source` among rows there, and weights of these."""
+
+    size: int
+    k: Indices
+    weight: Array
+    source: Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +148,7 @@ def _cones(sets: _Sets, size: int) -> _Cones:
         directions = np.where((rank == size - 1)[..., None, None], z, directions)
     directions = np.take_along_axis(directions, stands[..., None, None], axis=1)
     inverse = np.linalg.pinv(directions, rcond=EXACT)
-    K, r = sets.rows.shape
+    K, r, _ = sets.values.shape
     weight = np.zeros((K, len(which), directions.shape[2] + 1, r))
     weight[:, :, 0] = sets.heads[:, which]
     place = np.arange(K)[:, None, None]
@@ -141,16 +162,15 @@ def _cones(sets: _Sets, size: int) -> _Cones:
     return _Cones(mean, rank, stands == np.arange(len(which)), start)
 
 
-def _kept(sets: _Sets, cones: _Cones) -> Iterator[PlaneRows]:
+def _kept(cones: _Cones) -> Iterator[_Rows]:
     """Cones of two directions and more."""
     for rank in np.unique(cones.rank[cones.valid & (cones.rank > 1)]).tolist():
         k, which = np.nonzero(cones.valid & (cones.rank == rank))
         weight = cones.weight[k, which, : rank + 1]
-        source = sets.rows[k[:, None], cones.start[which][:, None] + np.arange(rank + 1)]
-        yield _parts(sets, rank + 1, k, weight, source)
+        yield _Rows(rank + 1, k, weight, cones.start[which][:, None] + np.arange(rank + 1))
 
 
-def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> PlaneRows:
+def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> _Rows:
     """Linear rows, those that coincide merged in their mean."""
     values = np.where(valid[..., None], weight @ sets.values, np.inf)
     stands, share = _same(values)
@@ -159,15 +179,31 @@ def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> PlaneRo
         valid &= ~redundant(np.where(valid[..., None], values, 0.0), valid)
     k, which = np.nonzero(valid)
     mean = np.einsum("klm,kmr->klr", share, weight)[k, which][:, None]
-    source = np.take_along_axis(sets.rows[k], np.abs(mean[:, 0]).argmax(axis=1)[:, None], axis=1)
-    return _parts(sets, 1, k, mean, source)
+    return _Rows(1, k, mean, np.abs(mean[:, 0]).argmax(axis=1)[:, None])
 
 
-def _parts(sets: _Sets, size: int, k: Indices, weight: Array, source: Indices) -> PlaneRows:
-    """Triplets of weights (c, size, r) of the rows of the sets k (c,)."""
-    weight = np.where(np.abs(weight) > EXACT, weight, 0.0)
-    c, z, r = np.nonzero(weight)
-    return PlaneRows(size, source.ravel(), weight[c, z, r], c * size + z, sets.rows[k[c], r])
+def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRows:
+    """The rows of each set at all members of its class, as triplets; `places` (K, r) are the whole rows."""
+    weight = np.where(np.abs(rows.weight) > EXACT, rows.weight, 0.0)
+    count = np.array([len(members[k]) for k in rows.k], dtype=np.int64)
+    place = np.concatenate([members[k] for k in rows.k]) if len(rows.k) else rows.k
+    row, _ = _repeated(count)
+    entry, z, r = np.nonzero(weight)
+    of_entry, position = _repeated(count[entry])
+    new = (np.cumsum(count) - count)[entry][of_entry] + position
+    return PlaneRows(
+        rows.size,
+        places[place[:, None], rows.source[row]].ravel(),
+        weight[entry, z, r][of_entry],
+        new * rows.size + z[of_entry],
+        places[place[new], r[of_entry]],
+    )
+
+
+def _repeated(count: Indices) -> tuple[Indices, Indices]:
+    """Each of (c,) as often as it counts: which one it is, and its position among its copies."""
+    which = np.repeat(np.arange(len(count)), count)
+    return which, np.arange(len(which)) - (np.cumsum(count) - count)[which]
 
 
 def _same(values: Array) -> tuple[Indices, Array]:

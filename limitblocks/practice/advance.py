@@ -1,0 +1,126 @@
+"""One step of a displaced structure along its mechanism: contacts brought together, changes told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
+from limitblocks.mechanics.loads.load import Load
+from limitblocks.practice.capacity_result import Control
+from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
+from limitblocks.practice.rejoined import closed_up, meet, slid
+
+FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
+STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
+SHORTEST = 2.0**-20  # of a step: where a contact closes
+NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
+
+
+@dataclass(frozen=True, eq=False)
+class Advanced:
+    """A structure one step on: where its contacts are, its control point, and what changed on the way."""
+
+    assembly: Assembly
+    control: Control
+    changes: tuple[str, ...]
+
+
+def refuse_left_behind(what: str, **loads: Load) -> None:
+    """Raise ModelError for a load that stays behind when its block moves."""
+    for word, load in loads.items():
+        for _, term in load.terms:
+            if not isinstance(term, FOLLOWS):
+                raise ModelError(
+                    f"the {word} load has a {type(term).__name__}, which does not move with the blocks; a "
+                    f"{what} needs weights, added masses, forces and moments"
+                )
+
+
+def advanced(assembly: Assembly, control: Control, rates: Array, step: float) -> Advanced | None:
+    """Return the structure after a step (m, of the control point) along rates (n, 6); None if it is stuck.
+
+    The step is cut where a contact closes.
+    """
+    pace = float(velocity(assembly, control, rates) @ control.direction)
+    held, sliding = _motion(assembly, rates)
+    was = [own.ways[:, 2] for own in assembly.contacts]
+    share, least = 1.0, -10.0 * CLOSED * assembly.size
+    while share >= SHORTEST:
+        goal, left = closed_up(moved(assembly, share * step / pace * rates), held, sliding)
+        now = [own.ways[:, 2] for own in goal.contacts]
+        lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
+        if left <= CLOSED * assembly.size and lowest >= least and not meet(goal):
+            break
+        share /= 2.0
+    else:
+        return None
+    changes = _changes(assembly, was, now, -least)
+    return Advanced(slid(goal, sliding), _carried(assembly, goal, control), changes)
+
+
+def across(assembly: Assembly, stress_resultants: Array) -> tuple[str, ...]:
+    """Return the opened joints whose normal force acts off their closed corners, as sentences."""
+    said, least = [], 1e-6 * np.abs(stress_resultants[:, 2]).max()
+    for own, Q in zip(assembly.contacts, stress_resultants, strict=True):
+        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
+        closed = gap <= 10.0 * CLOSED * assembly.size
+        if own.tied or closed.all() or not -Q[2] > least:
+            continue
+        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
+        shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
+        if not closed.any() or shut.distance(pressed) > NEAR * size:
+            said.append(f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm")
+    return tuple(said)
+
+
+def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:
+    """Which corners of each contact are closed and stay so, and which contacts slide."""
+    centres = np.stack([block.centroid for block in assembly.model.blocks])
+    sizes = np.array([block.size for block in assembly.model.blocks])
+    least = STILL * float(
+        (np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)).max()
+    )
+    held, sliding = [], []
+    for own in assembly.contacts:
+        speeds = [
+            rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
+            for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
+        ]
+        relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
+        closed = (own.ways[:, 2] <= 10.0 * CLOSED * assembly.size) & (relative[:, 2] <= least)
+        held.append(closed & (not own.tied))
+        sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
+    return held, sliding
+
+
+def _carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
+    """The control point on its moved block: the same combination of its vertices."""
+    k = [block.name for block in assembly.model.blocks].index(control.block)
+    old, new = assembly.model.blocks[k], goal.model.blocks[k]
+    about = old.vertices - old.centroid
+    turn = np.linalg.lstsq(about, new.vertices - new.centroid, rcond=None)[0]
+    return replace(control, point=read_only(new.centroid + (control.point - old.centroid) @ turn))
+
+
+def velocity(assembly: Assembly, control: Control, rates: Array) -> Array:
+    """Return the velocity of the control point, shape (3,)."""
+    k = [block.name for block in assembly.model.blocks].index(control.block)
+    arm = control.point - assembly.model.blocks[k].centroid
+    return np.asarray(rates[k, :3] + np.cross(rates[k, 3:], arm))
+
+
+def _changes(assembly: Assembly, was: list[Array], now: list[Array], least: float) -> tuple[str, ...]:
+    """Sentences on the contacts that opened or closed."""
+    said = []
+    for own, before, after in zip(assembly.contacts, was, now, strict=True):
+        if own.tied:
+            continue
+        shut, opened = (before > least) & (after <= least), (before <= least) & (after > least)
+        said += [f"{own.interface.name} closes"] if shut.any() else []
+        said += [f"{own.interface.name} opens"] if opened.any() else []
+    return tuple(said)

@@ -1,0 +1,157 @@
+"""A support that settles by as much as the structure bears: reaction against settlement, and the fall."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError, NoEquilibrium, SolveError
+from limitblocks.model import Model
+from limitblocks.practice import displaced as moving
+from limitblocks.practice.advance import Advanced, across, advanced, refuse_left_behind
+from limitblocks.practice.capacity_result import Control
+from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
+from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.settlement import Settlement, settlement, settling
+
+STEP = 0.01  # of the size of the structure: the largest step
+FIRST = 1e-3  # the same: the first one
+GROWTH = 4.0  # of a step over the one before
+ACCURACY = 1e-6  # of the size of the structure: the interval in which it falls
+
+
+def settlement_to_collapse(
+    model: Model,
+    support: str,
+    direction: Sequence[float],
+    *,
+    without_dilatancy: bool = True,
+    step: float | None = None,
+    largest: float = np.inf,
+    accuracy: float | None = None,
+    progress: Callable[[SettlementPoint], None] | None = None,
+) -> SettlementCurve:
+    """Return the reaction of a support that moves along `direction` until the structure falls.
+
+    At each point the least reaction of the displaced structure is found as by
+    :func:`~limitblocks.practice.settlement`, from its permanent loads; the mechanism that follows the support
+    moves the blocks by finite screws, and the contacts that it does not open are brought together again.
+    Where a step leads to a structure that cannot stand on supports at rest, it is halved, until the interval
+    in which it falls is as short as `accuracy`.
+
+    Parameters
+    ----------
+    model : Model
+        Its live load is not used. Dead loads may be weights, added masses, forces and moments on blocks: they
+        move with the blocks, and keep their directions.
+    support : str
+        Name of the support that moves.
+    direction : sequence of float
+        Of its motion; any length.
+    without_dilatancy : bool
+        Whether blocks move by the mechanism without dilatancy, or by that of associated flow.
+    step : float, optional
+        Largest step, m. Default: .01 of the size of the structure.
+    largest : float
+        Settlement at which the curve ends, m.
+    accuracy : float, optional
+        Of the settlement at collapse, m. Default: 1e-6 of the size of the structure.
+    progress : callable, optional
+        Called with each point.
+
+    Raises
+    ------
+    ModelError
+        If a load stays behind when its block moves, or as :func:`~limitblocks.practice.settlement`.
+    SolveError
+        As :func:`~limitblocks.practice.settlement` at the first point; later the curve ends, and says why.
+    """
+    refuse_left_behind("settlement until collapse", dead=model.dead)
+    assembly = moving.assembly_of(model)
+    size = assembly.size
+    step = _length("step", step, STEP * size)
+    accuracy = _length("accuracy", accuracy, ACCURACY * size)
+    if not largest > 0.0:
+        raise ModelError(f"largest is {largest!r}, expected a settlement > 0 in m")
+    unit = settling(model, support, direction).direction
+    place = next(block for block in model.blocks if block.name == support).centroid
+    control = Control(support, place, unit)
+
+    def found(there: Model) -> Settlement:
+        return replace(
+            settlement(there, support, unit.tolist(), without_dilatancy=without_dilatancy),
+            digest=model.digest,
+        )
+
+    first = SettlementPoint(0.0, found(model), ())
+    points: list[SettlementPoint] = []
+    end: tuple[float | None, str] = (None, "")
+    for one in _way(assembly, control, first, found, (min(step, FIRST * size), step, accuracy, largest)):
+        if isinstance(one, tuple):
+            end = one
+            break
+        points.append(one)
+        if progress:
+            progress(one)
+    return SettlementCurve(tuple(points), *end)
+
+
+def _length(name: str, given: float | None, default: float) -> float:
+    if given is not None and not (np.isfinite(given) and given > 0.0):
+        raise ModelError(f"{name} is {given!r}, expected a finite length > 0 in m")
+    return default if given is None else float(given)
+
+
+def _way(
+    assembly: Assembly,
+    control: Control,
+    point: SettlementPoint,
+    found: Callable[[Model], Settlement],
+    lengths: tuple[float, float, float, float],
+) -> Iterator[SettlementPoint | tuple[float | None, str]]:
+    """The points, then the settlement at which it falls, or None, and why the way ends."""
+    step, longest, accuracy, largest = lengths
+    falls: float | None = None
+    while True:
+        yield point
+        if point.displacement >= largest * (1.0 - 1e-12):
+            yield None, f"the settlement {largest:g} m is reached"
+            return
+        if not point.reaction > CLOSED * point.found.settling.unit:
+            yield None, f"nothing rests on the support any more at {point.displacement:.6g} m"
+            return
+        while True:
+            step = min(step, largest - point.displacement)
+            there = advanced(assembly, control, _rates(point.found), step)
+            if there is None:
+                yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
+                return
+            at = point.displacement + float((there.control.point - control.point) @ control.direction)
+            try:
+                answer, why = found(there.assembly.model), ""
+                break
+            except NoEquilibrium:
+                falls, why = at, f"the structure falls between {point.displacement:.9g} and {at:.9g} m"
+            except SolveError as error:
+                why = f"no checked answer beyond {point.displacement:.6g} m: {error}"
+            step = (at - point.displacement) / 2.0
+            if step < accuracy:
+                yield falls, why
+                return
+        assembly, control = there.assembly, there.control
+        point = _point(at, answer, there)
+        step = min(GROWTH * step, longest) if falls is None else (falls - at) / 2.0
+
+
+def _point(at: float, answer: Settlement, there: Advanced) -> SettlementPoint:
+    end = answer.result or answer.bounds
+    forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of the guide
+    return SettlementPoint(at, answer, there.changes, across(there.assembly, forces))
+
+
+def _rates(found: Settlement) -> Array:
+    """Mechanism that follows the support."""
+    return (found.result or found.bounds).displacement_rates

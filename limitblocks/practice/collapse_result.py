@@ -1,0 +1,133 @@
+"""A support that settles until the structure falls: the reaction at each point, and where it falls."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import takewhile
+from typing import Any
+
+import numpy as np
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.practice.settlement import Settlement
+from limitblocks.shown import Result
+
+
+@dataclass(frozen=True, eq=False)
+class SettlementPoint:
+    """One point of the way of a support.
+
+    Attributes
+    ----------
+    displacement : float
+        Of the support along its direction, m.
+    found : Settlement
+        Least reaction of the structure as it then is, with its evidence and mechanism.
+    changes : tuple of str
+        Contacts that opened or closed on the way from the point before.
+    across : tuple of str
+        Joints that press across a gap; the structure is then one whose gaps are filled.
+    """
+
+    displacement: float
+    found: Settlement
+    changes: tuple[str, ...]
+    across: tuple[str, ...] = ()
+
+    @property
+    def reaction(self) -> float:
+        """Least reaction, N: without dilatancy if that was asked for, else of the associated mechanism."""
+        found = self.found
+        return found.lower if found.nonassociated is None else found.nonassociated
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the point with its evidence as numbers and text."""
+        return {
+            "displacement": self.displacement,
+            "found": self.found.to_dict(),
+            "changes": list(self.changes),
+            "across": list(self.across),
+        }
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SettlementCurve(Result):
+    """Reaction against the settlement of a support, until the structure falls.
+
+    Attributes
+    ----------
+    points : tuple of SettlementPoint
+        The first is the structure as it is.
+    falls : float or None
+        Least settlement at which it is proven that the structure cannot stand, m; None where the way ends
+        otherwise.
+    ended : str
+        Why it ends.
+    """
+
+    points: tuple[SettlementPoint, ...]
+    falls: float | None
+    ended: str
+
+    @property
+    def support(self) -> str:
+        """Name of the support that settles."""
+        return self.points[0].found.settling.support
+
+    @property
+    def direction(self) -> Array:
+        """Unit vector of its motion, shape (3,)."""
+        return self.points[0].found.settling.direction
+
+    @property
+    def stands_to(self) -> float:
+        """Settlement up to which the structure stands and no joint presses across a gap, m."""
+        sound = [point.displacement for point in takewhile(lambda point: not point.across, self.points)]
+        return sound[-1] if sound else 0.0
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the model that was given."""
+        return self.points[0].found.digest
+
+    @property
+    def displacements(self) -> Array:
+        """Settlements of the points, m, shape (p,)."""
+        return read_only(np.array([point.displacement for point in self.points]))
+
+    @property
+    def reactions(self) -> Array:
+        """Least reactions of the points, N, shape (p,)."""
+        return read_only(np.array([point.reaction for point in self.points]))
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each point."""
+        return [
+            {
+                "displacement": point.displacement,
+                "reaction": point.reaction,
+                "lower": point.found.lower,
+                "upper": point.found.upper,
+                "changes": ", ".join(point.changes),
+                "across": ", ".join(point.across),
+            }
+            for point in self.points
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the curve as numbers and text."""
+        return {
+            "analysis": "settlement until collapse",
+            "model_digest": self.digest,
+            "support": self.support,
+            "direction": self.direction.tolist(),
+            "points": [point.to_dict() for point in self.points],
+            "stands_to": self.stands_to,
+            "falls": self.falls,
+            "ended": self.ended,
+        }
+
+    def __str__(self) -> str:
+        first, last = self.reactions[[0, -1]].tolist()
+        said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
+        return f"{said}: {self.ended}{self._as_read}"

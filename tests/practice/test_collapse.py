@@ -1,0 +1,158 @@
+"""A support that settles until the structure falls: closed forms of three-hinged arches, misuse."""
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+import limitblocks as lb
+from limitblocks.loads import pressure
+from limitblocks.practice import settlement_to_collapse
+
+DEPTH, WEIGHT = 1.0, 20e3
+SPREAD = (1.0, 0.0, 0.0)
+
+
+def half_ring(voussoirs, thickness):
+    """Intrados and extrados corners of the left half from springing to crown; areas and centroids between."""
+    angles = np.linspace(np.pi, np.pi / 2, voussoirs // 2 + 1)
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    inner, outer = (1 - thickness / 2) * ring, (1 + thickness / 2) * ring
+    areas, centres = [], []
+    for k in range(voussoirs // 2):
+        x, z = np.array([inner[k], outer[k], outer[k + 1], inner[k + 1]]).T
+        twice = x * np.roll(z, -1) - np.roll(x, -1) * z
+        areas.append(abs(twice.sum()) / 2)
+        centres.append(
+            [((a + np.roll(a, -1)) * twice).sum() / (3 * twice.sum()) for a in (x, z)],
+        )
+    return inner, outer, np.array(areas), np.array(centres)
+
+
+def three_hinged(voussoirs, thickness, spread, hinge):
+    """Thrust over weight, and where its line cuts each joint: 0 at the intrados, 1 at the extrados.
+
+    Hinges at the extrados of the crown and the intrados of joint `hinge` from each springing; the part
+    between turns about the latter until the crown hinge is over the middle of the spread arch.
+    """
+    inner, outer, areas, centres = half_ring(voussoirs, thickness)
+    foot, arm = inner[hinge], outer[-1] - inner[hinge]
+    turn = np.arccos((arm[0] + spread / 2) / np.hypot(*arm)) - np.arctan2(arm[1], arm[0])
+    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+
+    def at(points, moves):
+        return np.where(moves[:, None], (points - foot) @ rotation.T + foot, points)
+
+    k = np.arange(len(inner))
+    crown = at(outer, k > hinge)[-1]
+    inner, outer, centres = at(inner, k > hinge), at(outer, k > hinge), at(centres, k[:-1] >= hinge)
+    thrust = areas[hinge:] @ (centres[hinge:, 0] - foot[0]) / (crown[1] - foot[1])
+
+    def moments(points):  # of all that is above each joint
+        own = [areas[j:] @ (centres[j:, 0] - points[j, 0]) for j in range(len(points))]
+        return np.array(own) - thrust * (crown[1] - points[:, 1])
+
+    a, b = moments(inner), moments(outer)
+    return thrust / (2 * areas.sum()), a / (a - b)
+
+
+def arch(voussoirs, thickness, joint=None):
+    ring = lb.structures.arch(
+        joint or lb.PointContact(0.8),
+        radius=1.0,
+        thickness=thickness,
+        voussoirs=voussoirs,
+        unit_weight=WEIGHT,
+    )
+    return ring, sum(block.weight for block in ring.free_blocks)
+
+
+@pytest.mark.parametrize("without_dilatancy", [True, False])
+def test_arch_spreads_until_its_thrust_leaves_the_springing(without_dilatancy):
+    """Its fourth hinge is at the extrados of the springing; in between the thrust of a three-hinged arch.
+
+    The case of Ochsendorf (2006), The masonry arch on spreading supports, for a semicircle of t/R = .2.
+    """
+    voussoirs, thickness, hinge = 8, 0.2, 1
+    ring, weight = arch(voussoirs, thickness)
+    fourth = brentq(lambda d: three_hinged(voussoirs, thickness, d, hinge)[1][0] - 1.0, 1e-9, 0.4, xtol=1e-14)
+    for spread in np.linspace(1e-9, fourth, 9):  # it is the mechanism
+        cut = three_hinged(voussoirs, thickness, spread, hinge)[1]
+        assert (cut > -1e-9).all()
+        assert (cut < 1 + 1e-9).all()
+    curve = settlement_to_collapse(
+        ring, "right support", SPREAD, step=0.1, accuracy=4e-3, without_dilatancy=without_dilatancy
+    )
+    expected = [three_hinged(voussoirs, thickness, d, hinge)[0] * weight for d in curve.displacements]
+    assert curve.reactions == pytest.approx(expected, rel=1e-6)
+    assert curve.stands_to <= fourth <= curve.falls
+    assert curve.falls - curve.stands_to <= 8e-3
+    assert curve.ended.startswith("the structure falls between")
+    assert all(point.found.bounds.proven and not point.across for point in curve.points)
+    assert len(curve.points[1].changes) == 3
+    assert set(curve.points[1].changes) >= {"voussoir 4|voussoir 5 opens", "voussoir 1|voussoir 2 opens"}
+
+
+def test_two_stones_that_lean_on_one_another():
+    """Thrust W x / h of the half at any spread; they slide off at their friction.
+
+    The normal of an opened joint is half way between both faces, so that friction begins at atan(mu) and half
+    the turn of a stone.
+    """
+    friction, thickness = 0.5, 0.3
+    ring, weight = arch(2, thickness, lb.PointContact(friction))
+    inner, outer, _, centres = half_ring(2, thickness)
+    arm, mass = outer[-1] - inner[0], centres[0] - inner[0]
+
+    def turn(spread):
+        return np.arccos((arm[0] + spread / 2) / np.hypot(*arm)) - np.arctan2(arm[1], arm[0])
+
+    def thrust(spread):
+        x = mass[0] * np.cos(turn(spread)) - mass[1] * np.sin(turn(spread))
+        return weight / 2 * x / np.sqrt(arm @ arm - (arm[0] + spread / 2) ** 2)
+
+    def left(spread):
+        return np.arctan(friction) - turn(spread) / 2 - np.arctan(2 * thrust(spread) / weight)
+
+    slides = brentq(left, 0.0, 2 * (np.hypot(*arm) - arm[0]) - 1e-9)
+    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.3, accuracy=2e-3)
+    assert curve.reactions == pytest.approx([thrust(d) for d in curve.displacements], rel=1e-6)
+    assert curve.stands_to <= slides <= curve.falls
+    assert curve.falls - curve.stands_to <= 4e-3
+
+
+def test_it_ends_where_it_is_told_to():
+    ring, _ = arch(2, 0.3)
+    told = []
+    curve = settlement_to_collapse(
+        ring, "right support", SPREAD, step=0.02, largest=0.03, progress=told.append
+    )
+    assert curve.displacements[-1] == pytest.approx(0.03, rel=1e-9)
+    assert curve.falls is None
+    assert curve.ended == "the settlement 0.03 m is reached"
+    assert tuple(told) == curve.points
+    assert curve.digest == ring.digest
+    assert [one["displacement"] for one in curve.to_dict()["points"]] == curve.displacements.tolist()
+    assert str(curve).endswith("the settlement 0.03 m is reached")
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"step": 0.0}, "step is 0.0, expected a finite length > 0"),
+        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite length > 0"),
+        ({"largest": 0.0}, "largest is 0.0, expected a settlement > 0"),
+    ],
+)
+def test_misuse(settings, words):
+    with pytest.raises(lb.ModelError, match=words):
+        settlement_to_collapse(arch(2, 0.3)[0], "right support", SPREAD, **settings)
+
+
+def test_support_that_is_a_free_block_and_load_that_stays_behind():
+    ring, _ = arch(2, 0.3)
+    with pytest.raises(lb.ModelError, match="'voussoir 1' is a free block"):
+        settlement_to_collapse(ring, "voussoir 1", SPREAD)
+    wind = ring.dead + pressure("voussoir 1", 100.0, facing=(-1, 0, 0))
+    loaded = lb.Model(ring.blocks, ring.supports, ring.interfaces, wind, ring.live)
+    with pytest.raises(lb.ModelError, match="does not move with the blocks; a settlement until collapse"):
+        settlement_to_collapse(loaded, "right support", SPREAD)
