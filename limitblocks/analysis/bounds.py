@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from limitblocks.analysis.certified import certified
+from limitblocks.analysis.certified import CLOSE, certified
 from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
@@ -48,6 +48,7 @@ UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
 )
+PER_BLOCK = 1e-10  # width of an interval that a polish of many blocks costs more than it betters
 Tell = Callable[[str], None]
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
@@ -144,9 +145,8 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     tell("proof")
     state, name = found
     patience = 1 if programs is None else programs.form.patience
-    state, proof = certified(
-        problem, state, dead, close=tolerance / 10.0, patience=patience, programs=programs
-    )
+    close = max(CLOSE, min(PER_BLOCK * len(problem.blocks), tolerance / 10.0))
+    state, proof = certified(problem, state, dead, close=close, patience=patience, programs=programs)
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     return (dead, pair, proof) if good else None
