@@ -23,7 +23,11 @@ FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
 TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
-WITHIN = (0.05, 0.95)  # of a step that went beyond the zero: the next one
+SECANT, HALVING = (
+    0.98,
+    0.5,
+)  # of a step that went beyond the zero: the most of the next one, and of those after
+JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
@@ -99,7 +103,7 @@ def _curve(
         yield point
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
-            return
+            return  # below it where it jumps through zero
         if point.displacement >= largest * (1.0 - 1e-12):
             yield f"the displacement {largest:g} m is reached"
             return
@@ -115,7 +119,7 @@ def _ahead(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
-    failures = 0
+    failures, most = 0, SECANT
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
@@ -128,9 +132,9 @@ def _ahead(
         if found is None:
             return _stopped(point)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        if left >= -ZERO * scale or way <= CLOSED * assembly.size:
+        if left >= -ZERO * scale or way <= JUMP * assembly.size:
             return found
-        step = way * float(np.clip(point.load_factor / (point.load_factor - left), *WITHIN))
+        step, most = way * min(most, point.load_factor / (point.load_factor - left)), HALVING
 
 
 def _stopped(point: CapacityPoint) -> str:

@@ -116,7 +116,7 @@ def test_hinges_of_an_arch_stay_together():
 
 
 def test_a_facade_of_37_blocks_out_of_its_plane():
-    """The first point is the answer without dilatancy, each point one of its own; no gap is pressed across."""
+    """The first point is the answer without dilatancy, each point has its own; no gap is pressed."""
     door = [(1.2, 0.0, 0.8, 1.2)]
     facade = lb.structures.facade(JOINTS[0], length=3.2, courses=5, return_length=1.6, openings=door)
     assert len(facade.free_blocks) == 37
