@@ -124,7 +124,8 @@ def test_a_facade_of_37_blocks_out_of_its_plane():
     assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(facade).load_factor, rel=1e-8)
     assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
     assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
-    assert (np.diff(curve.load_factors) < 0).all()
+    assert (np.diff(curve.load_factors) < 1e-7).all()
+    assert curve.load_factors[-1] < 0.9 * curve.load_factors[0]
     assert curve.points[1].changes
 
 
