@@ -13,7 +13,8 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
-from limitblocks.mechanics import Load, top_force
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import top_force
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import tops
 from limitblocks.model import Model

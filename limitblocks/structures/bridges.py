@@ -9,8 +9,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load, mass_proportional, self_weight
-from limitblocks.mechanics import fill as earth
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import fill as earth
+from limitblocks.mechanics.loads import mass_proportional, self_weight
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
