@@ -66,7 +66,8 @@ def spread_until_it_falls():
 def picture(folder, thrusts, way):
     import matplotlib.pyplot as plt
 
-    figure, (axis, beside) = plt.subplots(1, 2, figsize=(10, 4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, (axis, beside) = plt.subplots(1, 2, figsize=(7.0, 2.6))
     lb.plots.settlement(way, beside)
     axis.fill_between(THICKNESS, *thrusts.T, alpha=0.3, label="states of equilibrium")
     axis.plot(THICKNESS, thrusts[:, 0], "o-", label="springing gives way")
@@ -75,7 +76,7 @@ def picture(folder, thrusts, way):
     axis.set(xlabel="thickness over radius", ylabel="thrust over gamma t d R")
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "25_a_support_gives_way.png", dpi=120)
+    figure.savefig(folder / "25_a_support_gives_way.png")
     plt.close(figure)
 
 

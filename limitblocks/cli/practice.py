@@ -1,4 +1,4 @@
-"""Commands of practice: settlement of a support, capacity curve, verification, a vehicle."""
+"""Commands of practice: settlement of a support, capacity curve, verification."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
-from limitblocks.cli.vectors import vector
+from limitblocks.cli.vectors import numbers, vector
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
@@ -47,17 +47,6 @@ Modes = Annotated[
         "--mode", help="T,GAMMA,PSI,XI of a mode of the building at the height of the mechanism; repeat it."
     ),
 ]
-Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
-Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
-Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
-Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
-First = Annotated[
-    float, typer.Option("--first", help="First place of the first axle, X in m.", show_default=False)
-]
-Last = Annotated[
-    float, typer.Option("--last", help="Last place of the first axle, X in m.", show_default=False)
-]
-Places = Annotated[int, typer.Option("--count", help="Places to begin with.", min=3)]
 
 
 def settle(
@@ -154,36 +143,7 @@ def _floor(modes: list[str]) -> Floor | None:
 
 
 def _counted(option: str, words: str, names: str) -> tuple[float, ...]:
-    numbers = _numbers(option, words)
-    if len(numbers) != 1 + names.count(","):
+    given = numbers(option, words)
+    if len(given) != 1 + names.count(","):
         raise typer.BadParameter(f"{words!r}: expected {names}", param_hint=option)
-    return numbers
-
-
-def vehicle(
-    model: ModelFile,
-    axles: Axles,
-    level: Level,
-    first: First,
-    last: Last,
-    distances: Distances = "0",
-    spread: Spread = 0.5,
-    count: Places = 25,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
-) -> None:
-    """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
-    with clean_errors():
-        from limitblocks.practice import Deck, Vehicle
-
-        loads = Vehicle(_numbers("--axles", axles), _numbers("--distances", distances))
-        settings: Any = {"deck": Deck(level, spread), "between": (first, last), "positions": count}
-        answer(analyses.vehicle, model, as_json, output, force, vehicle=loads, **settings)
-
-
-def _numbers(option: str, words: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(word) for word in words.replace(",", " ").split())
-    except ValueError:
-        raise typer.BadParameter(f"{words!r}: expected numbers such as 0,1.2", param_hint=option) from None
+    return given

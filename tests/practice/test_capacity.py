@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
-from limitblocks.mechanics import added_mass, pressure
+from limitblocks.loads import added_mass, pressure
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
 from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.rejoined import closed_up

@@ -178,3 +178,32 @@ def test_vehicle(beam):
     assert found["position"] == pytest.approx(3.8, abs=1e-3)
     assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
     assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--first", 3, "--last", 4).output
+
+
+def test_a_bridge_from_the_shell(tmp_path):
+    """A bridge of two spans, fill that resists, a vehicle over all of it, a PDF."""
+    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+    bare, held, filed = tmp_path / "bridge.json", tmp_path / "held.json", tmp_path / "bridge.pdf"
+    shape = ("--span", 3, "--rise", 0.75, "--thickness", 0.3, "--voussoirs", 7, "--pier-width", 0.8)
+    made = run(
+        "new", "arch-bridge", *shape, "--spans", 2, "--fill", "0.3,20e3", "--friction", 0.6, "-o", bare
+    )
+    assert made.exit_code == 0, made.output
+    model = lb.read(bare)
+    level = max(block.vertices[:, 2].max() for block in model.free_blocks) + 0.3
+    done = run("backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 3, "-o", held)
+    assert done.exit_code == 0, done.output
+    assert "fill holds 12 blocks" in done.output  # all voussoirs but the two at the crowns
+    words = ("--axles", "50e3,50e3", "--distances", "0,1.2", "--level", level, "--count", 5)
+    found = json.loads(run("vehicle", bare, *words, "--json").stdout)
+    x = [block.vertices[:, 0] for block in model.free_blocks]
+    assert min(found["positions"]) == pytest.approx(min(part.min() for part in x) - 1.2)
+    assert max(found["positions"]) == pytest.approx(max(part.max() for part in x))
+    resisting = run("vehicle", held, *words, "--report", filed, "-o", tmp_path / "v.json")
+    assert resisting.exit_code == 0, resisting.output
+    better = lb.read_result(tmp_path / "v.json", lb.read(held))
+    assert better.bounds.lower > 1.02 * found["bounds"]["lower"]
+    said = " ".join(page.extract_text() for page in pypdf.PdfReader(filed).pages)
+    for word in ("Vehicle on the deck", "worst", "passive resistance of fill"):
+        assert word in said, word
+    assert run("vehicle", bare, *words, "--first", 1).exit_code == 2
