@@ -227,7 +227,7 @@ def worst_position(
         lambda x: min(at(float(x)), beyond),
         bounds=about,
         method="bounded",
-        options={"xatol": (high - low) * 1e-4},
+        options={"xatol": (high - low) * 1e-3},
     )
     worst = min((x for x, found in tried.items() if found), key=at)
     found = tried[worst]
