@@ -188,6 +188,23 @@ def test_the_worst_position_is_marked(reports, vehicle):
     assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:#.6g}"]
 
 
+def test_a_report_without_a_load_factor_has_the_answer_at_its_head(beam, vehicle, settled):
+    """Not "none"; with a load factor of the model itself that comes first."""
+    for answers, word in (((vehicle,), "first axle at X"), ((settled, vehicle), "least reaction")):
+        first = lb.report(beam, *answers).document.chapters[0]
+        assert first.title == "Answer"
+        assert word in first.parts[0].quantity
+    both = lb.report(beam, lb.bounds(beam), vehicle).document.chapters[0]
+    assert both.title == "Load factor to design with"
+
+
+def test_a_vehicle_has_its_mechanism_and_its_weight(reports):
+    made = chapter(reports[1], "Vehicle on the deck")
+    drawn = [part.sheet.style for part in made.parts if hasattr(part, "sheet")]
+    assert "mechanism" in drawn
+    assert rows(reports[1], "Vehicle on the deck", "Result")["Axles on the structure"][1] == "10 kN"
+
+
 def test_the_json_follows_its_schema(reports):
     for report in reports:
         jsonschema.validate(json.loads(report.json, parse_constant=pytest.fail), lb.files.report_schema())
