@@ -19,7 +19,7 @@ from limitblocks.analysis.bounds import pair_of_bounds
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.stability import dead_load_state, standing_margin
 from limitblocks.problem import State
-from limitblocks.problem.plane import mirror_of, reduced
+from limitblocks.problem.plane import Choice, mirror_of, reduced
 
 PAPER = lb.OrdunaLourenco(0.65, slip="paper")
 JOINTS = {
@@ -177,8 +177,8 @@ def test_mirrors_of_another_turn_of_the_plane():
 def test_lifted_states_satisfy_everything_out_of_the_plane_too(name):
     problem = wall(JOINTS[name]).problem
     rng = np.random.default_rng(0)
-    for every_row in (False, True):
-        plane = reduced(problem, mirror_of(problem), every_row=every_row)
+    for choice in Choice:
+        plane = reduced(problem, mirror_of(problem), choice)
         small = plane.problem
         x, u = rng.standard_normal(small.C.shape[0]), plane.rates.T @ rng.standard_normal(problem.C.shape[1])
         y = rng.random(len(small.g))
@@ -200,7 +200,7 @@ def test_lifted_states_satisfy_everything_out_of_the_plane_too(name):
 def test_rows_left_out_are_implied():
     problem = wall(JOINTS["both"]).problem
     mirror = mirror_of(problem)
-    few, all_rows = (reduced(problem, mirror, every_row=every).problem for every in (False, True))
+    few, all_rows = (reduced(problem, mirror, choice).problem for choice in (Choice.FEW, Choice.EVERY))
     assert len(few.g) < len(all_rows.g)
     rng, inside = np.random.default_rng(1), 0
     dead = in_plane(problem).stresses_of(dead_load_state(problem))

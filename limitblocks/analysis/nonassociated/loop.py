@@ -9,6 +9,7 @@ import numpy as np
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
+from limitblocks.analysis.nonassociated.in_the_plane import PLANE, flow_in_plane
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
@@ -132,16 +133,36 @@ def nonassociated(
         state, how = proven, "statics alone"
     else:
         first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
-        x0 = start_stresses(model, problem, problem.compliance, first)
-        if way is Method.FIXED_POINT:
-            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
-        else:
-            scale = load_scale(problem, enclosing.associated)
-            state, how = first_to_solve(flow, x0, scale, means or MEANS, tolerance, record)
+
+        def solve(at: Flow, x0: Array) -> tuple[State, str]:
+            if way is Method.FIXED_POINT:
+                return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
+            scale = load_scale(at.problem, enclosing.associated)
+            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record)
+
+        state, how = _solved(model, flow, first, tolerance, solve)
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
+
+
+def _solved(
+    model: Model,
+    flow: Flow,
+    start: Start | None,
+    tolerance: float,
+    solve: Callable[[Flow, Array], tuple[State, str]],
+) -> tuple[State, str]:
+    """What `solve` finds in the plane, if there is one and the whole problem accepts it; else in that."""
+    weights = flow.problem.compliance
+    planar = flow_in_plane(model, flow, weights, start)
+    if planar is not None:
+        state, how = solve(planar.flow, planar.x0)
+        lifted = planar.accepted(state, tolerance)
+        if lifted is not None or how.endswith(INTERRUPTED):
+            return lifted or planar.plane.lifted(state), PLANE + how
+    return solve(flow, start_stresses(model, flow.problem, weights, start))
 
 
 @np.errstate(all="ignore")  # a state that ran away is no solution
