@@ -73,7 +73,7 @@ def _follows(rows: Array, present: Flags, flow: Array) -> Flags:
 
 
 def _flows(flow: Array, c: int, i: Indices, j: Indices) -> Flags:
-    """Whether the flow (K, L + 1, d) of row c is a sum, factors >= 0, of those of the rows i, j (K, pairs)."""
+    """Whether the flow (K, L + 1, d) of row c is a sum, factors >= 0, of that of rows i, j (K, pairs)."""
     place = np.arange(len(flow))[:, None]
     a, b, own = flow[place, i], flow[place, j], flow[:, c, None]
     aa, ab, bb = (np.einsum("kpd,kpd->kp", v, w) for v, w in ((a, a), (a, b), (b, b)))
