@@ -6,6 +6,7 @@ compliance is symmetric: docs/planar.md has the proof.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.increment import Increment
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.nonassociated.start import Start, start_stresses
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
@@ -76,6 +78,24 @@ def flow_in_plane(model: Model, flow: Flow, weights: Array, start: Start | None)
     if own is None or x0 is None:
         return None
     return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
+
+
+def found_in_plane_or_whole(
+    model: Model,
+    flow: Flow,
+    start: Start | None,
+    tolerance: float,
+    solve: Callable[[Flow, Array], tuple[State, str]],
+) -> tuple[State, str]:
+    """Return what `solve` finds in the plane, if the whole problem accepts it; else what it finds there."""
+    weights = flow.problem.compliance
+    planar = flow_in_plane(model, flow, weights, start)
+    if planar is not None:
+        state, how = solve(planar.flow, planar.x0)
+        lifted = planar.accepted(state, tolerance)
+        if lifted is not None or how.endswith(INTERRUPTED):
+            return lifted or planar.plane.lifted(state), PLANE + how
+    return solve(flow, start_stresses(model, flow.problem, weights, start))
 
 
 def _start(

@@ -9,7 +9,7 @@ import numpy as np
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
-from limitblocks.analysis.nonassociated.in_the_plane import PLANE, flow_in_plane
+from limitblocks.analysis.nonassociated.in_the_plane import InPlane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
@@ -23,7 +23,6 @@ from limitblocks.analysis.nonassociated.start import (
     own_units,
     refuse_jammed,
     refuse_unlimited,
-    start_stresses,
 )
 from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
@@ -140,36 +139,24 @@ def nonassociated(
             scale = load_scale(at.problem, enclosing.associated)
             return first_to_solve(at, x0, scale, means or MEANS, tolerance, record)
 
-        state, how = _solved(model, flow, first, tolerance, solve)
+        state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
 
 
-def _solved(
-    model: Model,
-    flow: Flow,
-    start: Start | None,
-    tolerance: float,
-    solve: Callable[[Flow, Array], tuple[State, str]],
-) -> tuple[State, str]:
-    """What `solve` finds in the plane, if there is one and the whole problem accepts it; else in that."""
-    weights = flow.problem.compliance
-    planar = flow_in_plane(model, flow, weights, start)
-    if planar is not None:
-        state, how = solve(planar.flow, planar.x0)
-        lifted = planar.accepted(state, tolerance)
-        if lifted is not None or how.endswith(INTERRUPTED):
-            return lifted or planar.plane.lifted(state), PLANE + how
-    return solve(flow, start_stresses(model, flow.problem, weights, start))
-
-
 @np.errstate(all="ignore")  # a state that ran away is no solution
-def small_barrier(flow: Flow, x0: Array, scale: float, tolerance: float) -> float:
-    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`."""
+def small_barrier(
+    flow: Flow, x0: Array, scale: float, tolerance: float, planar: InPlane | None = None
+) -> float:
+    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`.
+
+    What is found in a plane is judged in the whole problem.
+    """
     state, _ = first_to_solve(flow, x0, scale, MEANS[:1], tolerance, lambda _: None)
     solved = mcp_residuals(flow, state).worst.value <= tolerance
+    solved &= planar is None or planar.accepted(state, tolerance) is not None
     return state.load_factor / flow.problem.units.live if solved else np.nan
 
 
