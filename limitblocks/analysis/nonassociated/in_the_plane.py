@@ -28,7 +28,6 @@ from limitblocks.problem import Flow, State
 from limitblocks.problem.plane import Choice, Planar
 
 SYMMETRIC = 1e-9  # of the largest stress: a start farther from its mirror image is not that of a planar path
-PLANE = "in the plane: "  # before the way
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,20 +58,28 @@ class InPlane:
             one, start=start, increment=increment, state=state, residuals=mcp_residuals(self.whole, state)
         )
 
+    @property
+    def share(self) -> Array:
+        """Of the barrier of the whole problem in each row of the plane."""
+        return self.plane.barrier_of(self.whole.problem.cones)
+
     def _point(self, z: Point) -> Point:
         up, p = self.plane.lifted(State(z.load_factor, z.x, z.u, z.y)), self.whole.problem
         return Point(up.x, up.u, up.load_factor, p.F @ up.x + p.g, up.y, z.theta)
 
 
-def flow_in_plane(model: Model, flow: Flow, weights: Array, start: Start | None) -> InPlane | None:
+def flow_in_plane(
+    model: Model, flow: Flow, weights: Array, start: Start | None, choice: Choice = Choice.FLOWING
+) -> InPlane | None:
     """Return the flow rule in the plane parallel to which everything acts; None where there is none.
 
-    Nor is there one where the compliance `weights` (s,) or the stresses to start from are not symmetric.
+    Nor is there one where the compliance `weights` (s,) or the stresses to start from are not symmetric. With
+    every row the path of a barrier without seed is that of the whole problem.
     """
-    found = in_plane(model.problem, Choice.FLOWING)
+    found = in_plane(model.problem, choice)
     if found is None:
         return None
-    plane = known(flow.problem, "plane in these units", lambda: found.measured(flow.problem))
+    plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
     own = plane.compliance_of(weights)
     x0 = None if own is None else _start(model, flow, plane, own, weights, start)
     if own is None or x0 is None:
@@ -94,7 +101,7 @@ def found_in_plane_or_whole(
         state, how = solve(planar.flow, planar.x0)
         lifted = planar.accepted(state, tolerance)
         if lifted is not None or how.endswith(INTERRUPTED):
-            return lifted or planar.plane.lifted(state), PLANE + how
+            return lifted or planar.plane.lifted(state), way_in_plane(how)
     return solve(flow, start_stresses(model, flow.problem, weights, start))
 
 
@@ -111,6 +118,12 @@ def _start(
         dead_load_state(model.problem)
     ratios = np.round(own / plane.problem.compliance, 9).tobytes()
     return known(plane.problem, ("permanent state", ratios), lambda: permanent_state(plane.problem, own))
+
+
+def way_in_plane(how: str) -> str:
+    """Return the words of a way that was gone in the plane."""
+    end = f", {INTERRUPTED}"
+    return f"{how.removesuffix(end)}, in the plane{end * how.endswith(end)}"
 
 
 def admissible(pushes: tuple[Pushed, ...]) -> bool:

@@ -7,7 +7,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.in_the_plane import PLANE, InPlane, admissible, flow_in_plane
+from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import end, finished, small_barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
@@ -29,6 +29,7 @@ from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem.plane import Choice
 
 AGREE = 1e-6  # relative difference of two load factors that agree
 
@@ -108,7 +109,7 @@ def load_path(
         judge = None if at is flow else planar
         return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, judge)
 
-    planar = flow_in_plane(model, flow, weights, start)
+    planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
     found = (
         None if planar is None else _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
     )
@@ -152,8 +153,9 @@ def _loaded(
         record(_iteration(flow.problem, one))
 
     how = "increments of the load path"
+    share = 1.0 if planar is None else planar.share
     try:
-        pushes, last = pushed(flow, x0, weights, tolerance, settings, scale, push)
+        pushes, last = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
     except KeyboardInterrupt:
         if not met:
             raise
@@ -168,7 +170,7 @@ def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None
     pushes = tuple(planar.pushed(one) for one in found.pushes)
     if last is None or not admissible(pushes):
         return None
-    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, PLANE + found.how, found.tracked)
+    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how), found.tracked)
 
 
 def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:

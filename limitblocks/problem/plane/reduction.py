@@ -77,6 +77,18 @@ class Planar:
         problem = self.problem.measured(whole.units.block_force)
         return replace(self, problem=problem, live=whole.units.live / problem.units.live)
 
+    def barrier_of(self, cones: Cones) -> Array:
+        """Return how many logarithms of the cone K of the whole problem each reduced row stands for, (R',).
+
+        Rows merged in their mean stand for as many as they are. A cone of which z keeps one direction is two
+        rows, t + z > 0 and t - z > 0, and log(t^2 - z^2) / 2 the sum of half their logarithms.
+        """
+        heads = abs(self.multipliers)[cones.heads]
+        count = np.asarray((heads > 0.0).sum(axis=0)).ravel().astype(float)
+        conic = np.asarray((heads[cones.linear :] > 0.0).sum(axis=0)).ravel() > 0
+        line = np.arange(len(count)) < self.problem.cones.linear
+        return np.where(conic & line, count / 2.0, count)
+
     def compliance_of(self, weights: Array) -> Array | None:
         """Return the compliance of reduced stresses from that of all, (s,); None where it is not symmetric.
 
