@@ -51,7 +51,8 @@ def main(folder="output"):
 def picture(folder, thrusts):
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(6, 4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axis = plt.subplots(figsize=(3.5, 2.6))
     axis.fill_between(THICKNESS, *thrusts.T, alpha=0.3, label="states of equilibrium")
     axis.plot(THICKNESS, thrusts[:, 0], "o-", label="springing gives way")
     axis.plot(THICKNESS, thrusts[:, 1], "s-", label="springings pushed together")
@@ -59,7 +60,7 @@ def picture(folder, thrusts):
     axis.set(xlabel="thickness over radius", ylabel="thrust over gamma t d R")
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "25_a_support_gives_way.png", dpi=120)
+    figure.savefig(folder / "25_a_support_gives_way.png")
     plt.close(figure)
 
 

@@ -47,6 +47,17 @@ def bounded(lines: Sequence[str]) -> tuple[str, ...]:
     return (*lines[:MOST_PROBLEMS], f"and {more} more faults") if more > 1 else tuple(lines)
 
 
+def missing(left_out: Sequence[str]) -> list[str]:
+    """Return the line that says which parts of a file are missing in its model; none where none is."""
+    if not left_out:
+        return []
+    shown = ", ".join(left_out[:8]) + (f" and {len(left_out) - 8} more" if len(left_out) > 8 else "")
+    return [
+        f"left out when the file was read: {shown}; if these are what is missing, mend or show them in the "
+        "drawing (limitblocks look says what is wrong) and import it again"
+    ]
+
+
 class LimitBlocksError(Exception):
     """Root of all errors that limitblocks raises on purpose."""
 
@@ -68,14 +79,17 @@ class SolveError(LimitBlocksError):
 
 
 class NoEquilibrium(SolveError):
-    """The dead loads alone cannot stand; `blocks` names the blocks that fall."""
+    """The dead loads alone cannot stand; `blocks` names the blocks that fall.
 
-    def __init__(self, blocks: tuple[str, ...]) -> None:
-        self.blocks = blocks
+    `left_out` are parts of the file of the model that are no blocks of it.
+    """
+
+    def __init__(self, blocks: tuple[str, ...], left_out: Sequence[str] = ()) -> None:
+        self.blocks, self.left_out = blocks, tuple(left_out)
         shown = ", ".join(blocks[:8]) + (f" and {len(blocks) - 8} more" if len(blocks) > 8 else "")
         super().__init__(
             f"the dead loads alone cannot stand: {shown} would fall; "
-            "check supports, missing interfaces and friction"
+            + "; ".join(["check supports, missing interfaces and friction", *missing(left_out)])
         )
 
 

@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields, is_dataclass
+from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -15,7 +15,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from scipy import sparse
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, missing
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
@@ -24,6 +24,8 @@ from limitblocks.shown import Viewed
 from limitblocks.written import write
 
 SCHEMA_VERSION = 1
+_BESIDE = ("tolerances", "left_out")  # of a model: what is told of it, not what it is
+_WORDS = ("layer", "material", "groups", "colour")
 # results keep the hash of their model, not the model: copies in other processes and saved ones stay small
 _MODELS: WeakValueDictionary[str, Model] = WeakValueDictionary()
 
@@ -46,6 +48,8 @@ class Model(Viewed):
         Title in reports.
     tolerances : Tolerances, optional
         Those that the interfaces were found with, which later checks of the contacts use as well.
+    left_out : sequence of str
+        Parts of the file it comes from that are no blocks; named where blocks float or fall.
 
     Raises
     ------
@@ -62,10 +66,12 @@ class Model(Viewed):
     live: Load
     name: str = ""
     tolerances: Tolerances | None = None
+    left_out: Sequence[str] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "blocks", tuple(self.blocks))
         object.__setattr__(self, "supports", tuple(self.supports))
+        object.__setattr__(self, "left_out", tuple(self.left_out))
         problems = _name_problems(self)
         if not problems:
             supports = set(self.supports)
@@ -85,12 +91,13 @@ class Model(Viewed):
     def problem(self) -> LimitProblem:
         """The dimensionless limit problem of the model."""
         free = self.free_blocks
-        return limit_problem(free, self.interfaces, self.dead.on(free), self.live.on(free))
+        problem = limit_problem(free, self.interfaces, self.dead.on(free), self.live.on(free))
+        return replace(problem, left_out=tuple(self.left_out))
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the model document less its tolerances; two models are the same where this is."""
-        document = {key: value for key, value in self.to_dict().items() if key != "tolerances"}
+        """SHA-256 of the document less tolerances and what was left out; same models have the same."""
+        document = {key: value for key, value in self.to_dict().items() if key not in _BESIDE}
         text = json.dumps(document, sort_keys=True)
         found = hashlib.sha256(text.encode()).hexdigest()
         _MODELS[found] = self
@@ -101,7 +108,8 @@ class Model(Viewed):
         kinds = {id(interface.joint): interface for interface in self.interfaces}
         joint = {own: joint_of(interface) for own, interface in kinds.items()}
         joints = {each: f"joint {k + 1}" for k, each in enumerate(dict.fromkeys(joint.values()))}
-        used = {} if self.tolerances is None else {"tolerances": self.tolerances.to_dict()}
+        used: dict[str, Any] = {} if self.tolerances is None else {"tolerances": self.tolerances.to_dict()}
+        used |= {"left_out": list(self.left_out)} if self.left_out else {}
         return {
             "schema_version": SCHEMA_VERSION,
             "name": self.name,
@@ -112,7 +120,7 @@ class Model(Viewed):
                     "vertices": block.vertices.tolist(),
                     "faces": [list(face) for face in block.faces],
                     "unit_weight": block.unit_weight,
-                    **{key: word for key in ("layer", "material") if (word := getattr(block, key))},
+                    **{key: word for key in _WORDS if (word := getattr(block, key))},
                 }
                 for block in self.blocks
             ],
@@ -202,7 +210,7 @@ def _floating_problems(model: Model) -> list[str]:
     shown = ", ".join(map(repr, floating[:8])) + (
         f" and {len(floating) - 8} more" if len(floating) > 8 else ""
     )
-    return [f"floating: no chain of interfaces ties {shown} to a support"]
+    return [f"floating: no chain of interfaces ties {shown} to a support", *missing(model.left_out)]
 
 
 def _load_problems(model: Model) -> list[str]:

@@ -75,11 +75,11 @@ def html(thing: Any) -> str:
     if known is None or not shown(thing):
         return _rendered(type(thing).__name__, [(line,) for line in str(thing).split("; ")])
     said = section(known, checked(known, thing))
-    rates = said.rates
+    rates, curve = said.rates, said.curve
     return _rendered(
         f"{said.title}: {said.headline} {said.quantity}",
         [*said.values, *(("Warning", one, "") for one in said.warnings)],
-        None if rates is None else _drawing(known, rates),
+        _drawing(known, rates) if rates is not None else curve.sheet() if curve else None,
     )
 
 

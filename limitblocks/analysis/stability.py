@@ -173,7 +173,7 @@ def _dead_load_state(problem: LimitProblem) -> Array:
         said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
     fallen = falls(problem, problem.dead)
     if fallen:
-        raise NoEquilibrium(fallen)
+        raise NoEquilibrium(fallen, problem.left_out)
     raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))
 
 

@@ -9,39 +9,40 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from limitblocks.cli.progress import of_iterations, of_stages
+from limitblocks.cli.progress import of_iterations, of_places, of_points, of_settlement, of_stages
 from limitblocks.errors import UnlimitedLoad
 
 if TYPE_CHECKING:
-    from limitblocks.evidence.stability_result import Stability
     from limitblocks.model import Model
 
 
-def stability(model: Model) -> Stability:
-    """Does it stand under its dead loads."""
-    from limitblocks.analysis.stability import stability as solve
-
-    with of_iterations("stability"):
-        return solve(model)
-
-
 def _analysis(
-    verb: str, home: str, name: str, progress: Callable[[str], AbstractContextManager[Any]]
+    verb: str,
+    home: str,
+    name: str,
+    progress: Callable[[str], AbstractContextManager[Any]],
+    tells: bool = True,
 ) -> Callable[..., Any]:
-    """The function `name` of a module of `limitblocks.analysis`, as the verb that shows its progress."""
+    """The function `name` of a module as the verb that shows its progress, or the time if it tells none."""
 
     def run(model: Model, **settings: Any) -> Any:
-        solve = getattr(import_module(f"limitblocks.analysis.{home}"), name)
+        solve = getattr(import_module(f"limitblocks.{home}"), name)
         with progress(verb) as show:
-            return solve(model, **settings, progress=show)
+            return solve(model, **settings, **({"progress": show} if tells else {}))
 
     return run
 
 
-bounds = _analysis("bounds", "bounds", "bounds", of_stages)
-nonassociated = _analysis("nonassociated", "nonassociated.loop", "nonassociated", of_iterations)
-load_factor_range = _analysis("range", "load_factor_range.run", "load_factor_range", of_iterations)
-path = _analysis("path", "nonassociated.load_path", "load_path", of_iterations)
+stability = _analysis("stability", "analysis.stability", "stability", of_stages, tells=False)
+bounds = _analysis("bounds", "analysis.bounds", "bounds", of_stages)
+nonassociated = _analysis("nonassociated", "analysis.nonassociated.loop", "nonassociated", of_iterations)
+load_factor_range = _analysis("range", "analysis.load_factor_range.run", "load_factor_range", of_iterations)
+path = _analysis("path", "analysis.nonassociated.load_path", "load_path", of_iterations)
+settlement = _analysis("settle", "practice.settlement", "settlement", of_stages, tells=False)
+settlement_to_collapse = _analysis("settle", "practice.collapse", "settlement_to_collapse", of_settlement)
+adequacy = _analysis("adequacy", "practice.adequacy", "adequacy", of_stages, tells=False)
+capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_points)
+vehicle = _analysis("vehicle", "practice.vehicles", "worst_position", of_places)
 
 
 def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:

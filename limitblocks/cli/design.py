@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import AsJson, Force, ModelFile, ResultFile
-from limitblocks.cli.practice import tell
+from limitblocks.cli import analyses
+from limitblocks.cli.answers import answer
+from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
 
 Dead = Annotated[float, typer.Option("--gamma-g", help="Multiplies the dead loads.", show_default=False)]
 Live = Annotated[float, typer.Option("--gamma-q", help="Multiplies the live loads.", show_default=False)]
@@ -23,10 +23,6 @@ Ties = Annotated[
     float | None, typer.Option("--gamma-s", help="Divides the strength of ties and dowels, if there are any.")
 ]
 Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
-Filed = Annotated[
-    Path | None,
-    typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
-]
 
 
 def adequacy(
@@ -44,32 +40,10 @@ def adequacy(
 ) -> None:
     """Print the load factor with partial factors on loads and strengths; exit code 1 below one."""
     with clean_errors():
-        from limitblocks.io import read
         from limitblocks.practice import PartialFactors
-        from limitblocks.practice import adequacy as find
-        from limitblocks.reports import files, report
 
-        refuse_existing(output, force, model)
-        if filed:
-            files.suffix(filed)  # before the analysis, not after it
-            refuse_existing(filed, force, model)
-        structure = read(model)
-        factors = PartialFactors(dead, live, strength, friction, ties)
-        found = find(structure, factors, without_dilatancy=not associated)
-        rows = [
-            (
-                f"{one.symbol}, {one.where}",
-                one.design,
-                f"{one.unit} from {one.characteristic:.6g}, {one.factor}",
-            )
-            for one in found.values
-        ]
-        rows += [
-            ("characteristic load factor", found.characteristic.lower, "associated"),
-            ("adequacy factor", found.factor, "associated" if associated else "without dilatancy"),
-        ]
-        if filed:
-            report(structure, found).save(filed, overwrite=force)
-        tell(found, "Design values", rows, as_json, output, force)
+        settings: Any = {"factors": PartialFactors(dead, live, strength, friction, ties)}
+        settings |= {"without_dilatancy": not associated}
+        found = answer(analyses.adequacy, model, as_json, output, force, filed, **settings)
     if not found.satisfied:
         raise typer.Exit(1)

@@ -85,9 +85,9 @@ def import_blocks(
     with clean_errors():
         from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.blocks import read_blocks
-        from limitblocks.io.formats.dxf.outlines import read_drawing
+        from limitblocks.io.formats.dxf.elevation import read_drawing
         from limitblocks.io.structure_file import model_of
-        from limitblocks.mechanics import mass_proportional
+        from limitblocks.mechanics.loads import mass_proportional
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)

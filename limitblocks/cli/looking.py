@@ -49,6 +49,8 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
         ("Blocks", f"{len(seen.blocks)}{bad}"),
         ("Layers", _times(seen.layers)),
         ("Materials", _times(seen.materials)),
+        *([("Groups", _times(seen.groups))] if seen.groups else []),
+        *([("Colours", _times(seen.colours))] if seen.colours else []),
         ("Unit of length", seen.units),
         ("Up", seen.up),
         ("Size", " × ".join(f"{side:.4g}" for side in seen.size) + " m"),

@@ -43,6 +43,10 @@ ReportFile = Annotated[
         help="HTML, JSON, Markdown or PDF file [default: HTML beside the model].",
     ),
 ]
+Filed = Annotated[
+    Path | None,
+    typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
+]
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
 ExportFile = Annotated[
     Path,

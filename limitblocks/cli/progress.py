@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from limitblocks.evidence.results import Iteration
+    from limitblocks.practice import CapacityPoint, SettlementPoint
 
 EVERY = 10.0  # s between lines
 Tell = Callable[[str, float | None], None]
@@ -32,6 +33,27 @@ def of_stages(verb: str) -> Iterator[Callable[[str], None]]:
     """Give a callback for the stages of an analysis."""
     with _told(verb) as tell:
         yield lambda stage: tell(stage, None)
+
+
+@contextmanager
+def of_points(verb: str) -> Iterator[Callable[[CapacityPoint], None]]:
+    """Give a callback for the points of a capacity curve."""
+    with _told(verb) as tell:
+        yield lambda one: tell(f"{one.displacement:.6g} m: load factor {one.load_factor:.6g}", None)
+
+
+@contextmanager
+def of_settlement(verb: str) -> Iterator[Callable[[SettlementPoint], None]]:
+    """Give a callback for the points of a support that settles."""
+    with _told(verb) as tell:
+        yield lambda one: tell(f"{one.displacement:.6g} m: reaction {one.reaction:.6g} N", None)
+
+
+@contextmanager
+def of_places(verb: str) -> Iterator[Callable[[float, float], None]]:
+    """Give a callback for the places of a vehicle."""
+    with _told(verb) as tell:
+        yield lambda x, factor: tell(f"X = {x:.6g} m: load factor {factor:.6g}", None)
 
 
 @contextmanager

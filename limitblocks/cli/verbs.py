@@ -85,7 +85,7 @@ def path(
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
-        snaps = {"snaps": "along"} if along else {}
+        snaps: Any = {"snaps": "along"} if along else {}
         answer(analyses.path, model, as_json, output, force, **flow, **snaps)
 
 

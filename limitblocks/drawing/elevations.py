@@ -10,6 +10,7 @@ from limitblocks.arrays import Array
 from limitblocks.drawing import sheet
 from limitblocks.drawing.sheet import WIDTH, Group, Label, Shape, Sheet
 from limitblocks.drawing.silhouette import hulls
+from limitblocks.drawing.ties import tie_lines
 from limitblocks.drawing.view import PLANES
 from limitblocks.model import Model
 
@@ -21,10 +22,14 @@ _FINE = 3  # decimals, m, within which two polygons on the page are one
 
 
 class _View(NamedTuple):
-    """Polygons (k, 2) on the page, m, back to front, those of supports told apart; what is dimensioned."""
+    """Polygons (k, 2) on the page, m, back to front, those of supports told apart; what is dimensioned.
+
+    `ties` (t, 2, 2) are the anchors of ties.
+    """
 
     plane: str
     polygons: list[tuple[Array, bool]]
+    ties: Array
     low: Array
     high: Array
     free_low: Array
@@ -32,7 +37,7 @@ class _View(NamedTuple):
 
 
 def elevations(model: Model) -> Sheet:
-    """Return front, side and plan of `model`; dimensioned are the free blocks, as a whole."""
+    """Return front, side and plan of `model` with its ties; dimensioned are the free blocks, as a whole."""
     front, side, plan = (_view(model, plane) for plane in PLANES)
     across = (front.high - front.low)[0], (side.high - side.low)[0]
     up = (front.high - front.low)[1], (plan.high - plan.low)[1]
@@ -77,10 +82,12 @@ def _view(model: Model, plane: str) -> _View:
         key = tuple(np.sort(hull.round(_FINE) + 0.0, axis=0).ravel().tolist())
         seen.pop(key, None)
         seen[key] = hull, block.name in supports
-    points = np.concatenate([block.vertices for block in model.blocks]) @ view[:2].T
+    anchors = np.array([line.anchors for line in tie_lines(model)]).reshape(-1, 2, 3)
+    corners = [block.vertices for block in model.blocks]
+    points = np.concatenate([*corners, anchors.reshape(-1, 3)]) @ view[:2].T
     free = np.concatenate([block.vertices for block in model.free_blocks]) @ view[:2].T
     ends = points.min(axis=0), points.max(axis=0), free.min(axis=0), free.max(axis=0)
-    return _View(plane, list(seen.values()), *ends)
+    return _View(plane, list(seen.values()), anchors @ view[:2].T, *ends)
 
 
 def _placed(view: _View, scale: float, left: float, top: float) -> tuple[list[Group], list[Label]]:
@@ -91,6 +98,9 @@ def _placed(view: _View, scale: float, left: float, top: float) -> tuple[list[Gr
         Group("support" if held else "still", "", (Shape(sheet.path(on_page(polygon)), "f0"),))
         for polygon, held in view.polygons
     ]
+    ties = tuple(Shape(sheet.path(on_page(ends), closed=False)) for ends in view.ties)
+    if ties:
+        blocks.append(Group("tie-stick", "", ties))
     (x0, y1), (x1, y0) = on_page(np.array([view.free_low, view.free_high])).tolist()
     bottom = float(on_page(view.low[None])[0, 1]) + _OFF
     edge = left - _OFF

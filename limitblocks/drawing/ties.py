@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.joints import Guide, Tie
+from limitblocks.joints import Backfill, Guide, Tie
 from limitblocks.model import Model
 
 
@@ -41,6 +41,7 @@ def moved(model: Model, line: TieLine, displacements: Array) -> Array:
 
 
 def has_area(model: Model) -> list[bool]:
-    """Return of each interface whether its polygon is drawn: neither of a guide nor of a long tie."""
+    """Return of each interface whether its polygon is drawn: neither of a guide, fill nor a long tie."""
     lines = {line.interface for line in tie_lines(model)}
-    return [k not in lines and not isinstance(one.joint, Guide) for k, one in enumerate(model.interfaces)]
+    kinds = [isinstance(one.joint, Guide | Backfill) for one in model.interfaces]
+    return [k not in lines and not bare for k, bare in enumerate(kinds)]

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array
+from limitblocks.shown import Result
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +46,8 @@ class Influence:
         return f"{self.kind} of {self.name}: {self.elasticity:+.3g} per unit of relative change"
 
 
-@dataclass(frozen=True, eq=False)
-class Sensitivities:
+@dataclass(frozen=True, eq=False, repr=False)
+class Sensitivities(Result):
     """Derivatives of the associated load factor by the data of a model, without solving again.
 
     Attributes
@@ -108,18 +109,26 @@ class Sensitivities:
         found = [Influence(one.kind, one.name, float(one.elasticity)) for one in found]
         return tuple(sorted(found, key=lambda one: -abs(one.elasticity))[:n])
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each joint and stone, the one that matters most first."""
+        found = self.governing(len(self.blocks) + len(self.interfaces))
+        return [{"kind": one.kind, "name": one.name, "elasticity": one.elasticity} for one in found]
+
     def __str__(self) -> str:
         first = "; ".join(map(str, self.governing(3)))
         sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
-        return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}"
+        return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}{self._as_read}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the derivatives as plain numbers (None where there is none), lists and text."""
         names = ("friction", "cohesion", "compressive_strength", "tensile_strength", "unit_weight")
         numbers = {name: _plain(getattr(self, name)) for name in names}
         return {
+            "analysis": "sensitivities",
             "load_factor": self.load_factor,
             **numbers,
+            "weights": self.weights.tolist(),
+            "frictions": _plain(self.frictions),
             "positions": [
                 {"load": one.load, "term": one.term, "block": one.block, "gradient": one.gradient.tolist()}
                 for one in self.positions

@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import operator
-import reprlib
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, read_only
-from limitblocks.errors import GeometryError, ModelError
-from limitblocks.geometry import polyhedron, surface
+from limitblocks.errors import ModelError
+from limitblocks.geometry import given, polyhedron, surface
 from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
 
 _CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
+_WORDS = ("unit_weight", "layer", "material", "groups", "colour")
 _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
-_LARGEST = 1e30  # its cube is still a number
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,11 +39,16 @@ class Block:
     layer, material : str
         Where the block is in a drawing, and what it is made of; empty if nothing is known. Only words: the
         numbers of a material are the unit weight and the joints.
+    groups : sequence of str
+        Groups of a drawing that it belongs to.
+    colour : str
+        "#rrggbb" that a drawing gives it; empty for none.
 
     Raises
     ------
     ModelError
-        The name is empty, a word is no text, or the unit weight is not a finite number >= 0.
+        The name is empty, a word is no text, the colour is none, or the unit weight is not a finite number
+        >= 0.
     GeometryError
         The faces are not the closed surface of one piece with planar faces. A vertex may lie out of the
         plane of a face by 1e-3 of the block's size.
@@ -57,21 +60,25 @@ class Block:
     unit_weight: float | None = None
     layer: str = ""
     material: str = ""
+    groups: Sequence[str] = ()
+    colour: str = ""
 
     def __post_init__(self) -> None:
-        _require_name(self.name)
-        _require_words(self.name, self.layer, self.material)
-        object.__setattr__(self, "unit_weight", _unit_weight(self.name, self.unit_weight))
-        object.__setattr__(self, "vertices", _numbers(self.name, "vertices", self.vertices, (None, 3)))
-        object.__setattr__(self, "faces", _faces(self.name, self.faces))
+        given.require_name(self.name)
+        for key, word in given.words(self.name, self.words).items():
+            object.__setattr__(self, key, word)
+        object.__setattr__(self, "vertices", given.numbers(self.name, "vertices", self.vertices, (None, 3)))
+        object.__setattr__(self, "faces", given.faces_of(self.name, self.faces))
         fault = polyhedron.mesh_fault(self.faces, len(self.vertices))
-        fault = fault or polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+        if not fault:
+            fault = polyhedron.shape_fault(self._points, self.mesh, self.size, self._shape)
+            fault += polyhedron.odd_places(self.vertices) if fault else ""
         fault = fault or polyhedron.plane_fault(self._points, self.mesh, self.size, self._planes)
         fault = fault or surface.loop_fault(self._points, self.mesh, self.normals)
         if not fault and not self.convex:
             fault = surface.surface_fault(self._points, self.mesh, self.normals, self.size)
         if fault:
-            _wrong(self.name, fault)
+            given.wrong(self.name, fault)
 
     @classmethod
     def box(
@@ -84,10 +91,10 @@ class Block:
         GeometryError
             A dimension is not positive, or a number is not finite.
         """
-        sides = _numbers(name, "size", size, (3,))
+        sides = given.numbers(name, "size", size, (3,))
         if sides.min() <= 0.0:
-            _wrong(name, f"size is {tuple(sides.tolist())}; all three dimensions must be positive")
-        return cls(name, _numbers(name, "at", at, (3,)) + _CORNERS * sides, _BOX_FACES, unit_weight)
+            given.wrong(name, f"size is {tuple(sides.tolist())}; all three dimensions must be positive")
+        return cls(name, given.numbers(name, "at", at, (3,)) + _CORNERS * sides, _BOX_FACES, unit_weight)
 
     @cached_property
     def size(self) -> float:
@@ -147,6 +154,11 @@ class Block:
         """Offsets of the face planes `normals @ x = offsets`, global axes, shape (m,), m."""
         return read_only(self._planes[1] + self.normals @ self._origin)
 
+    @property
+    def words(self) -> dict[str, Any]:
+        """Unit weight, layer, material, groups and colour, as :meth:`labelled` takes them."""
+        return {key: getattr(self, key) for key in _WORDS}
+
     def moved(self, rotation: npt.ArrayLike, translation: npt.ArrayLike) -> Block:
         """Return a copy with vertices `rotation @ x + translation`.
 
@@ -162,27 +174,25 @@ class Block:
         GeometryError
             `rotation` is not a proper rotation, or a number is not finite.
         """
-        turn = _numbers(self.name, "rotation", rotation, (3, 3))
+        turn = given.numbers(self.name, "rotation", rotation, (3, 3))
         if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
-            _wrong(
+            given.wrong(
                 self.name,
                 f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed",
             )
-        shift = _numbers(self.name, "translation", translation, (3,))
+        shift = given.numbers(self.name, "translation", translation, (3,))
         return replace(self, vertices=self.vertices @ turn.T + shift)
 
-    def labelled(self, *, unit_weight: float | None, layer: str, material: str) -> Block:
-        """Return the same body with another unit weight, N/m3, layer and material.
+    def labelled(self, **words: Any) -> Block:
+        """Return the same body with another `unit_weight`, `layer`, `material`, `groups` or `colour`.
 
         Raises
         ------
         ModelError
-            A word is no text, or the unit weight is not a finite number >= 0.
+            As for a new block.
         """
-        _require_words(self.name, layer, material)
         block = copy(self)  # with what was computed of its shape
-        words = {"unit_weight": _unit_weight(self.name, unit_weight), "layer": layer, "material": material}
-        block.__dict__.update(words)
+        block.__dict__.update(given.words(self.name, words))
         return block
 
     @cached_property
@@ -200,54 +210,3 @@ class Block:
     @cached_property
     def _shape(self) -> Shape:
         return polyhedron.shape(self._points, self.mesh)
-
-
-def _require_name(name: object) -> None:
-    if not isinstance(name, str) or not name.strip():
-        raise ModelError(f"a block's name is {name!r}; it must be a text that is not empty")
-
-
-def _wrong(name: str, fault: str) -> NoReturn:
-    raise GeometryError(f"block {name!r}: {fault}")
-
-
-def _numbers(name: str, what: str, values: Any, shape: tuple[int | None, ...]) -> Array:
-    """Return `values` as a read-only array of finite numbers of the given shape (None: any length)."""
-    wanted = str(shape).replace("None", "n")
-    try:
-        array = read_only(values)
-    except (TypeError, ValueError):
-        _wrong(name, f"{what}: {reprlib.repr(values)} given; numbers of shape {wanted} are needed")
-    if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
-        _wrong(name, f"{what}: shape {array.shape} given; shape {wanted} is needed")
-    sound = np.abs(array) <= _LARGEST
-    if not sound.all():
-        place = tuple(np.argwhere(~sound)[0].tolist())
-        indices = ", ".join(map(str, place))
-        _wrong(name, f"{what}[{indices}] is {array[place]}; a finite number up to {_LARGEST:g} is needed")
-    return array
-
-
-def _require_words(name: str, layer: Any, material: Any) -> None:
-    for word, value in (("layer", layer), ("material", material)):
-        if not isinstance(value, str):
-            raise ModelError(f"block {name!r}: {word} is {value!r}; text is needed, empty for none")
-
-
-def _faces(name: str, faces: Sequence[Sequence[int]]) -> Faces:
-    try:
-        return tuple(tuple(operator.index(vertex) for vertex in face) for face in faces)
-    except TypeError:
-        _wrong(name, f"faces: {reprlib.repr(faces)} given; sequences of vertex indices are needed")
-
-
-def _unit_weight(name: str, value: Any) -> float | None:
-    if value is None:
-        return None
-    try:
-        weight = float(value)
-    except (TypeError, ValueError):
-        weight = np.nan
-    if not 0.0 <= weight < np.inf:
-        raise ModelError(f"block {name!r}: unit weight is {value!r}; a finite number >= 0 in N/m3 is needed")
-    return weight

@@ -20,8 +20,9 @@ from limitblocks.geometry.accuracy import (
     chosen,
 )
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.contacts import Contacts, NearMiss, Overlap, Sliver, Through
+from limitblocks.geometry.contacts import Contacts
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed
+from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.interface import Interface
 from limitblocks.geometry.kinds import sorted_by_kind
 from limitblocks.geometry.neighbours import neighbours

@@ -8,6 +8,7 @@ from typing import Any
 
 from limitblocks.errors import GeometryError
 from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
+from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.interface import Interface
 from limitblocks.shown import Shown
 
@@ -15,106 +16,6 @@ _SHOWN = 8
 _DEFAULT = Tolerances()
 #: Accuracy, in block lengths, that is roundoff.
 _EXACT = 1e-7
-
-
-@dataclass(frozen=True)
-class NearMiss:
-    """Faces of two blocks that would touch if they were a little closer or more parallel.
-
-    Attributes
-    ----------
-    block_i, block_j : str
-    gap : float
-        Largest distance between the two planes over the area, m; negative where they interpenetrate.
-    angle : float
-        Angle between the two planes, rad.
-    area : float
-        Area common to both faces, m2.
-    """
-
-    block_i: str
-    block_j: str
-    gap: float
-    angle: float
-    area: float
-
-    def __str__(self) -> str:
-        return (
-            f"{self.block_i}|{self.block_j} (gap {self.gap:.3g} m, {self.angle:.3g} rad, {self.area:.3g} m2)"
-        )
-
-
-@dataclass(frozen=True)
-class Overlap:
-    """Two blocks that interpenetrate deeper than tolerated.
-
-    Attributes
-    ----------
-    block_i, block_j : str
-    depth : float
-        Of two convex blocks the least translation that separates them. Otherwise the mean thickness of the
-        common part, twice its volume over its surface; of several parts the largest, m.
-    volume : float
-        Common volume, m3; nan when it cannot be told.
-    tolerance : float
-        Depth that would be tolerated, m.
-    """
-
-    block_i: str
-    block_j: str
-    depth: float
-    volume: float
-    tolerance: float
-
-    def __str__(self) -> str:
-        return (
-            f"blocks {self.block_i!r} and {self.block_j!r} overlap by {self.volume:.3g} m3, "
-            f"{self.depth:.3g} m deep; at most {self.tolerance:.3g} m is tolerated"
-        )
-
-
-@dataclass(frozen=True)
-class Sliver:
-    """Contact that was dropped because it is too small, or as a strip because it is too narrow.
-
-    Attributes
-    ----------
-    block_i, block_j : str
-    area : float
-        m2.
-    width : float
-        Mean width, the area over half the perimeter, m.
-    """
-
-    block_i: str
-    block_j: str
-    area: float
-    width: float
-
-    def __str__(self) -> str:
-        return f"{self.block_i}|{self.block_j} ({self.area:.3g} m2, {self.width:.3g} m wide)"
-
-
-@dataclass(frozen=True)
-class Through:
-    """Faces of two blocks within the tolerances that do not touch, because a third block lies between them.
-
-    Attributes
-    ----------
-    block_i, block_j : str
-    between : str
-        Block that holds them apart.
-    gap : float
-        Largest distance between the two faces, m.
-    """
-
-    block_i: str
-    block_j: str
-    between: str
-    gap: float
-
-    def __str__(self) -> str:
-        return f"{self.block_i}|{self.block_j} (through {self.between}, gap {self.gap:.3g} m)"
 
 
 @dataclass(frozen=True, repr=False)
@@ -160,7 +61,7 @@ class Contacts(Shown):
     def faults(self) -> tuple[str, ...]:
         """A sentence for each thing that makes the interfaces no answer, with its remedy."""
         overlaps = (f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps)
-        return (*overlaps, *([self._coarse] if self._coarse and self.chosen else []))
+        return (*self._remedy_of_all, *overlaps, *([self._coarse] if self._coarse and self.chosen else []))
 
     def require(self) -> None:
         """Raise GeometryError with all `faults`; do nothing where there is none."""
@@ -170,9 +71,28 @@ class Contacts(Shown):
     def _remedy(self, overlap: Overlap) -> str:
         if overlap.tolerance < self.tolerances.gap * self.length:
             return ", half the thickness of the thinner one; draw them apart, or as one"
-        if overlap.depth > 0.05 * self.length:
-            return "; draw them apart"
-        return f"; draw them apart, or give gap={1.1 * overlap.depth / self.length:.2g} (block lengths)"
+        gap = self._gap_for(overlap)
+        return "; draw them apart" + (f", or give gap={gap:.2g} (block lengths)" if gap else "")
+
+    def _gap_for(self, overlap: Overlap) -> float:
+        """Return the gap that takes two blocks as touching that overlap; zero where none should."""
+        thin = overlap.tolerance < self.tolerances.gap * self.length
+        deep = overlap.depth > 0.05 * self.length
+        return 0.0 if thin or deep else 1.1 * overlap.depth / self.length
+
+    @property
+    def _remedy_of_all(self) -> list[str]:
+        """The line with one remedy of several overlaps; none where there is none, or one overlap."""
+        gaps = [gap for gap in map(self._gap_for, self.overlaps) if gap]
+        if len(self.overlaps) < 2 or not gaps:
+            return []
+        count, gap = len(self.overlaps), f"{max(gaps):.2g}"
+        deepest = max(one.depth for one in self.overlaps if self._gap_for(one))
+        these = "" if len(gaps) == count else f"{len(gaps)} of them "
+        return [
+            f"{count} pairs of blocks overlap, {these}by up to {deepest:.3g} m: draw them apart, or give "
+            f"gap={gap} (--gap {gap}, block lengths) to take {'these' if these else 'them'} as touching"
+        ]
 
     @property
     def _coarse(self) -> str:
@@ -196,6 +116,7 @@ class Contacts(Shown):
     def warnings(self) -> list[str]:
         """A line for each kind of thing found beside the interfaces, and for each overlap."""
         lines = [self._coarse] if self._coarse else []
+        lines += [*self._remedy_of_all]
         lines += [f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps[:_SHOWN]]
         if len(self.overlaps) > _SHOWN:
             lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")

@@ -10,7 +10,7 @@ import shapely
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.regions import Surfaces, regions
+from limitblocks.geometry.regions import Surfaces, in_turn, regions
 
 _CHUNK = 500_000  # face pairs held in memory at once
 
@@ -19,7 +19,8 @@ class FaceTable(NamedTuple):
     """All plane regions of all blocks, one after the other: m regions, e half-edges around them.
 
     A region is a face, or several faces in one plane. `corners` and `ends` (e, 3), with `first` and `sides`
-    (m,), are where its half-edges start and end; those of a single face (`single`, (m,)) follow each other.
+    (m,), are where its half-edges start and end; those of a region with one loop around it (`ring`, (m,))
+    follow each other.
     `middle`, `normal`, `low`, `high`, `arm` (m, 3) are its mean corner, unit normal, bounds and a direction
     that moves with the block; `area` and `block` (m,) its area and block. `start` and `number` (blocks,) say
     where each block's regions are.
@@ -29,7 +30,7 @@ class FaceTable(NamedTuple):
     ends: Array
     first: Indices
     sides: Indices
-    single: Any
+    ring: Any
     middle: Array
     normal: Array
     area: Array
@@ -71,6 +72,7 @@ def face_table(
     number = [len(mesh.first) for mesh in meshes]
     corners, face, beyond, _ = surfaces
     start = np.concatenate([mesh.start for mesh in meshes])
+    end = np.concatenate([mesh.end for mesh in meshes])
     ends = np.concatenate([body[mesh.end] for body, mesh in zip(points, meshes, strict=True)])
     normal = np.concatenate([block.normals for block in blocks])
     area = np.concatenate([block.areas for block in blocks])
@@ -83,6 +85,8 @@ def face_table(
     own = region[face[order]]
     sides = np.bincount(own, minlength=len(heads))
     first = np.cumsum(sides) - sides
+    rings, turn = in_turn(own, first, sides, start[order], end[order])
+    order = order[turn]
     vectors = np.column_stack([np.bincount(region, x) for x in (normal * area[:, None]).T])
     areas = np.linalg.norm(vectors, axis=1)
     table = corners[order]
@@ -91,7 +95,7 @@ def face_table(
         ends=ends[order],
         first=first,
         sides=sides,
-        single=single,
+        ring=rings,
         middle=np.add.reduceat(table, first) / sides[:, None],
         normal=np.where(single[:, None], normal[heads], vectors / areas[:, None]),
         area=np.where(single, area[heads], areas),
@@ -118,7 +122,7 @@ def projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> A
     owner, k = ranges(faces.sides[face])
     place = faces.first[face][owner] + k
     points = np.einsum("kij,kj->ki", frame[owner, :2], faces.corners[place] - origin[owner])
-    rings = faces.single[face]
+    rings = faces.ring[face]
     shapes = np.empty(len(face), dtype=object)
     number = np.cumsum(rings) - 1
     of_ring = rings[owner]
@@ -133,8 +137,7 @@ def projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> A
         ], axis=1)  # fmt: skip
         lines = shapely.multilinestrings(shapely.linestrings(segments), indices=number[owner[~of_ring]])
         shapes[~rings] = shapely.build_area(lines)
-    odd = np.flatnonzero(~rings | (faces.sides[face] > 4))
-    odd = odd[~shapely.is_valid(shapes[odd])]
+    odd = np.flatnonzero(~shapely.is_valid(shapes))
     shapes[odd] = shapely.make_valid(shapes[odd], method="structure", keep_collapsed=False)
     return shapes
 

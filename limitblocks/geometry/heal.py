@@ -133,7 +133,7 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
 
 def _as(old: Block, new: Block) -> Block:
     """Return the new body with what was known of the old one."""
-    return new.labelled(unit_weight=old.unit_weight, layer=old.layer, material=old.material)
+    return new.labelled(**old.words)
 
 
 def _coarse(block: Block, tolerance: float) -> Block:

@@ -16,7 +16,7 @@ from limitblocks.errors import GeometryError
 from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
-from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces
+from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, odd_places
 from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
 
 #: Distance, relative to the block's size, below which two vertices are one.
@@ -64,6 +64,7 @@ def mended(
         The polygons do not enclose one solid, or it is no block; names the block and the place.
     """
     points, loops = _checked(name, vertices, faces)
+    given = points
     notes: list[str] = []
     size = float(np.ptp(points, axis=0).max())
     points, loops = _welded(name, points, loops, WELD * size, notes)
@@ -71,7 +72,7 @@ def mended(
     if open_sides(loops).size:
         points, loops = closed(name, points, loops, CRACK * size, notes)
     if not loops:
-        _wrong(name, "no face has an area; a solid is needed")
+        _wrong(name, f"no face has an area; a solid is needed{odd_places(given)}")
     loops = _outward(name, points, loops, notes)
     loops, warp = coplanar.merged(points, loops, size, _MOST_FACES)
     if len(loops) > _MOST_FACES:

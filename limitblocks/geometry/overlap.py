@@ -12,7 +12,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.contacts import Overlap
+from limitblocks.geometry.findings import Overlap
 
 _CHUNK = 2_000_000  # distances held in memory at once
 _FEW = 1000  # pairs of edges that are tried before a common part is made

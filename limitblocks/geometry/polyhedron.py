@@ -21,6 +21,8 @@ PLANE_TOLERANCE = 1e-3
 CONVEX_TOLERANCE = 1e-4
 #: Length, area and volume, relative to powers of the block's size, that count as nothing.
 ZERO_TOLERANCE = 1e-9
+#: Distance from the others, over theirs, that makes one vertex a slip; from the origin, over the size, far.
+_STRAY, _FAR = 1e3, 1e6
 _CHUNK = 2_000_000  # heights held in memory at once
 
 
@@ -134,7 +136,11 @@ def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
     lengths2 = np.einsum("ij,ij->i", sides, sides)
     if lengths2.min() <= (ZERO_TOLERANCE * size) ** 2:
         k = lengths2.argmin()
-        return f"vertices {edges.start[k]} and {edges.end[k]} coincide; keep one of them"
+        ends = f"vertices {edges.start[k]} and"
+        if lengths2[k] > 0.0:
+            apart = f"{np.sqrt(lengths2[k]):.3g} m apart, which is nothing beside a size of {size:.3g} m"
+            return f"{ends} {edges.end[k]} are {apart}"
+        return f"{ends} {edges.end[k]} coincide; keep one of them"
     if abs(body.volume) <= ZERO_TOLERANCE * size**3:
         return f"the volume is zero ({body.volume:.3g} m3 for a size of {size:.3g} m); a block has a volume"
     if body.volume < 0.0:
@@ -145,6 +151,21 @@ def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
     areas = np.sqrt(np.einsum("ij,ij->i", body.area_vectors, body.area_vectors))
     if areas.min() <= ZERO_TOLERANCE * size**2:
         return f"face {areas.argmin()} has no area; its vertices must span a plane"
+    return ""
+
+
+def odd_places(vertices: Array) -> str:
+    """Say what in the places of vertices (n, 3), m, may make a shape impossible; empty for nothing."""
+    away = np.abs(vertices - np.median(vertices, axis=0)).max(axis=1)
+    k, size = int(away.argmax()), float(np.ptp(vertices, axis=0).max())
+    place, largest = ", ".join(f"{x:.6g}" for x in vertices[k]), float(np.abs(vertices).max())
+    if len(away) > 4 and away[k] > _STRAY * np.partition(away, -2)[-2]:
+        return f"; vertex {k} at ({place}) m is far from all others: a slip?"
+    if largest > _FAR * size:
+        return (
+            f"; at {largest:.3g} m from the origin coordinates may have too few digits for it: move the "
+            "structure to the origin in the program that wrote it"
+        )
     return ""
 
 

@@ -105,3 +105,28 @@ def _linked(region: Indices, links: Indices) -> Indices:
     _, part = connected_components(graph, directed=False)
     _, first = np.unique(part, return_index=True)
     return np.asarray(first[part])
+
+
+def in_turn(
+    own: Indices, first: Indices, sides: Indices, start: Indices, end: Indices
+) -> tuple[Any, Indices]:
+    """Tell which regions have one loop around them, (m,), and put their half-edges in turn, (e,).
+
+    Half-edges lie region after region, `own` (e,), at `first` and as many as `sides` (m,); `start` and `end`
+    (e,) are their vertices, numbered by block. Those of other regions, with holes or touching themselves at
+    a vertex, stay where they are.
+    """
+    leaving, arriving = np.lexsort((start, own)), np.lexsort((end, own))
+    again = np.flatnonzero((np.diff(own[leaving]) == 0) & (np.diff(start[leaving]) == 0))
+    ring = np.ones(len(sides), dtype=bool)
+    ring[own[leaving[again]]] = False
+    after = np.empty_like(leaving)
+    after[arriving] = leaving  # each vertex of a region is left as often as it is reached
+    turn, here, going = np.arange(len(own)), first.copy(), np.flatnonzero(ring)
+    for k in range(1, int(sides.max(initial=0)) + 1):
+        here[going] = after[here[going]]
+        back = here[going] == first[going]
+        ring[going[back & (k < sides[going])]] = False
+        going = going[~back]
+        turn[first[going] + k] = here[going]
+    return ring, np.where(ring[own], turn, np.arange(len(own)))

@@ -12,7 +12,7 @@ from limitblocks.geometry.block import Block
 
 Selection = str | Iterable[str] | Callable[[Block], bool]
 
-_WORDS = ("name", "layer", "material")
+_WORDS = ("name", "layer", "material", "group")
 _PLACE = re.compile(r"\s*([xyz])\s*([<>])=?\s*([-+0-9.eE]+)\s*")
 _WILD = re.compile(r"[*?\[]")
 _SHOWN = 12
@@ -28,7 +28,7 @@ def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") 
         What is true for a block that is wanted, or texts, each one of
 
         - the name of a block, or of a layer: "ground", "BASE";
-        - "name:PATTERN", "layer:PATTERN" or "material:PATTERN", where * stands for any letters, ? for one;
+        - "name:", "layer:", "material:" or "group:PATTERN", where * stands for any letters, ? for one;
         - a pattern alone, of names and layers: "ground*";
         - "z<0.05", "x>2": blocks with no point beyond that coordinate, m.
     word : str
@@ -61,16 +61,21 @@ def matches(pattern: str, text: str) -> bool:
 
 
 def listed(blocks: Sequence[Block]) -> str:
-    """Return what blocks can be chosen by: their layers and materials with numbers of blocks, and names."""
+    """Return what blocks can be chosen by: layers, materials and groups with numbers of blocks, and names."""
     parts = []
-    for word in ("layer", "material"):
-        counts = Counter(getattr(block, word) for block in blocks)
+    for word in _WORDS[1:]:
+        counts = Counter(one for block in blocks for one in _said(block, word))
         counts.pop("", None)
         if counts:
             some = [f"{name!r} ({number})" for name, number in counts.most_common(_SHOWN)]
             parts.append(f"{word}s {_joined(some, len(counts))}")
     names = [repr(block.name) for block in blocks[:_SHOWN]]
     return "; ".join([*parts, f"blocks {_joined(names, len(blocks))}"])
+
+
+def _said(block: Block, word: str) -> tuple[str, ...]:
+    """Return the words of a kind that a block has."""
+    return tuple(block.groups) if word == "group" else (getattr(block, word),)
 
 
 def _joined(shown: Sequence[str], number: int) -> str:
@@ -83,7 +88,7 @@ def _matching(blocks: Sequence[Block], text: str) -> list[str]:
         return exact if text else []
     word, _, pattern = text.partition(":")
     if word in _WORDS and pattern:
-        return [block.name for block in blocks if matches(pattern, getattr(block, word))]
+        return [b.name for b in blocks if any(matches(pattern, one) for one in _said(b, word))]
     place = _PLACE.fullmatch(text)
     if place:
         axis, sign, bound = "xyz".index(place[1]), place[2], _number(place[3], text)
@@ -116,7 +121,7 @@ def _why_none(blocks: Sequence[Block], text: str) -> str:
         return f"matches no block: {'tops' if below else 'bottoms'} along {place[1]} (m): {some}"
     word, _, pattern = text.partition(":")
     if word in _WORDS and pattern:
-        known = {getattr(block, word) for block in blocks} - {""}
+        known = {one for block in blocks for one in _said(block, word)} - {""}
         return f"matches no {word}{near(pattern, known)}; there are {listed(blocks)}"
     if _WILD.search(text):
         return f"matches no name and no layer; there are {listed(blocks)}"

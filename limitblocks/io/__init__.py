@@ -2,7 +2,7 @@
 
 from limitblocks.io.blocks import read_blocks, write_blocks
 from limitblocks.io.forces import write_forces
-from limitblocks.io.formats.dxf.outlines import read_drawing
+from limitblocks.io.formats.dxf.elevation import read_drawing
 from limitblocks.io.formats.gltf.writer import write_animation
 from limitblocks.io.formats.vtu import write_vtu
 from limitblocks.io.imported import ImportedBlocks

@@ -11,7 +11,6 @@ from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, formats
 from limitblocks.io.imported import (
-    Contents,
     ImportedBlocks,
     UnitWeight,
     foreign,
@@ -20,6 +19,7 @@ from limitblocks.io.imported import (
     one_line,
     read_bytes,
 )
+from limitblocks.io.placed import Contents
 from limitblocks.model import Model
 from limitblocks.written import write
 

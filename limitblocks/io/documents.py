@@ -64,6 +64,10 @@ class BlockDocument(Document):
     """Layer or group that it is on."""
     material: str = ""
     """What it is made of; a name in `materials` where the file has them."""
+    groups: Many[str] = []
+    """Groups that it belongs to."""
+    colour: Annotated[str, Field(pattern=r"^(#[0-9a-fA-F]{6})?$")] = ""
+    """Its colour in a drawing, as #rrggbb."""
     vertices: Many[Vector] | None = None
     """Vertices in global axes, m."""
     faces: Many[Many[int]] | None = None
@@ -236,6 +240,8 @@ class ModelDocument(Document):
     """The interfaces, or how to find them."""
     tolerances: TolerancesDocument | None = None
     """Tolerances that a list of interfaces was found with."""
+    left_out: Many[str] = []
+    """Parts of the file the model comes from that are no blocks of it."""
     dead: Many[TermDocument] = [SelfWeight(type="SelfWeight")]
     """Terms of the constant loads; self weight if left out."""
     live: Many[TermDocument]

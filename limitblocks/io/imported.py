@@ -6,33 +6,25 @@ import logging
 import re
 import warnings
 from collections import Counter
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
-from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.arrays import Array
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
-from limitblocks.io import faults, guesses, strict_json
-from limitblocks.io.guesses import Boxes
+from limitblocks.io import faults, strict_json
 from limitblocks.io.made import Made, left_out, made, refused
+from limitblocks.io.placed import Contents, Frame, frame, upright
 from limitblocks.io.solid import Solid
 
-#: Metres per unit of length.
-UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 MOST_SOLIDS = 100_000
 #: Layers, in small letters, whose blocks are supports unless the format says otherwise.
 SUPPORT_LAYERS = ("support", "supports")
 MOST_FACES = 1_000_000
-
-#: From axes with Y up to axes with Z up.
-Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 #: Control characters, and halves of letters.
 _NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
@@ -56,7 +48,8 @@ class ImportedBlocks:
     guesses : tuple of str
         What was guessed, or may not be meant: the unit of length, the axis up; a line each.
     left_out : tuple of str
-        Names of solids that are no blocks and were left out as asked; the notes say why.
+        Parts of the file that are no blocks and were left out, as asked or since they are hidden or open; the
+        notes say why.
     """
 
     blocks: tuple[Block, ...]
@@ -69,27 +62,6 @@ class ImportedBlocks:
     def layers(self) -> dict[str, str]:
         """Layer, group or material of each block, by block name; empty text where the file has none."""
         return {block.name: block.layer for block in self.blocks}
-
-
-class Contents(NamedTuple):
-    """What a reader finds in a file: solids, metres per unit and the axis up where it says so, notes.
-
-    `wrong` says of parts of the file, by name, why they are no solids.
-    """
-
-    solids: Sequence[Solid]
-    metres: float | None = None
-    notes: Sequence[str] = ()
-    up: str | None = None
-    wrong: Mapping[str, Sequence[str]] = MappingProxyType({})
-
-
-class Frame(NamedTuple):
-    """Metres per unit of a file, its axis up, and what of these was guessed."""
-
-    metres: float
-    up: str
-    warnings: tuple[str, ...]
 
 
 def read_bytes(path: Path) -> bytes:
@@ -107,13 +79,6 @@ def refuse_many(solids: int = 0, faces: int = 0) -> None:
 def one_line(name: str) -> str:
     """Return a name as one line of text without blanks around it; what is no letter becomes U+FFFD."""
     return " ".join(_NO_LETTER.sub("\ufffd", " ".join(name.split())).split())
-
-
-def on_groups(sizes: Iterable[tuple[str, int]]) -> list[str]:
-    """Return the note on groups of a drawing, by name and number of objects; none where there are none."""
-    named = [f"{one_line(name)!r} × {size}" for name, size in sizes if size]
-    more = f" and {len(named) - 8} more" if len(named) > 8 else ""
-    return [f"groups are not kept, layers are: {', '.join(named[:8])}{more}"] if named else []
 
 
 @contextmanager
@@ -139,21 +104,6 @@ def _silent() -> Iterator[None]:
         yield
     finally:
         logging.disable(before)
-
-
-def metres(units: str | None, stated: float | None = None) -> float:
-    """Return metres per unit: those of `units`, else what the file states, else 1.
-
-    Raises
-    ------
-    ModelError
-        `units` is unknown.
-    """
-    if units is None:
-        return 1.0 if stated is None else stated
-    if units not in UNITS:
-        raise ModelError(f"units are {units!r}; expected one of {', '.join(UNITS)}")
-    return UNITS[units]
 
 
 def imported(
@@ -182,63 +132,25 @@ def imported(
     if found.wrong and (not skip_bad or not found.blocks):
         raise refused(found.wrong, len(found.blocks), found.twisted)
     weights = _weights({block.name: block.layer for block in found.blocks}, unit_weight)
-    blocks = tuple(
-        block.labelled(unit_weight=weights[block.name], layer=block.layer, material=block.material)
-        for block in found.blocks
-    )
+    blocks = tuple(block.labelled(unit_weight=weights[block.name]) for block in found.blocks)
     notes = (*contents.notes, *found.notes, *left_out(found.wrong))
-    return ImportedBlocks(blocks, notes, found.supports, where.warnings, tuple(found.wrong))
+    gone = (*found.wrong, *contents.left_out)
+    return ImportedBlocks(blocks, notes, found.supports, where.warnings, gone)
 
 
 def blocks_of(contents: Contents, where: Frame, twisted: Twisted | None = None) -> Made:
     """Return the solids of a file as blocks with unique names, in metres, with Z up."""
     names, renamed = unique_names([solid.name for solid in contents.solids])
     named = dict(zip(names, contents.solids, strict=True))
-    found = made(named, where.metres * _upright(where.up), twisted)
+    found = made(named, where.metres * upright(where.up), twisted)
     supports = tuple(block.name for block in found.blocks if _is_support(named[block.name]))
     wrong = {**contents.wrong, **found.wrong}
     return Made(found.blocks, (*renamed, *found.notes), wrong, supports, found.twisted)
 
 
-def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
-    """Return unit and axis up of a file: as given, else as the file says, else m and Z or what is likelier.
-
-    Raises
-    ------
-    ModelError
-        An unknown unit or axis.
-    """
-    per_unit, axis = metres(units, contents.metres), up or contents.up or "z"
-    warnings = []
-    _upright(axis)
-    points = [np.asarray(solid.vertices, dtype=np.float64).reshape(-1, 3) for solid in contents.solids]
-    sound = [k for k, one in enumerate(points) if len(one) and np.abs(one).max() < 1e30]
-    words = [(contents.solids[k].name, contents.solids[k].layer) for k in sound]
-    boxes = Boxes.of([points[k] for k in sound], words) if sound else None
-    unit = guesses.unit(boxes) if boxes and units is None and contents.metres is None else None
-    if unit:
-        per_unit = UNITS[unit[0]]
-        warnings.append(unit[1])
-    why = guesses.tilted(boxes, axis) if boxes and up is None else ""
-    if why and contents.up is None:
-        axis = "y"
-        warnings.append(f"does not say which axis points up; taken as Y: {why}; say up='y' or 'z' (--up)")
-    elif why:
-        other = "z" if axis == "y" else "y"
-        warnings.append(f"seems to lie on its side: {why}; if so, say up={other!r} (--up {other})")
-    return Frame(per_unit, axis, tuple(warnings))
-
-
 def _is_support(solid: Solid) -> bool:
     on_layer = solid.layer.strip().lower() in SUPPORT_LAYERS
     return on_layer if solid.support is None else solid.support
-
-
-def _upright(up: str) -> Array:
-    """Return the matrix (3, 3) that turns rows of coordinates to Z up."""
-    if up not in ("y", "z"):
-        raise ModelError(f"up is {up!r}; expected 'y' or 'z'")
-    return Z_UP.T if up == "y" else np.eye(3)
 
 
 def unique_names(names: Iterable[str]) -> tuple[list[str], list[str]]:

@@ -15,8 +15,9 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import contents_of, is_model_file
-from limitblocks.io.imported import UNITS, Contents, Frame, blocks_of, frame
+from limitblocks.io.imported import blocks_of
 from limitblocks.io.open_joints import open_joints
+from limitblocks.io.placed import UNITS, Contents, Frame, frame
 from limitblocks.io.supports import LikelySupports, likely_supports
 
 _FORMATS = {
@@ -35,7 +36,7 @@ _DEBRIS = 1e-4
 
 @dataclass(frozen=True)
 class SeenBlock:
-    """A block in a file: volume, m3, size along X, Y, Z, m, and the levels it lies between, m."""
+    """A block in a file: volume, m3, size along X, Y, Z, m, the levels it lies between, m; groups, colour."""
 
     name: str
     layer: str
@@ -44,6 +45,8 @@ class SeenBlock:
     size: tuple[float, float, float]
     bottom: float
     top: float
+    groups: tuple[str, ...] = ()
+    colour: str = ""
 
     @classmethod
     def of(cls, block: Block) -> SeenBlock:
@@ -51,7 +54,8 @@ class SeenBlock:
         low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
         x, y, z = (high - low).tolist()
         ends = float(low[2]), float(high[2])
-        return cls(block.name, block.layer, block.material, block.volume, (x, y, z), *ends)
+        words = tuple(block.groups), block.colour
+        return cls(block.name, block.layer, block.material, block.volume, (x, y, z), *ends, *words)
 
 
 @dataclass(frozen=True)
@@ -65,8 +69,8 @@ class Look:
         Sound blocks, in m with Z up.
     faults : tuple of str
         Why the other solids are no blocks, a line each.
-    layers, materials : dict
-        Number of blocks by layer (or group), and by material.
+    layers, materials, groups, colours : dict
+        Number of blocks by layer, by material, by group and by colour.
     units, up : str
         Unit of length and axis that points up, and where this comes from.
     bounding_box : tuple
@@ -88,6 +92,8 @@ class Look:
     faults: tuple[str, ...]
     layers: dict[str, int]
     materials: dict[str, int]
+    groups: dict[str, int]
+    colours: dict[str, int]
     units: str
     up: str
     bounding_box: tuple[tuple[float, ...], tuple[float, ...]]
@@ -181,6 +187,8 @@ def _look(
         wrong,
         _counted(block.layer for block in blocks),
         _counted(block.material for block in blocks),
+        _counted(group for block in blocks for group in block.groups),
+        _counted(block.colour for block in blocks),
         units,
         up,
         (tuple(corners.min(axis=0).tolist()), tuple(corners.max(axis=0).tolist())),

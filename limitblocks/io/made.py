@@ -14,7 +14,8 @@ from limitblocks.geometry import Block
 from limitblocks.geometry.accuracy import Accuracy, block_length, millimetres
 from limitblocks.geometry.mend import TwistedFaces, mended
 from limitblocks.geometry.twisted import Twisted, rounding
-from limitblocks.io.solid import Solid
+from limitblocks.io.colours import known
+from limitblocks.io.solid import WORDS, Solid
 
 #: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.
 _TWIST = 4.0
@@ -63,7 +64,9 @@ def made(named: Mapping[str, Solid], placement: Array, twisted: Twisted | None) 
 def _made(name: str, solid: Solid, placement: Array, twisted: Twisted) -> _Mended:
     vertices = np.asarray(solid.vertices, dtype=np.float64) @ placement
     block, said = mended(name, vertices, solid.faces, twisted=twisted)
-    return block.labelled(unit_weight=None, layer=solid.layer, material=solid.material), said
+    words = {key: getattr(solid, key) for key in WORDS}
+    words["groups"] = [one for one in solid.groups if one]
+    return block.labelled(**words | {"colour": known(solid.colour)}), said
 
 
 def _accurate(

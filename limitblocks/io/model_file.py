@@ -18,10 +18,11 @@ from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
 from limitblocks.io.registry import TERMS
+from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
 from limitblocks.joints import Joint, Materials
-from limitblocks.mechanics import Load, self_weight
-from limitblocks.mechanics.loads import unit_vector
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import self_weight, unit_vector
 from limitblocks.model import Model
 
 if TYPE_CHECKING:
@@ -51,6 +52,17 @@ def read(file: str | Path) -> Model:
     path = Path(file)
     with faults.named(path):
         return _model(in_si(_document(strict_json.read_text(path))))
+
+
+def model_from(data: dict[str, Any]) -> Model:
+    """Return the model whose ``to_dict()`` is `data`.
+
+    Raises
+    ------
+    ModelError
+        The model in it is wrong, with one line per fault.
+    """
+    return _model(in_si(_document(strict_json.text(data))))
 
 
 @cache
@@ -89,7 +101,7 @@ def _model(document: ModelDocument) -> Model:
     if wrong:
         raise ModelError(*wrong)
     loads = sum(dead, Load()), sum(live, Load())
-    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances)
+    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances, document.left_out)
     refuse_jointless(model)
     return model
 
@@ -144,7 +156,7 @@ def _block(document: BlockDocument) -> Block:
         block = Block.box(document.name, document.box.size, document.box.at)
     else:
         block = Block(document.name, document.vertices, document.faces)  # type: ignore[arg-type]
-    return block.labelled(unit_weight=document.unit_weight, layer=document.layer, material=document.material)
+    return block.labelled(unit_weight=document.unit_weight, **{key: getattr(document, key) for key in WORDS})
 
 
 def _load(document: TermDocument) -> Load:

@@ -10,11 +10,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
-from limitblocks.evidence.check import Check
 from limitblocks.evidence.claim import Claim
-from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.stability_result import Stability
 from limitblocks.io import faults, strict_json
+from limitblocks.kinds import KINDS, kind_of, named
 from limitblocks.model import Model
 from limitblocks.problem import turning_of
 from limitblocks.written import write
@@ -25,14 +23,14 @@ if TYPE_CHECKING:
 RESULT_SCHEMA_VERSION = 1
 _STATED = ("limitblocks", "numpy", "scipy", "cvxpy", "clarabel")
 _STILL = (0.0,) * 6
-_NO_CLAIM = {
-    "range": "holds a range of load factors that is not all there; expected the result of bounds, "
-    'nonassociated or path, or one of its answers, which has its own under "solution"',
-    "study": "holds a study, the load factors of many models; expected the result of bounds, "
-    "nonassociated or path",
-    "stability": "holds the answer whether the dead loads stand, no load factor, and not all of it; expected "
-    "the result of bounds, nonassociated or path",
-    "check": "holds a check that is not all there; expected the result of bounds, nonassociated or path",
+_CLAIMS = "expected the result of bounds, nonassociated or path"
+_PARTIAL = f"holds a {{}} that is not all there; {_CLAIMS}"
+_NO_CLAIM = {  # where more can be said
+    "range": f"holds a range of load factors that is not all there; {_CLAIMS}, or one of its answers, which "
+    'has its own under "solution"',
+    "study": f"holds a study, the load factors of many models; {_CLAIMS}",
+    "stability": "holds the answer whether the dead loads stand, no load factor, and not all of it; "
+    f"{_CLAIMS}",
 }
 
 
@@ -69,7 +67,8 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
         text = strict_json.read_text(path)
         data = strict_json.parse(text)
         made = _made(data)
-        if isinstance(made, Stability | Check | LoadFactorRange):  # no claimed solution
+        kind = kind_of(made)
+        if kind and not kind.document:  # no claimed solution
             _refuse_other(model, made.digest)
             return made
         claim = _claim(_document(text, data), model)
@@ -114,16 +113,13 @@ def _refuse_other(model: Model | None, digest: str) -> None:
 
 
 def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
-    from limitblocks.io.result_documents import BoundsDocument, PathDocument, ResultDocument
-
-    kind = data.get("analysis") if isinstance(data, dict) else None
-    if isinstance(kind, str) and kind in _NO_CLAIM:
-        raise ModelError(_NO_CLAIM[kind])
-    if kind == "path":
-        return faults.validated(PathDocument, text, data).collapse
-    if kind == "bounds":
-        return faults.validated(BoundsDocument, text, data)
-    return faults.validated(ResultDocument, text, data)
+    word = data.get("analysis") if isinstance(data, dict) else None
+    kind = KINDS.get(word) if isinstance(word, str) else None
+    if word == "study" or (kind and not kind.document):
+        raise ModelError(_NO_CLAIM.get(str(word), _PARTIAL.format(word)))
+    document = faults.validated(named((kind or KINDS["nonassociated"]).document), text, data)
+    found: ResultDocument | BoundsDocument = getattr(document, "collapse", document)
+    return found
 
 
 def _claim(document: ResultDocument | BoundsDocument, model: Model | None) -> Claim:

@@ -1,8 +1,11 @@
-"""Results made from what they wrote of themselves: each field from its own key, by its type."""
+"""Results made from what they wrote of themselves: each field from its own key, by its type.
+
+What the registry of results says of a kind comes first, here for parts of results as well.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass, replace
 from enum import Enum
 from math import inf, nan
@@ -10,21 +13,27 @@ from types import NoneType, UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
+import numpy.typing as npt
 
 from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.backward_error import MEANINGS, BackwardError
-from limitblocks.evidence.check import Check
 from limitblocks.evidence.load_path_result import LoadPath, Snap
 from limitblocks.evidence.range_answer import Origin
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import Residual, Residuals
-from limitblocks.evidence.results import Nonassociated
-from limitblocks.evidence.stability_result import Stability
+from limitblocks.io.model_file import model_from
+from limitblocks.kinds import KINDS, Kind, named
+from limitblocks.model import Model
 
 _KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}  # where the key is not the field's name
 #: What null stands for where it is not NaN.
 _NULL = {"associated": inf, "upper": inf, "lower": -inf, "stress_limit": inf, "multiplier_limit": inf}
+#: And in arrays that may have it.
+_NULLS = {"load_factors": inf} | dict.fromkeys(
+    ("friction", "cohesion", "compressive_strength", "tensile_strength", "frictions"), nan
+)
 _COLUMNS = dict.fromkeys(("stress_resultants", "displacement_rates", "arising", "displacements"), 6)
 _MOST = 1e30  # in size: far beyond any structure, and its powers are still finite
 _STEP = {"step", "kind", "load_factor", "newly_active", "displacements", "stress_resultants"}
@@ -43,57 +52,49 @@ def result_of(data: Any) -> Any:
         It is of no known kind, or the class needs more than there is.
     """
     word = data.get("analysis") if isinstance(data, dict) else None
-    if not isinstance(word, str) or word not in _KINDS:
+    kind = KINDS.get(word) if isinstance(word, str) else None
+    if kind is None:
         raise Lacking("analysis")
     try:
-        return _KINDS[word](data)
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError) as error:
+        return _read(kind, data)
+    except (AttributeError, IndexError, KeyError, ModelError, TypeError, ValueError) as error:
         raise Lacking(str(error)) from None
 
 
-def _plain(kind: type) -> Callable[[Mapping[str, Any]], Any]:
-    return lambda data: _made(kind, data)
+def _read(kind: Kind, data: Mapping[str, Any]) -> Any:
+    return named(kind.read)(named(kind.home), data)
 
 
-def _bounds(data: Mapping[str, Any]) -> Bounds:
+def bounds_of(kind: type[Bounds], data: Mapping[str, Any]) -> Bounds:
+    """Bounds, which need their upper one."""
     if data["upper"] is None:
         raise Lacking("upper")
-    made: Bounds = _made(Bounds, data)
-    return made
+    found: Bounds = made(kind, data)
+    return found
 
 
-def _path(data: Mapping[str, Any]) -> LoadPath:
+def path_of(kind: type[LoadPath], data: Mapping[str, Any]) -> LoadPath:
     """A path, whose steps have their residuals as keys of their own and whose snaps name steps."""
     steps = [
         step
         | {"residuals": {k: v for k, v in step.items() if k not in _STEP}, "active": step["newly_active"]}
         for step in data["steps"]
     ]
-    made: LoadPath = _made(LoadPath, {**data, "steps": steps, "snaps": []})
-    end = made.collapse.displacement_rates.shape, made.collapse.stress_resultants.shape
-    if not made.steps or any(
-        (step.displacements.shape, step.stress_resultants.shape) != end for step in made.steps
+    found: LoadPath = made(kind, {**data, "steps": steps, "snaps": []})
+    end = found.collapse.displacement_rates.shape, found.collapse.stress_resultants.shape
+    if not found.steps or any(
+        (step.displacements.shape, step.stress_resultants.shape) != end for step in found.steps
     ):
         raise Lacking("no steps, or of another size than the collapse")
-    snaps = (Snap(made.steps[_place(i)], made.steps[_place(j)]) for i, j in data["snaps"])
-    return replace(made, snaps=tuple(snaps))
+    snaps = (Snap(found.steps[_place(i)], found.steps[_place(j)]) for i, j in data["snaps"])
+    return replace(found, snaps=tuple(snaps))
 
 
-def _range(data: Mapping[str, Any]) -> LoadFactorRange:
+def range_of(kind: type[LoadFactorRange], data: Mapping[str, Any]) -> LoadFactorRange:
     """A range, which names the answer of the load path by its place."""
-    made: LoadFactorRange = _made(LoadFactorRange, {**data, "load_path": None})
+    found: LoadFactorRange = made(kind, {**data, "load_path": None})
     place = data["load_path_place"]
-    return made if place is None else replace(made, load_path=made.answers[_place(place)])
-
-
-_KINDS: dict[str, Callable[[Mapping[str, Any]], Any]] = {
-    "bounds": _bounds,
-    "nonassociated": _plain(Nonassociated),
-    "path": _path,
-    "range": _range,
-    "stability": _plain(Stability),
-    "check": _plain(Check),
-}
+    return found if place is None else replace(found, load_path=found.answers[_place(place)])
 
 
 def _place(data: Any) -> int:
@@ -102,8 +103,8 @@ def _place(data: Any) -> int:
     return data
 
 
-def _made(kind: Any, data: Any) -> Any:
-    """A frozen dataclass of what the keys say; a key that is not there is the field's default."""
+def made(kind: Any, data: Any) -> Any:
+    """Return a frozen dataclass of what the keys say; a key that is not there is the field's default."""
     if kind is BackwardError:
         return _backward_error(data)
     hints = get_type_hints(kind)
@@ -132,14 +133,14 @@ def _value(kind: Any, data: Any, name: str) -> Any:
         (kind,) = (part for part in parts if part is not NoneType)
         return _value(kind, data, name)
     if origin is np.ndarray:
-        return _array(data, name)
+        return _flags(data) if np.bool_ in get_args(parts[1]) else _array(data, name)
     if origin is tuple and isinstance(data, list):
         kinds = [parts[0]] * len(data) if parts[-1] is Ellipsis else parts
         return tuple(_value(part, one, name) for part, one in zip(kinds, data, strict=True))
     if origin is dict:
         return {str(key): _number(one, inf) for key, one in data.items()}
     if is_dataclass(kind):
-        return _made(kind, data)
+        return _part(kind, data)
     if issubclass(kind, Enum):
         return _member(kind, data)
     if kind is float:
@@ -147,6 +148,14 @@ def _value(kind: Any, data: Any, name: str) -> Any:
     if type(data) is not kind:
         raise Lacking(f"{name} is {data!r}")
     return data
+
+
+def _part(kind: Any, data: Any) -> Any:
+    """A part that is a model, a result of its own, or has fields."""
+    if kind is Model:
+        return model_from(data)
+    known = KINDS.get(str(data.get("analysis")))
+    return _read(known, data) if known and known.name == kind.__name__ else made(kind, data)
 
 
 def _member(kind: type[Enum], data: Any) -> Enum:
@@ -171,11 +180,21 @@ def _number(data: Any, null: float) -> float:
 
 def _array(data: Any, name: str) -> Array:
     columns = _COLUMNS.get(name, 3 if name == "trace" else None)
+    if name in _NULLS:
+        return read_only(np.array([_number(one, _NULLS[name]) for one in data]))
     array = np.array(data)
     numbers = array.dtype.kind in "fi" and array.ndim == (2 if columns else 1)
     if array.size and not (numbers and np.abs(array).max() < _MOST):
         raise Lacking(f"{name} is no array of numbers")
     return read_only(array.reshape(-1, columns) if columns else array.ravel())
+
+
+def _flags(data: Any) -> npt.NDArray[np.bool_]:
+    flags = np.array(data)
+    if flags.dtype != bool or flags.ndim != 1:
+        raise Lacking("no array of true and false")
+    flags.flags.writeable = False
+    return flags
 
 
 def _residuals(data: Mapping[str, Any], details: Mapping[str, Any]) -> Residuals:

@@ -25,6 +25,12 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
     are faces of the solid around them: surfaces that point inward inside one that points outward.
     """
     points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
+    found = surfaces(name, points, faces)
+    return [Solid(name, layer, points[used], loops) for used, loops in found]
+
+
+def surfaces(name: str, points: Array, faces: Sequence[Sequence[int]]) -> list[tuple[Indices, Faces]]:
+    """Return for each solid its vertices among `points` (n, 3), and its faces over these; see `solids`."""
     loops = tuple(map(tuple, faces))
     if not loops:
         return []
@@ -35,10 +41,10 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
     for group in groups:
         used, number = np.unique(np.concatenate([loops[k] for k in group]), return_inverse=True)
         if len(groups) == 1:
-            return [Solid(name, layer, points, loops)]
+            return [(np.arange(len(points)), loops)]
         ends = np.cumsum([len(loops[k]) for k in group])[:-1]
         parts = tuple(tuple(part.tolist()) for part in np.split(number.reshape(-1), ends))
-        bodies.append(Solid(name, layer, points[used], parts))
+        bodies.append((used, parts))
     return bodies
 
 

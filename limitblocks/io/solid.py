@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+#: What a solid and a block say of themselves beside their shape.
+WORDS = ("layer", "material", "groups", "colour")
+
 
 class Solid(NamedTuple):
     """One solid as a reader finds it: polygons over vertices (n, 3) in the units of the file.
@@ -18,3 +21,5 @@ class Solid(NamedTuple):
     faces: Sequence[Sequence[int]]
     support: bool | None = None
     material: str = ""
+    groups: tuple[str, ...] = ()
+    colour: str = ""

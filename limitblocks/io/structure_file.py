@@ -17,7 +17,8 @@ from limitblocks.io.materials import read_materials, refuse_jointless
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Joint, Materials
-from limitblocks.mechanics import Load, self_weight
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import self_weight
 from limitblocks.model import Model
 
 _log = logging.getLogger("limitblocks")
@@ -152,22 +153,20 @@ def model_of(
     contacts.require()
     loads = self_weight() if dead is None else dead
     try:
-        model = Model(blocks, names, contacts.interfaces, loads, live, name, contacts.tolerances)  # type: ignore[arg-type]
+        model = Model(
+            blocks,
+            names,
+            contacts.interfaces,
+            loads,
+            live,  # type: ignore[arg-type]
+            name,
+            contacts.tolerances,
+            imported.left_out,
+        )
     except ModelError as error:
-        raise ModelError(*error.problems, *open_joints(contacts, blocks), *_missing(imported)) from None
+        raise ModelError(*error.problems, *open_joints(contacts, blocks)) from None
     refuse_jointless(model)
     return model, contacts, vain
-
-
-def _missing(imported: ImportedBlocks) -> list[str]:
-    """Return the line that says which parts of the file are missing in the model; none where none is."""
-    gone = imported.left_out
-    if not gone:
-        return []
-    shown = ", ".join(map(repr, gone[:8])) + (f" and {len(gone) - 8} more" if len(gone) > 8 else "")
-    return [
-        f"{len(gone)} parts of the file are no blocks and were left out: {shown}; are they what is missing?"
-    ]
 
 
 def _refuse_missing(

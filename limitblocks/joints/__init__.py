@@ -6,7 +6,7 @@ For a joint of your own: `YieldRows` is what it returns, `Queries` asks one join
 
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import Joint, YieldRows
-from limitblocks.joints.elements import Dowel, Guide, Tie
+from limitblocks.joints.elements import Backfill, Dowel, Guide, Tie
 from limitblocks.joints.exact_torsion import ExactTorsion
 from limitblocks.joints.interaction import effective_strength
 from limitblocks.joints.materials import Material, Materials, weaker
@@ -16,6 +16,7 @@ from limitblocks.joints.queries import Queries, interface
 from limitblocks.joints.torsion import torsion_constants
 
 __all__ = [
+    "Backfill",
     "Dowel",
     "ExactTorsion",
     "Guide",

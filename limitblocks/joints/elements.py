@@ -40,7 +40,6 @@ class Tie:
     strength: float
     length: float = 0.0
     prestress: float = 0.0
-    word = "tie"
 
     def __post_init__(self) -> None:
         checked_stress("strength of a tie", self.strength, positive=True)
@@ -51,6 +50,11 @@ class Tie:
             raise ModelError(f"prestress of a tie is {self.prestress!r} Pa, {most}")
 
     @property
+    def word(self) -> str:
+        """What it is called: a strip is a tie across a joint, without length."""
+        return "tie" if self.length else "strip"
+
+    @property
     def friction(self) -> float:
         """None: the flow is associated."""
         return 0.0
@@ -59,15 +63,17 @@ class Tie:
         """Return the joint in words."""
         long = f", {self.length:.4g} m from anchor to anchor" if self.length else ""
         tight = f", prestress {stress_words(self.prestress)}" if self.prestress else ""
-        return f"tie, tension up to {stress_words(self.strength)} on its section, no compression{tight}{long}"
+        most = f"tension up to {stress_words(self.strength)} on its section"
+        return f"{self.word}, {most}, no compression{tight}{long}"
 
     def assumed(self) -> tuple[str, ...]:
         """Return a sentence for each assumption."""
+        what = f"{self.word.capitalize()}s"
         return (
-            "Ties are rigid until they yield, yield without end at one force, and go slack as their "
-            "ends approach.",
-            "Ties act along one line and do not bend around blocks; their anchors hold the force at "
-            "which they yield.",
+            f"{what} are rigid until they yield, yield without end at one force, and go slack as their ends "
+            "approach.",
+            f"{what} act along one line and do not bend around blocks; their anchors or bond hold the force "
+            "at which they yield.",
         )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
@@ -88,6 +94,31 @@ class Tie:
             cones=(),
             modes=(Mode.SLACK, Mode.YIELD),
             friction=0.0,
+        )
+
+
+@dataclass(frozen=True)
+class Backfill(Tie):
+    """Passive resistance of fill to a block that moves into it: held from behind, up to strength x area.
+
+    A tie without length or prestress whose `strength`, Pa, is the passive pressure; the area of its interface
+    is the projection of the faces that press the fill.
+    """
+
+    @property
+    def word(self) -> str:
+        """What it is called."""
+        return "fill"
+
+    def in_words(self) -> str:
+        """Return the joint in words."""
+        return f"passive resistance of fill, up to {stress_words(self.strength)}"
+
+    def assumed(self) -> tuple[str, ...]:
+        """Return a sentence for each assumption."""
+        return (
+            "Fill resists blocks that move into it with its whole passive pressure at once, along the deck "
+            "and without friction, and follows none that moves away.",
         )
 
 

@@ -140,7 +140,7 @@ class Materials:
     def _made(self, block: Block, name: str) -> Block:
         weight = self.materials[name].unit_weight
         weight = block.unit_weight if weight is None else weight
-        return block.labelled(unit_weight=weight, layer=block.layer, material=name)
+        return block.labelled(unit_weight=weight, material=name)
 
     def _refuse_two_weights(self, blocks: Sequence[Block], owner: Mapping[str, str]) -> None:
         twice: dict[str, str] = {}

@@ -1,6 +1,7 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
 from limitblocks.practice.adequacy import Adequacy, DesignValue, PartialFactors, adequacy, design_model
+from limitblocks.practice.backfill import passive_fill
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.collapse import settlement_to_collapse
@@ -14,7 +15,6 @@ from limitblocks.practice.vehicles import (
     Deck,
     Vehicle,
     WorstPosition,
-    passive_fill,
     vehicle_load,
     worst_position,
 )

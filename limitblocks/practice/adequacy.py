@@ -20,6 +20,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
+from limitblocks.shown import Result
 
 FRICTION = "friction"
 STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
@@ -96,8 +97,8 @@ class DesignValue:
     unit: str
 
 
-@dataclass(frozen=True, eq=False)
-class Adequacy:
+@dataclass(frozen=True, eq=False, repr=False)
+class Adequacy(Result):
     """The load factor with partial factors, beside the characteristic one.
 
     Attributes
@@ -135,16 +136,21 @@ class Adequacy:
         """Whether it is at least one: E_d <= R_d, EN 1990 Eq. (6.8), for the loads and factors given."""
         return self.factor >= 1.0
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each value that was factored."""
+        return [dict(vars(value)) for value in self.values]
+
     def to_dict(self) -> dict[str, Any]:
         """Return factors, values and results as numbers and text."""
         names = ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S")
         return {
             "analysis": "adequacy",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "factors": {name: getattr(self.factors, name) for name in names},
-            "values": [dict(vars(value)) for value in self.values],
+            "values": self.rows(),
             "adequacy_factor": self.factor,
             "satisfied": self.satisfied,
+            "model": self.model.to_dict(),
             "characteristic": self.characteristic.to_dict(),
             "bounds": self.bounds.to_dict(),
             "result": self.result.to_dict() if self.result else None,
@@ -154,7 +160,7 @@ class Adequacy:
         flow = "without dilatancy" if self.result else "associated"
         least = "at least one" if self.satisfied else "LESS than one"
         given = f"characteristic load factor {self.characteristic.lower:.6g}, associated"
-        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}"
+        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}{self._as_read}"
 
 
 def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool = True) -> Adequacy:

@@ -11,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
+from limitblocks.shown import Result
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +65,21 @@ class CapacityPoint:
     changes: tuple[str, ...]
     across: tuple[str, ...] = ()
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the point with its model and its answer as numbers and text."""
+        return {
+            "displacement": self.displacement,
+            "load_factor": self.load_factor,
+            "shift": self.shift,
+            "changes": list(self.changes),
+            "across": list(self.across),
+            "model": self.model.to_dict(),
+            "result": self.result.to_dict(),
+        }
 
-@dataclass(frozen=True, eq=False)
-class CapacityCurve:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CapacityCurve(Result):
     """Load factor against displacement, every point with its evidence.
 
     Attributes
@@ -107,19 +120,28 @@ class CapacityCurve:
         """Load factors of the points, shape (p,)."""
         return read_only(np.array([point.load_factor for point in self.points]))
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each point."""
+        return [
+            {
+                "displacement": point.displacement,
+                "load_factor": point.load_factor,
+                "changes": ", ".join(point.changes),
+                "across": ", ".join(point.across),
+                "worst_residual": point.result.residuals.worst.value,
+            }
+            for point in self.points
+        ]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the curve as numbers and text."""
         control = self.control
         return {
             "analysis": "capacity curve",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "control": {"block": control.block, "point": control.point.tolist(),
                         "direction": control.direction.tolist()},
-            "displacements": self.displacements.tolist(),
-            "load_factors": self.load_factors.tolist(),
-            "changes": [list(point.changes) for point in self.points],
-            "residuals": [point.result.residuals.worst.value for point in self.points],
-            "across": [list(point.across) for point in self.points],
+            "points": [point.to_dict() for point in self.points],
             "zero": self.zero,
             "ended": self.ended,
         }  # fmt: skip
@@ -130,4 +152,5 @@ class CapacityCurve:
         beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
         return (
             f"capacity curve of {len(self.points)} points from load factor {first:.6g}: {self.ended}{beyond}"
+            f"{self._as_read}"
         )

@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.practice.settlement import Settlement
+from limitblocks.shown import Result
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +40,18 @@ class SettlementPoint:
         found = self.found
         return found.lower if found.nonassociated is None else found.nonassociated
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the point with its evidence as numbers and text."""
+        return {
+            "displacement": self.displacement,
+            "found": self.found.to_dict(),
+            "changes": list(self.changes),
+            "across": list(self.across),
+        }
 
-@dataclass(frozen=True, eq=False)
-class SettlementCurve:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SettlementCurve(Result):
     """Reaction against the settlement of a support, until the structure falls.
 
     Attributes
@@ -90,19 +100,28 @@ class SettlementCurve:
         """Least reactions of the points, N, shape (p,)."""
         return read_only(np.array([point.reaction for point in self.points]))
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each point."""
+        return [
+            {
+                "displacement": point.displacement,
+                "reaction": point.reaction,
+                "lower": point.found.lower,
+                "upper": point.found.upper,
+                "changes": ", ".join(point.changes),
+                "across": ", ".join(point.across),
+            }
+            for point in self.points
+        ]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the curve as numbers and text."""
         return {
             "analysis": "settlement until collapse",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "support": self.support,
             "direction": self.direction.tolist(),
-            "displacements": self.displacements.tolist(),
-            "lower": [point.found.lower for point in self.points],
-            "upper": [point.found.upper for point in self.points],
-            "nonassociated": [point.found.nonassociated for point in self.points],
-            "changes": [list(point.changes) for point in self.points],
-            "across": [list(point.across) for point in self.points],
+            "points": [point.to_dict() for point in self.points],
             "stands_to": self.stands_to,
             "falls": self.falls,
             "ended": self.ended,
@@ -111,4 +130,4 @@ class SettlementCurve:
     def __str__(self) -> str:
         first, last = self.reactions[[0, -1]].tolist()
         said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
-        return f"{said}: {self.ended}"
+        return f"{said}: {self.ended}{self._as_read}"

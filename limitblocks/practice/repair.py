@@ -17,18 +17,19 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Tie
-from limitblocks.mechanics import added_mass
+from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
 from limitblocks.mechanics.loads.load import number, of, triple
 from limitblocks.model import Model
 from limitblocks.practice.elements import Element, reinforced
+from limitblocks.shown import Result
 
 AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
 NONE = 1e-6  # of the largest: what is less is left out
 
 
-@dataclass(frozen=True, eq=False)
-class Repair:
+@dataclass(frozen=True, eq=False, repr=False)
+class Repair(Result):
     """The least reinforcement for associated flow, and what it brings without dilatancy.
 
     Attributes
@@ -60,15 +61,21 @@ class Repair:
     required: float
     digest: str
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each candidate."""
+        pairs = zip(self.candidates, self.amounts.tolist(), strict=True)
+        return [{"candidate": name, "amount": amount} for name, amount in pairs]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the amounts and both results as numbers and text."""
         return {
             "analysis": "repair",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "required": self.required,
             "candidates": list(self.candidates),
             "amounts": self.amounts.tolist(),
             "total": self.total,
+            "model": self.model.to_dict(),
             "bounds": self.bounds.to_dict(),
             "result": self.result.to_dict(),
         }
@@ -76,7 +83,7 @@ class Repair:
     def __str__(self) -> str:
         return (
             f"least reinforcement {self.total:.6g} N: load factor {self.bounds.lower:.6g} associated, "
-            f"{self.result.load_factor:.6g} without dilatancy"
+            f"{self.result.load_factor:.6g} without dilatancy{self._as_read}"
         )
 
 
@@ -155,9 +162,9 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         for one in ones
     ]
     found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
-    amounts = found * (1.0 + AMPLE)
-    amounts = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
-    heaps = [replace(one, weight=float(a)) for one, a in zip(ones, amounts, strict=True) if a > 0.0]
+    amounts = np.where(found > NONE * found.max(initial=0.0), found, 0.0)
+    made = amounts * (1.0 + AMPLE)
+    heaps = [replace(one, weight=float(a)) for one, a in zip(ones, made, strict=True) if a > 0.0]
     added = replace(
         model,
         dead=model.dead + of(*heaps),

@@ -17,10 +17,11 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
-from limitblocks.mechanics import force
+from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, axes_of
+from limitblocks.shown import Result
 
 RIGID = 1e3  # strength of the guide over the weight of the structure
 
@@ -54,9 +55,19 @@ class Settling:
         """Return the reaction against the direction at a load factor, N."""
         return self.held - load_factor * self.unit
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the model and its motion as numbers and text."""
+        return {
+            "support": self.support,
+            "direction": self.direction.tolist(),
+            "held": self.held,
+            "unit": self.unit,
+            "model": self.model.to_dict(),
+        }
 
-@dataclass(frozen=True, eq=False)
-class Settlement:
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Settlement(Result):
     """Least reaction of a support that settles: the ground gives way until the structure follows it.
 
     Attributes
@@ -85,24 +96,29 @@ class Settlement:
     result: Nonassociated | None
     digest: str
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each reaction."""
+        found = {"associated, mechanism": self.lower, "associated, stress state": self.upper}
+        found |= {} if self.nonassociated is None else {"without dilatancy": self.nonassociated}
+        return [{"answer": name, "least_reaction": value} for name, value in found.items()]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the reactions and both results as numbers and text."""
         return {
             "analysis": "settlement",
-            "digest": self.digest,
-            "support": self.settling.support,
-            "direction": self.settling.direction.tolist(),
+            "settling": self.settling.to_dict(),
             "lower": self.lower,
             "upper": self.upper,
             "nonassociated": self.nonassociated,
             "bounds": self.bounds.to_dict(),
             "result": self.result.to_dict() if self.result else None,
+            "model_digest": self.digest,
         }
 
     def __str__(self) -> str:
         least = f"least reaction of {self.settling.support!r}: {self.lower:.6g} to {self.upper:.6g} N"
         real = "" if self.nonassociated is None else f", {self.nonassociated:.6g} N without dilatancy"
-        return least + " (associated)" + real
+        return least + " (associated)" + real + self._as_read
 
 
 def settlement(

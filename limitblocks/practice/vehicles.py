@@ -1,8 +1,8 @@
-"""Vehicles on arch bridges: axles through fill, moved along the deck; passive resistance of the fill."""
+"""Vehicles on arch bridges: axles through fill, moved along the deck."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,13 +13,13 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
-from limitblocks.mechanics import Load, fill, top_force
-from limitblocks.mechanics.loads.load import number, unit_vector
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import top_force
+from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import tops
 from limitblocks.model import Model
-from limitblocks.practice.elements import Element, tie
+from limitblocks.shown import Result
 
-BEHIND = 10.0  # of a block's size: where the tie that stands for passive fill is held
 STRETCHES = 8  # of a dispersed axle: each a force on top of the block below it
 
 
@@ -85,8 +85,8 @@ class Deck:
         number(self.spread, "spread", "", least=0.0)
 
 
-@dataclass(frozen=True, eq=False)
-class WorstPosition:
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstPosition(Result):
     """Envelope of the load factor over the positions of a vehicle.
 
     Attributes
@@ -111,21 +111,27 @@ class WorstPosition:
     model: Model
     digest: str
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each position, in their order along the deck."""
+        pairs = sorted(zip(self.positions.tolist(), self.load_factors.tolist(), strict=True))
+        return [{"position": place, "load_factor": factor} for place, factor in pairs]
+
     def to_dict(self) -> dict[str, Any]:
         """Return the envelope and the bounds at the worst position as numbers and text."""
         return {
             "analysis": "worst position",
-            "digest": self.digest,
+            "model_digest": self.digest,
             "positions": self.positions.tolist(),
-            "load_factors": [a if np.isfinite(a) else None for a in self.load_factors.tolist()],
+            "load_factors": self.load_factors.tolist(),
             "position": self.position,
             "bounds": self.bounds.to_dict(),
+            "model": self.model.to_dict(),
         }
 
     def __str__(self) -> str:
         return (
             f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}"
+            f"{self.bounds.lower:.6g}{self._as_read}"
         )
 
 
@@ -164,7 +170,7 @@ def worst_position(
     model: Model,
     vehicle: Vehicle,
     deck: Deck,
-    between: tuple[float, float],
+    between: tuple[float, float] | None = None,
     *,
     positions: int = 25,
     progress: Callable[[float, float], None] | None = None,
@@ -182,8 +188,8 @@ def worst_position(
         Moves from ``between[0]`` to ``between[1]``, X of its first axle, m.
     deck : Deck
         Where it runs.
-    between : (float, float)
-        m.
+    between : (float, float), optional
+        m; unless given, wherever some axle stands on the free blocks.
     positions : int
         Evenly spaced positions, at least 3.
     progress : callable, optional
@@ -194,7 +200,7 @@ def worst_position(
     ModelError
         If the interval is empty, or the vehicle is nowhere on the structure.
     """
-    low, high = (number(x, "between", "m") for x in between)
+    low, high = (number(x, "between", "m") for x in between or _whole(model, vehicle))
     if not low < high or positions < 3:
         raise ModelError(
             f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
@@ -216,8 +222,12 @@ def worst_position(
         raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
     k = int(factors.argmin())
     about = float(places[max(k - 1, 0)]), float(places[min(k + 1, positions - 1)])
+    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
     minimize_scalar(
-        lambda x: at(float(x)), bounds=about, method="bounded", options={"xatol": (high - low) * 1e-4}
+        lambda x: min(at(float(x)), beyond),
+        bounds=about,
+        method="bounded",
+        options={"xatol": (high - low) * 1e-4},
     )
     worst = min((x for x, found in tried.items() if found), key=at)
     found = tried[worst]
@@ -225,6 +235,12 @@ def worst_position(
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
     return WorstPosition(order, values, worst, *found, model.digest)
+
+
+def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:
+    """Places of the first axle between which some axle stands on the structure."""
+    x = np.concatenate([block.vertices[:, 0] for block in model.free_blocks])
+    return float(x.min()) - max(vehicle.distances), float(x.max()) - min(vehicle.distances)
 
 
 def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bounds, Model] | None:
@@ -238,70 +254,3 @@ def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bound
         if "stands on a free block" in str(error):
             return None
         raise
-
-
-def passive_fill(
-    model: Model,
-    level: float,
-    *,
-    unit_weight: float,
-    coefficient: float,
-    blocks: Sequence[str] = (),
-    along: Sequence[float] = (1.0, 0.0, 0.0),
-) -> list[Element]:
-    """Return the one-sided passive resistance of backfill, for :func:`~limitblocks.practice.reinforced`.
-
-    A block that moves into the fill along +-`along` meets up to ``coefficient unit_weight depth`` on the
-    projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
-    associated, mobilised at once, no friction between fill and masonry. Each resistance is a tie that holds
-    the block from behind, at the height of the resultant.
-
-    Parameters
-    ----------
-    model : Model
-        The structure.
-    level : float
-        Of the surface of the fill, Z, m.
-    unit_weight : float
-        Of the fill, N/m3.
-    coefficient : float
-        Of passive earth pressure K_p, less that at rest where :func:`~limitblocks.loads.fill` has it, > 0.
-    blocks : sequence of str
-        Blocks that touch the fill; all free ones unless given.
-    along : sequence of float
-        Horizontal direction along the deck.
-
-    Raises
-    ------
-    ModelError
-        If a number is out of range or no block lies under the fill with a face that leans along the deck.
-    """
-    number(coefficient, "coefficient of passive pressure", "", above=0.0)
-    number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
-    d = np.array(unit_vector(along, "direction along the deck"))
-    free, names = model.free_blocks, tuple(blocks)
-    pressed = fill(unit_weight, level, blocks=names, earth_pressure=coefficient).on(free)
-    pressed = pressed - fill(unit_weight, level, blocks=names).on(free)
-    across = np.cross((0.0, 0.0, 1.0), d)
-    elements = []
-    for block, load in zip(free, pressed, strict=True):
-        push = float(load[:3] @ d)
-        if not abs(push) > 0.0:
-            continue
-        height = float(load[3:] @ across) / push  # of the resultant over the centroid
-        at = block.centroid + np.array([0.0, 0.0, height])
-        behind = at + np.sign(push) * BEHIND * block.size * d
-        area = abs(push) / (coefficient * unit_weight)  # m3: any area does, the force counts
-        elements.append(
-            tie(
-                block.name,
-                at.tolist(),
-                model.supports[0],
-                behind.tolist(),
-                area=area,
-                strength=abs(push) / area,
-            )
-        )
-    if not elements:
-        raise ModelError(f"no block has a face that leans along the deck below the fill at {level:g} m")
-    return elements

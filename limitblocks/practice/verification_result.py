@@ -5,9 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-UNSEEN = (
-    "Nothing is claimed beyond the inequalities named. The text of Circolare 7/2019 was not seen when this "
-    "was written: its quantities follow worked examples, and numbers of single equations are not given."
+from limitblocks.practice.moving_masses import MovingMass
+from limitblocks.shown import Result
+
+CLAIMED = (
+    "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12] and [C7.2.5] to "
+    "[C7.2.8] were checked against a transcription of the official text, not against the Gazzetta itself; "
+    "M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 (ties or other links "
+    "that break, beams that slip off) and C8.7.1.2.1.9 (time histories)."
 )
 
 
@@ -55,24 +60,32 @@ class Inequality:
         return self.ratio >= 1.0
 
 
-@dataclass(frozen=True, eq=False)
-class Verification:
+@dataclass(frozen=True, eq=False, repr=False)
+class Verification(Result):
     """Quantities in the order in which they are found, and the inequalities between them.
 
     Attributes
     ----------
     quantities : tuple of Quantity
     checks : tuple of Inequality
-    moving : tuple of str
-        Blocks of the mechanism.
+    masses : tuple of MovingMass
+        Weights of the mechanism with their virtual displacements.
+    remarks : tuple of str
+        What the text asks and the input does not follow.
     digest : str
         SHA-256 of the model.
     """
 
     quantities: tuple[Quantity, ...]
     checks: tuple[Inequality, ...]
-    moving: tuple[str, ...]
+    masses: tuple[MovingMass, ...]
     digest: str
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Blocks of the mechanism."""
+        return tuple(dict.fromkeys(one.block for one in self.masses))
 
     def __getitem__(self, symbol: str) -> float:
         """Value of the quantity with a symbol; KeyError where there is none."""
@@ -81,19 +94,29 @@ class Verification:
                 return quantity.value
         raise KeyError(symbol)
 
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each quantity."""
+        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
+        return [{key: getattr(one, key) for key in keys} for one in self.quantities]
+
     def to_dict(self) -> dict[str, Any]:
         """Return all quantities and checks as numbers and text."""
-        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
         return {
             "analysis": "verification",
-            "quantities": [{key: getattr(one, key) for key in keys} for one in self.quantities],
+            "quantities": self.rows(),
             "checks": [
                 {"name": one.name, "capacity": one.capacity, "demand": one.demand, "ratio": one.ratio,
                  "unit": one.unit, "satisfied": one.satisfied, "source": one.source}
                 for one in self.checks
             ],
             "moving": list(self.moving),
-            "digest": self.digest,
+            "masses": [
+                {"name": one.name, "block": one.block, "weight": one.weight, "horizontal": one.horizontal,
+                 "vertical": one.vertical}
+                for one in self.masses
+            ],
+            "remarks": list(self.remarks),
+            "model_digest": self.digest,
         }  # fmt: skip
 
     def __str__(self) -> str:
@@ -101,4 +124,4 @@ class Verification:
             f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
             for one in self.checks
         )
-        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks))
+        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks)) + self._as_read

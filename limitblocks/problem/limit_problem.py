@@ -113,6 +113,8 @@ class LimitProblem:
         Units of the numbers.
     blocks, interfaces : tuple of str
         Names of the free blocks and of the interfaces, for messages.
+    left_out : tuple of str
+        Parts of the model's file that are no blocks, for messages.
     """
 
     C: sparse.csr_array
@@ -133,6 +135,7 @@ class LimitProblem:
     units: Units
     blocks: tuple[str, ...]
     interfaces: tuple[str, ...]
+    left_out: tuple[str, ...] = ()
 
     @cached_property
     def stress_interface(self) -> Indices:

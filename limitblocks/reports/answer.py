@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import floor, isfinite, log10
-from typing import Any
 
-from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.load_path_result import LoadPath
-from limitblocks.evidence.range_answer import Origin
-from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.reports.claims import CheckedClaim
-from limitblocks.reports.words import as_acceleration
+from limitblocks.reports.section import Section
+from limitblocks.reports.words import as_acceleration, rounded_down
 
 CERTIFIED = (
     "Stresses, mechanism and multipliers that satisfy equilibrium, yield, flow rule and complementarity, "
@@ -80,21 +73,18 @@ class Verdict:
     text: str
 
 
-def answer(results: Sequence[Any]) -> Answer:
+def answer(sections: Sequence[Section]) -> Answer:
     """Return the load factor to design with: the least certified non-associated one that loading leads to.
 
     Without one it is the least static bound, as an upper estimate.
     """
-    certified = sorted(_certified(results))
+    certified = sorted(design for one in sections for design in one.designs)
     if certified:
         load_factor, source = certified[0]
         least = f"{LEAST.format(len(certified))} " if len(certified) > 1 else ""
         return Answer(load_factor, True, source, least + CERTIFIED)
-    bounds = [one.lower for one in results if isinstance(one, Bounds)]
-    bounds += [one.load_factor for one in results if isinstance(one, CheckedClaim) and one.check.accepted]
-    if bounds:
-        return Answer(min(bounds), False, "static bound", UPPER)
-    return Answer()
+    upper = [one.upper for one in sections if one.upper is not None]
+    return Answer(min(upper), False, "static bound", UPPER) if upper else Answer()
 
 
 def verdict(found: Answer, demand: float) -> Verdict | None:
@@ -111,25 +101,3 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
     else:
         meaning = "whether the demand is reached is open, because real friction may give less"
     return Verdict(demand, ratio, f"{said}: {meaning}. This is no statement of compliance with a code.")
-
-
-def _certified(results: Sequence[Any]) -> Iterator[tuple[float, str]]:
-    """Load factors with their source: of results, and of a range those that a load path reached."""
-    for result in results:
-        if isinstance(result, Nonassociated | LoadPath):
-            end = result.collapse if isinstance(result, LoadPath) else result
-            word = "load path" if isinstance(result, LoadPath) else "non-associated solution"
-            if end.accepted and isfinite(end.load_factor):
-                yield end.load_factor, word
-        elif isinstance(result, LoadFactorRange):
-            reached = (one for one in result.answers if one.origin is not Origin.SEARCHED)
-            yield from ((one.load_factor, "range of load factors") for one in reached)
-        elif isinstance(result, CheckedClaim) and result.certified:
-            yield result.load_factor, "claimed solution, checked"
-
-
-def rounded_down(ratio: float) -> str:
-    """Three digits, never more than there is: .9996 is not 1.00."""
-    digits = 2 - floor(log10(abs(ratio))) if ratio else 2
-    scale = 10.0**digits
-    return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"

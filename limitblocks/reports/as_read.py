@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
-from limitblocks.evidence.check import Check
-from limitblocks.evidence.stability_result import Stability
+from limitblocks.kinds import kind_of
 from limitblocks.reports.section import Section
 
 AS_READ = "as the file says, not computed here"
@@ -23,9 +22,11 @@ def as_read(made: Section, result: Any) -> Section:
     """Return the section of a result; where that was read it says what was checked here, if anything."""
     if not getattr(result, "from_file", False):
         return made
-    if not isinstance(result, Stability | Check):
+    kind = kind_of(result)
+    if kind and kind.judge:
         return replace(made, warnings=(CHECKED, *made.warnings))
     values = (("Answer of the file", made.headline, AS_READ), *made.values)
     title = f"{made.title}, as a file says"
     made = replace(made, title=title, values=values, checks=(), rates=None)
+    made = replace(made, designs=(), upper=None, compared=())
     return replace(made, headline="not checked", warnings=(NOT_JUDGED,))

@@ -8,6 +8,7 @@ from typing import Any
 
 from limitblocks.drawing.elevations import elevations
 from limitblocks.drawing.picture import Picture
+from limitblocks.drawing.ties import tie_lines
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
 from limitblocks.reports.answer import UNDEMANDED, WARNING, answer, verdict
@@ -50,6 +51,12 @@ SENSITIVITY = (
 )
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
+OWN = (
+    "It is the answer of the chapter {}. This report has no certified load factor of its model without "
+    "dilatancy, and nothing is said about safety beyond what that chapter says."
+)
+UNCOMPARED = "Safety: the demand {:.4g} is not compared with anything."
+TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))
 
 
@@ -66,7 +73,7 @@ def document(
     """Return the report on `model`: `known` are its facts, `picture` is the mechanism of section `drawn`."""
     title = labels.title or model.name or UNTITLED
     place = 0
-    chapters = [_answer(model, results, labels), *_side_by_side(results)]
+    chapters = [_answer(model, sections, labels), *_side_by_side(sections)]
     shown = []
     for one, result in zip(sections, results, strict=True):
         moving = picture if one is drawn else None
@@ -110,8 +117,13 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     return Chapter(one.title, tuple(parts))
 
 
-def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
-    found = answer(results)
+def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapter:
+    found = answer(sections)
+    own = next((one for one in sections if one.own), None)
+    if found.load_factor is None and own:
+        return Chapter(
+            "Answer", (Headline(own.headline, own.quantity, main=True), Text(OWN.format(own.title)))
+        )
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
@@ -119,14 +131,14 @@ def _answer(model: Model, results: Sequence[Any], labels: Labels) -> Chapter:
     if labels.demand is None:
         parts.append(Text(UNDEMANDED))
     elif said is None:
-        parts.append(Text(f"Safety: the demand {labels.demand:.4g} is not compared with anything."))
+        parts.append(Text(UNCOMPARED.format(labels.demand)))
     else:
         parts.append(Text(f"Safety: {said.text}"))
     return Chapter("Load factor to design with", tuple(parts))
 
 
-def _side_by_side(results: Sequence[Any]) -> Iterator[Chapter]:
-    rows = comparison(results)
+def _side_by_side(sections: Sequence[Section]) -> Iterator[Chapter]:
+    rows = comparison(sections)
     if rows:
         heads = ("Flow", "Load factor", "What it means")
         table = Table.of("Load factors of this structure", heads, rows, right=(1,))
@@ -136,7 +148,7 @@ def _side_by_side(results: Sequence[Any]) -> Iterator[Chapter]:
 def _model(model: Model, known: dict[str, Any]) -> Chapter:
     parts: list[Part] = [
         Table.of("Facts", ("Quantity", "Value"), fact_rows(known)),
-        Figure(elevations(model), VIEWS, VIEWED),
+        Figure(elevations(model), VIEWS, (*VIEWED, *TIED) if tie_lines(model) else VIEWED),
     ]
     given = acceleration(model)
     if given:
@@ -157,7 +169,7 @@ def _interfaces(model: Model, result: Any, one: Section, place: int) -> tuple[Pa
     if table is None:
         return ()
     elements = element_rows(model, result)
-    tied = Table.of("Ties and dowels", ELEMENT_HEADS, elements, right=(1, 2, 3))
+    tied = Table.of("Ties, dowels and passive fill", ELEMENT_HEADS, elements, right=(2, 3, 4))
     return (*_active(table, place), *((tied,) if elements else ()))
 
 

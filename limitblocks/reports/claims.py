@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import isfinite
 from typing import Any, ClassVar
@@ -18,6 +17,7 @@ from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.kinds import kind_of, named
 from limitblocks.model import Model
 
 USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
@@ -80,11 +80,12 @@ def checked(model: Model, result: Any) -> Any:
     """
     if isinstance(result, Claim):
         return CheckedClaim(result, check_mcp(model, result))
-    judge = _JUDGES.get(type(result)) if getattr(result, "from_file", False) else None
-    return judge(model, result) if judge else result
+    kind = kind_of(result) if getattr(result, "from_file", False) else None
+    return named(kind.judge)(model, result) if kind and kind.judge else result
 
 
-def _bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
+def judged_bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
+    """Return bounds that the check has proven again, or the claim of them that it has not."""
     tolerance = min(bounds.tolerance, USUAL_OF_BOUNDS)
     check = check_mcp(model, bounds, tolerance=tolerance)
     if not check.passed:
@@ -95,7 +96,8 @@ def _bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
     return replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
 
 
-def _nonassociated(model: Model, result: Nonassociated) -> Nonassociated | CheckedClaim:
+def judged_nonassociated(model: Model, result: Nonassociated) -> Nonassociated | CheckedClaim:
+    """Return the solution with the residuals of the check, or the claim that is none."""
     tolerance = min(result.tolerance, TOLERANCE)
     check = check_mcp(model, result, tolerance=tolerance)
     if result.accepted and not check.passed:
@@ -110,12 +112,20 @@ def _nonassociated(model: Model, result: Nonassociated) -> Nonassociated | Check
     )
 
 
-def _path(model: Model, path: LoadPath) -> LoadPath | CheckedClaim:
-    end = _nonassociated(model, path.collapse)
+def judged_path(model: Model, path: LoadPath) -> LoadPath | CheckedClaim:
+    """Return the path with its collapse as it is judged, or the claim that is none."""
+    end = judged_nonassociated(model, path.collapse)
     return end if isinstance(end, CheckedClaim) else replace(path, collapse=end)
 
 
-def _range(model: Model, result: LoadFactorRange) -> LoadFactorRange:
+def judged_range(model: Model, result: LoadFactorRange) -> LoadFactorRange:
+    """Return the range with every answer checked.
+
+    Raises
+    ------
+    LimitBlocksError
+        One of them is no solution.
+    """
     answers = []
     for one in result.answers:
         check = check_mcp(model, one.solution)
@@ -128,11 +138,3 @@ def _range(model: Model, result: LoadFactorRange) -> LoadFactorRange:
         answers.append(replace(one, solution=replace(solution, status=Status.CONVERGED), check=check))
     first = next((k for k, one in enumerate(result.answers) if one is result.load_path), None)
     return replace(result, answers=tuple(answers), load_path=None if first is None else answers[first])
-
-
-_JUDGES: dict[type, Callable[[Model, Any], Any]] = {
-    Bounds: _bounds,
-    Nonassociated: _nonassociated,
-    LoadPath: _path,
-    LoadFactorRange: _range,
-}

@@ -46,6 +46,9 @@ def facts(model: Model) -> dict[str, Any]:
         "joints": counted(_joints(model)),
         "layers": counted(block.layer for block in model.blocks if block.layer),
         "materials": _materials(model),
+        "groups": counted(group for block in model.blocks for group in block.groups),
+        "colours": counted(block.colour for block in model.blocks if block.colour),
+        "left_out": list(model.left_out),
         "block_types": counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
         "interface_types": counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
@@ -69,6 +72,9 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     labels = [
         ("Layers", times(known["layers"])),
         ("Materials", "; ".join(map(_made_of, known["materials"]))),
+        ("Groups", times(known["groups"])),
+        ("Colours", times(known["colours"])),
+        ("Left out of the file", some(known["left_out"])),
     ]
     return (
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),

@@ -7,14 +7,17 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.ties import tie_lines
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Dowel, Tie
+from limitblocks.joints import Backfill, Dowel, Tie
+from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
 from limitblocks.reports.scene import in_scene, short, without_noise
 from limitblocks.reports.words import joint_words
 
+IDLE = 1e-3  # of the strength of fill: a row prints less as 0.000
 #: Interfaces listed, those first that move most.
 MOST = 40
 
@@ -76,13 +79,14 @@ def relative_motion(model: Model, rates: Array) -> Array:
     return largest
 
 
-ELEMENT_HEADS = ("Tie or dowel", "Force, kN", "Strength, kN", "Utilisation", "State")
+ELEMENT_HEADS = ("Tie, dowel or fill", "Where, m", "Force, kN", "Strength, kN", "Utilisation", "State")
 
 
 def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
-    """Return name, force (tension of a tie with its prestress, shear of a dowel), strength, share, state."""
+    """Return what ELEMENT_HEADS says: tension of a tie with its prestress, shear of a dowel, as text."""
     states = interface_states(model, result)
     Q = without_noise(states.stress_resultants) / 1e3
+    anchors = {line.interface: line.anchors.tolist() for line in tie_lines(model)}
     rows: list[tuple[str, ...]] = []
     for k, one in enumerate(model.interfaces):
         if not isinstance(one.joint, Tie | Dowel):
@@ -93,7 +97,11 @@ def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
         else:
             force = float(np.linalg.norm(Q[k, :2]))
         most = one.joint.strength * area
-        rows.append((states.names[k], f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k]))
+        if isinstance(one.joint, Backfill) and not force > IDLE * most:
+            continue  # of fill along a whole span, what presses is enough
+        where = " to ".join(triple(end) for end in anchors.get(k, [one.centroid.tolist()]))
+        said = (f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k])
+        rows.append((states.names[k], where, *said))
     return rows
 
 

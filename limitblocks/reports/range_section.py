@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from limitblocks.evidence.range_answer import Origin
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.results import Nonassociated
+from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
+from limitblocks.reports.rows import limits
 from limitblocks.reports.section import Section, checks_of
 
 MEANING = (
@@ -19,11 +19,8 @@ MEANING = (
 )
 
 
-def range_section(
-    result: LoadFactorRange,
-    limits: Callable[[Nonassociated], tuple[tuple[str, str, str], ...]],
-) -> Section:
-    """Return the section; `limits` says what it says of other results."""
+def range_section(_model: Model, result: LoadFactorRange) -> Section:
+    """Return the section of a range of load factors."""
     shown = result.load_path or (result.answers[0] if result.answers else None)
     (reached, below), (lowest, highest) = result.reached, result.certified
     (tried, ended), (drawn, led) = result.paths, result.mechanisms
@@ -33,6 +30,7 @@ def range_section(
     )
     ends = [(word, end) for word, end in (("Least", result.least), ("Greatest", result.greatest)) if end]
     told = AS_READ if result.from_file else ""
+    arrived = (one for one in result.answers if one.origin is not Origin.SEARCHED)
     return Section(
         title="Range of load factors",
         meaning=MEANING,
@@ -54,6 +52,7 @@ def range_section(
         checks=checks_of(shown.check.residuals, result.tolerance) if shown else (),
         tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
+        designs=tuple((one.load_factor, "range of load factors") for one in arrived),
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         parts=(

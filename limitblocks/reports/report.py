@@ -9,10 +9,12 @@ from datetime import datetime
 from functools import cached_property
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 from limitblocks.drawing.picture import Picture, mechanism_picture
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.io import strict_json
+from limitblocks.kinds import KINDS
 from limitblocks.model import Model
 from limitblocks.reports import files
 from limitblocks.reports.answer import answer, verdict
@@ -96,7 +98,7 @@ class Report:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the content as plain numbers, lists and text, SI units; see :func:`report_schema`."""
-        found = answer(self.results)
+        found = answer(self.sections)
         demand = self.labels.demand
         said = verdict(found, demand) if demand is not None else None
         return {
@@ -133,7 +135,7 @@ class Report:
         return f"<report {self.title!r}: {len(self.results)} results; save it as .html, .pdf, .md or .json>"
 
     def __str__(self) -> str:
-        found = answer(self.results)
+        found = answer(self.sections)
         return f"report {self.title!r}: {found.number} {found.quantity(self.model)}"
 
     @property
@@ -222,4 +224,9 @@ def report_schema() -> dict[str, Any]:
     """Return the JSON Schema of the report as JSON."""
     text = (Path(__file__).parent / "schema.json").read_text(encoding="utf-8")
     schema: dict[str, Any] = json.loads(text)
+    for word in KINDS:
+        plain = {"type": "object", "properties": {"analysis": {"const": word}}, "required": ["analysis"]}
+        schema["$defs"].setdefault(word, plain)
+    kinds = [{"$ref": f"#/$defs/{quote(word)}"} for word in KINDS]
+    schema["properties"]["results"]["items"]["oneOf"] = kinds
     return schema

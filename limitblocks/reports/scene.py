@@ -104,6 +104,8 @@ def _blocks(model: Model) -> dict[str, Any]:
             "volume": short([block.volume for block in model.blocks]),
             "layer": [block.layer for block in model.blocks],
             "material": [block.material for block in model.blocks],
+            "groups": [", ".join(block.groups) for block in model.blocks],
+            "colour": [block.colour for block in model.blocks],
             "support": [k for k, block in enumerate(model.blocks) if block.name in model.supports],
         },
     }

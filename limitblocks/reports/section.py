@@ -47,6 +47,15 @@ class Section:
         What follows: tables, sentences, drawings of this kind of result.
     curve : Curve, optional
         A plot to draw.
+    designs : tuple of (float, str)
+        Certified load factors without dilatancy to which loading leads, and of what: the least of a report
+        is the one to design with.
+    upper : float, optional
+        An upper estimate of it.
+    own : bool
+        Whether its headline is at the head of a report that has no load factor to design with.
+    compared : tuple of (str, str, str)
+        Name, value and meaning of load factors to be put side by side.
     """
 
     title: str
@@ -60,6 +69,10 @@ class Section:
     quantity: str = "load factor α"
     parts: tuple[Part, ...] = ()
     curve: Curve | None = None
+    designs: tuple[tuple[float, str], ...] = ()
+    upper: float | None = None
+    own: bool = False
+    compared: tuple[tuple[str, str, str], ...] = ()
 
 
 def checks_of(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:

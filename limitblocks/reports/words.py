@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable
 from inspect import getdoc
+from math import floor, log10
 from typing import Any
 
 import numpy as np
@@ -81,11 +82,23 @@ def counted(words: Iterable[str]) -> dict[str, int]:
     return dict(Counter(words).most_common())
 
 
-def some(names: list[str]) -> str:
+def some(names: list[str], shown: int = SHOWN) -> str:
     """Return the first of some names as text."""
-    return ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
+    return ", ".join(names[:shown]) + (f" and {len(names) - shown} more" if len(names) > shown else "")
 
 
 def times(counts: dict[str, int]) -> str:
     """Return counted words as text."""
     return some([f"{count} × {word}" for word, count in counts.items()])
+
+
+def rounded_down(ratio: float) -> str:
+    """Three digits, never more than there is: .9996 is not 1.00."""
+    digits = 2 - floor(log10(abs(ratio))) if ratio else 2
+    scale = 10.0**digits
+    return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Return a number with its unit as text."""
+    return f"{value:.6g} {unit.replace('s2', 's²')}".strip()

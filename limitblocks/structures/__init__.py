@@ -8,6 +8,7 @@ from limitblocks.structures.arches import (
     segmental_arch,
 )
 from limitblocks.structures.bond import Opening
+from limitblocks.structures.bridges import arch_bridge
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
 from limitblocks.structures.cross_vaults import groin_vault, pavilion_vault
 from limitblocks.structures.domes import dome, dome_lunes
@@ -28,6 +29,7 @@ __all__ = [
     "Opening",
     "Piers",
     "arch",
+    "arch_bridge",
     "arch_on_piers",
     "barrel_vault",
     "block",

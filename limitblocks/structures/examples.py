@@ -16,6 +16,7 @@ from limitblocks.structures.arches import (
     pointed_arch,
     segmental_arch,
 )
+from limitblocks.structures.bridges import arch_bridge
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
 from limitblocks.structures.cross_vaults import groin_vault, pavilion_vault
 from limitblocks.structures.domes import dome, dome_lunes
@@ -75,6 +76,9 @@ EXAMPLES: Mapping[str, Callable[[Joint], Model]] = MappingProxyType(
         ),
         "arch_on_piers": lambda joint: arch_on_piers(
             joint, radius=2.0, thickness=0.4, voussoirs=13, pier_width=0.9, pier_blocks=3
+        ),
+        "arch_bridge": lambda joint: arch_bridge(
+            joint, span=3.0, rise=0.8, thickness=0.4, voussoirs=9, spans=2, pier_width=0.9, rings=2
         ),
         "segmental_arch": lambda joint: segmental_arch(
             joint, span=4.0, rise=0.8, thickness=0.3, voussoirs=11, piers=Piers(width=1.2, blocks=2)

@@ -15,6 +15,7 @@ from test_geometry_contact import voronoi_blocks
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import Block, find_contacts, find_interfaces, polygon
 from limitblocks.geometry.patches import common_areas
+from limitblocks.geometry.regions import in_turn
 from limitblocks.io.interfaces import interface_fault
 
 
@@ -365,3 +366,17 @@ def test_thin_blocks_do_not_hide_an_overlap(at):
     assert overlap_of(Block.box("stone", (1, 1, 1), (0, 0, 0)), half_in).depth == pytest.approx(6e-5)
     resting = plate.moved(np.eye(3), (0, 0, 0.5 - at + 0.5e-4))
     assert len(find_interfaces([Block.box("stone", (1, 1, 1), (0, 0, 0)), resting], None)) == 1
+
+
+def test_half_edges_around_regions_are_put_in_turn():
+    """A square is a ring; a frame with a hole, and triangles that meet at a vertex, are none."""
+    square = [(3, 0), (1, 2), (0, 1), (2, 3)]
+    frame = [(0, 1), (1, 2), (2, 0), (5, 4), (4, 3), (3, 5)]
+    touching = [(0, 1), (1, 2), (2, 0), (2, 3), (3, 4), (4, 2)]
+    start, end = np.array(square + frame + touching).T
+    own = np.repeat([0, 1, 2], [4, 6, 6])
+    sides = np.bincount(own)
+    ring, turn = in_turn(own, np.cumsum(sides) - sides, sides, start, end)
+    assert ring.tolist() == [True, False, False]
+    assert [(start[k], end[k]) for k in turn[:4]] == [(3, 0), (0, 1), (1, 2), (2, 3)]
+    assert turn[4:].tolist() == list(range(4, 16))

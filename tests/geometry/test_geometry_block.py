@@ -145,6 +145,14 @@ def _vertices(**changes):
         (np.vstack([BOX.vertices, (0, 0, 0)]), "vertex 8 belongs to no face"),
         (_vertices(v7=(0.7, 0.7, 0.7)), r"face \d is not planar: vertex \d is 0\.\d+ m out of its plane"),
         (_vertices(v7=BOX.vertices[6]), "vertices 6 and 7 coincide"),
+        (
+            _vertices(v7=(1e9, 0, 0)),
+            r" apart, which is nothing .*; vertex 7 at \(1e\+09, 0, 0\) m is far from all",
+        ),
+        (
+            (BOX.vertices + 1e9).astype(np.float32),
+            "coincide; keep one.*; at 1e\\+09 m from the origin .* too few",
+        ),
         (BOX.vertices[:7], r"face 1 = \(1, 3, 7, 5\) has a vertex index out of range; .* 0 to 6"),
         (BOX.vertices[[1, 0, 3, 2, 5, 4, 7, 6]], r"volume is negative \(-1 m3\): the faces point inward"),
         (BOX.vertices @ np.array([(1, 0, 0), (0, 1, 0), (1, 1, 0)]), "volume is zero"),

@@ -1,5 +1,6 @@
 import io
 import random
+import re
 import sys
 from dataclasses import replace
 
@@ -352,6 +353,8 @@ def test_outlines_that_are_none(tmp_path):
 
     imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
     assert len(imported.blocks) == 1
+    assert len(imported.left_out) == 3
+    assert all(re.fullmatch("(LWPOLYLINE|POLYLINE) [0-9A-F]+", word) for word in imported.left_out)
     notes = "\n".join(imported.notes)
     for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
         assert word in notes
@@ -458,12 +461,25 @@ def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
     assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2
 
 
-def test_groups_are_told(tmp_path):
-    drawing = ezdxf.readfile(lb.files.write_blocks(STRUCTURES["arch"], tmp_path / "a.dxf"))
-    for k in range(10):
-        drawing.groups.new(f"g{k}").extend(list(drawing.modelspace())[: k + 1])
+def test_groups_and_colours_come_through_block_references(tmp_path):
+    """BYLAYER, BYBLOCK, an index and a true colour; a group of an INSERT is that of what is in it."""
+    drawing = ezdxf.new(units=6)
+    drawing.layers.add("red", color=1)
+    stone = drawing.blocks.new("stone")
+    cube().render_mesh(stone, {"layer": "0", "color": 0})  # BYBLOCK
+    space = drawing.modelspace()
+    inserts = [space.add_blockref("stone", (2 * k, 0, 0), {"layer": "red"}) for k in range(2)]
+    inserts[0].dxf.color = 5
+    own = cube()
+    own.translate(6, 0, 0)
+    own.render_mesh(space, {"layer": "red", "true_color": 0x102030})
+    with drawing.groups.new("pair").edit_data() as pair:
+        pair.extend(inserts)
+    with drawing.groups.new().edit_data() as nameless:  # *A1
+        nameless.extend(inserts)
     drawing.groups.new("empty")
-    drawing.saveas(tmp_path / "b.dxf")
-    (note,) = lb.files.read_blocks(tmp_path / "b.dxf").notes
-    assert note.startswith("groups are not kept, layers are: 'g0' × 1, 'g1' × 2, ")
-    assert note.endswith("'g7' × 8 and 2 more")
+    drawing.saveas(tmp_path / "a.dxf")
+    found = lb.files.read_blocks(tmp_path / "a.dxf")
+    assert [block.colour for block in found.blocks] == ["#0000ff", "#ff0000", "#102030"]
+    assert [block.groups for block in found.blocks] == [("pair",), ("pair",), ()]
+    assert not found.notes

@@ -1,5 +1,6 @@
 """Structures through every mesh format and back: the same interfaces, areas and bounds."""
 
+import json
 import logging
 import struct
 
@@ -155,12 +156,14 @@ def test_gltf_nodes_are_placed_by_their_parents(tmp_path):
     path = lb.files.write_blocks([lb.Block.box("a", (1, 2, 3), (0, 0, 0), 1.0)], tmp_path / "a.glb")
     data = path.read_bytes()
     half = np.sqrt(0.5)
-    nodes = f'"nodes":[{{"name":"a","mesh":0,"rotation":[0,{half},0,{half}],"scale":[2,2,2]}},'
-    nodes += '{"children":[0],"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,10,20,30,1]}]'
     length = struct.unpack("<I", data[12:16])[0]
-    text = data[20 : 20 + length].decode().replace('"nodes":[0]', '"nodes":[1]')
-    start = text.index('"nodes":[{')
-    text = text[:start] + nodes + text[text.index("]}]", start) + 3 :]
+    document = json.loads(data[20 : 20 + length])
+    document["nodes"] = [
+        {"name": "a", "mesh": 0, "rotation": [0, half, 0, half], "scale": [2, 2, 2]},
+        {"children": [0], "matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 10, 20, 30, 1]},
+    ]
+    document["scenes"][0]["nodes"] = [1]
+    text = json.dumps(document)
     text += " " * (-len(text) % 4)
     body = struct.pack("<I", len(text)) + b"JSON" + text.encode() + data[20 + length :]
     path.write_bytes(data[:8] + struct.pack("<I", len(body) + 12) + body)

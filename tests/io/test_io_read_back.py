@@ -94,7 +94,7 @@ def test_what_a_file_says_of_itself_is_no_evidence(kind, tmp_path):
     assert type(read) is type(SAVED[kind])
     assert not lb.check_mcp(MODEL, read).passed
     made = lb.report(MODEL, read)
-    assert answer(made.results).load_factor is None
+    assert answer(made.sections).load_factor is None
     assert "Claimed solution, check failed" in made.markdown
     assert "FAIL" in made.markdown
 

@@ -135,18 +135,35 @@ def test_polysurfaces_extrusions_layers_and_what_is_hidden(tmp_path):
     assert (again.layers, again.supports) == (imported.layers, ("ground",))
 
 
-def test_groups_are_told(tmp_path):
+def test_groups_and_colours_come_through_instances(tmp_path):
+    """Colours of the object, the layer and the instance; a group of an instance is that of what is in it."""
     drawing = Drawing()
     for name in ("left", "empty"):
         group = rhino3dm.Group()
         group.Name = name
         drawing.model.Groups.Add(group)
-    attributes = drawing.attributes("a")
-    attributes.AddToGroup(0)
-    drawing.model.Objects.Add(box(), attributes)
-    drawing.add(box((2, 0, 0), (3, 1, 1)), "b")
-    found = lb.files.look(drawing.saved(tmp_path / "a.3dm"))
-    assert found.notes == ("groups are not kept, layers are: 'left' × 1",)
+    sources, red, plain = rhino3dm.ObjectColorSource, drawing.layer("red"), drawing.layer("plain")
+    drawing.model.Layers[red].Color = (255, 0, 0, 255)
+    own, inner, outer = (drawing.attributes(name, plain) for name in ("own", "inner", "outer"))
+    own.ObjectColor, own.ColorSource = (1, 2, 3, 255), sources.ColorFromObject
+    inner.ColorSource = sources.ColorFromParent
+    drawing.model.InstanceDefinitions.Add("one", "", "", "", rhino3dm.Point3d(0, 0, 0), (box(),), (inner,))
+    key = next(iter(drawing.model.InstanceDefinitions)).Id
+    outer.ObjectColor, outer.ColorSource = (4, 5, 6, 255), sources.ColorFromObject
+    outer.AddToGroup(0)
+    drawing.model.Objects.Add(box((2, 0, 0), (3, 1, 1)), own)
+    drawing.model.Objects.Add(rhino3dm.InstanceReference(key, rhino3dm.Transform.Identity()), outer)
+    drawing.add(box((4, 0, 0), (5, 1, 1)), "by layer", red)
+    drawing.add(box((6, 0, 0), (7, 1, 1)), "none", plain)
+    found = lb.files.read_blocks(drawing.saved(tmp_path / "a.3dm"))
+    assert {block.name: block.colour for block in found.blocks} == {
+        "own": "#010203",
+        "outer": "#040506",
+        "by layer": "#ff0000",
+        "none": "",
+    }
+    assert {block.name for block in found.blocks if block.groups == ("left",)} == {"outer"}
+    assert not found.notes
 
 
 @pytest.mark.parametrize(("units", "metres"), [("Centimeters", 0.01), ("Feet", 0.3048), ("Inches", 0.0254)])

@@ -8,9 +8,10 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
-from limitblocks.mechanics import added_mass, pressure
+from limitblocks.loads import added_mass, pressure
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
-from limitblocks.practice.displaced import assembly_of, closed_up, moved
+from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.rejoined import closed_up
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -50,6 +51,27 @@ def test_block_that_slides_keeps_its_load_factor_until_half_of_it_is_off():
     assert curve.ended == "the displacement 0.5 m is reached"
     shifted = curve.points[-1].model.interfaces[0]
     assert shifted.centroid == pytest.approx([0.5, 0, 0], abs=1e-9)
+
+
+def test_block_that_slides_off_its_base_tips_over_the_edge():
+    """The shared area shrinks: at mu until the weight is (mu h / 2) from the edge, then over the edge."""
+    h, friction = 0.3, 0.6
+    stones = [
+        lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (1, 1, h), (0, 0, h / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(friction))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, steps=2, control=("block", (0, 0, h)), largest=0.48)
+    tips = 0.5 - friction * h / 2
+    slid = curve.displacements < tips
+    assert 3 <= slid.sum() < len(slid)
+    assert curve.load_factors[slid] == pytest.approx(friction, rel=1e-9)
+    for point in np.array(curve.points)[slid]:
+        (own,) = point.model.interfaces
+        assert np.ptp(own.polygon[:, 0]) * np.ptp(own.polygon[:, 1]) == pytest.approx(1 - point.displacement)
+    first = curve.points[int(slid.sum())]
+    assert first.load_factor == pytest.approx((0.5 - first.displacement) / (h / 2), rel=1e-6)
 
 
 def test_mass_and_tie_move_with_the_block():

@@ -131,7 +131,7 @@ def test_it_ends_where_it_is_told_to():
     assert curve.ended == "the settlement 0.03 m is reached"
     assert tuple(told) == curve.points
     assert curve.digest == ring.digest
-    assert curve.to_dict()["displacements"] == curve.displacements.tolist()
+    assert [one["displacement"] for one in curve.to_dict()["points"]] == curve.displacements.tolist()
     assert str(curve).endswith("the settlement 0.03 m is reached")
 
 

@@ -2,34 +2,22 @@
 
 import numpy as np
 import pytest
+from facades import ARM, FLOOR, OWN, H, T, facade
 
 import limitblocks as lb
+from limitblocks.analysis.scales import frictional
+from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.joints import Tie
-from limitblocks.mechanics import added_mass
 from limitblocks.practice import dowel, reinforced, strip, tie
 
-T, H, WEIGHT, FLOOR, ARM = 0.5, 5.0, 18e3, 10e3, 0.35  # m, N/m3, N on one metre of wall
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 JOINT_NAMES = ["point contact", "paper"]
 every_joint = pytest.mark.parametrize("joint", JOINTS, ids=JOINT_NAMES)
 
 
-def facade(joint=JOINTS[0]):
-    """One metre of a facade with a floor at its top, `ARM` from its outer edge; pushed outwards along X."""
-    stones = [
-        lb.Block.box("ground", (2, 1, 0.4), (0, 0, -0.2)),
-        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
-    ]
-    floor = added_mass("wall", (T / 2 - ARM, 0, H), weight=FLOOR)
-    found = lb.find_interfaces(stones, joint)
-    push = lb.mass_proportional((1, 0, 0), [floor])
-    return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
-
-
 def rocking(force=0.0, height=0.0):
     """Moments about the outer edge."""
-    own = WEIGHT * T * H
-    return (own * T / 2 + FLOOR * ARM + force * height) / (own * H / 2 + FLOOR * H)
+    return (OWN * T / 2 + FLOOR * ARM + force * height) / (OWN * H / 2 + FLOOR * H)
 
 
 def rod(force, height=4.5, **settings):
@@ -83,7 +71,7 @@ def test_inclined_ties_and_several(share):
 
 
 def test_prestress_that_pulls_a_wall_over_is_no_equilibrium():
-    held = WEIGHT * T * H * T / 2 + FLOOR * (T - ARM)  # about the inner edge
+    held = OWN * T / 2 + FLOOR * (T - ARM)  # about the inner edge
     for part, falls in ((0.99, False), (1.01, True)):
         model = reinforced(facade(), rod(8e3, prestress=part * held / 4.5))
         if falls:
@@ -96,7 +84,12 @@ def test_prestress_that_pulls_a_wall_over_is_no_equilibrium():
 def test_strip_across_the_base_is_a_force_at_the_edge():
     model = facade()
     own = strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3)
-    assert lb.bounds(reinforced(model, own)).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
+    held = reinforced(model, own)
+    result = lb.nonassociated(held)
+    assert own.interface.name == "strip ground|wall"
+    assert lb.bounds(held).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
+    assert result.load_factor == pytest.approx(rocking(6e3, T), rel=1e-8)  # debonds at its cap
+    assert lb.interface_states(held, result).state == ("hinge", "yield")
 
 
 def test_dowel_adds_shear():
@@ -115,6 +108,53 @@ def test_more_tie_is_never_weaker(joint):
     factors = [lb.bounds(reinforced(facade(joint), rod(force))).upper for force in (1.0, 1e3, 4e3, 3e4)]
     assert np.all(np.diff(factors) > -1e-9)
     assert factors[0] == pytest.approx(rocking(1.0, 4.5), rel=1e-8)
+
+
+@pytest.mark.parametrize("dilatancy", [0.0, 0.3, 0.6])
+def test_ties_have_no_friction_that_limits_dilatancy(dilatancy):
+    """A wall that hinges does not slide: any dilatancy up to the friction of its joint gives one answer."""
+    model = reinforced(facade(), rod(8e3))
+    result = lb.nonassociated(model, dilatancy=dilatancy)
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    with pytest.raises(lb.ModelError, match=r"expected 0 to the least friction coefficient, 0\.6"):
+        lb.nonassociated(model, dilatancy=0.61)
+
+
+def test_what_is_unbalanced_is_not_carried_by_ties():
+    """The tree of a proof leads through the joint, however little room it has: a tie carries one force."""
+    model = reinforced(facade(), rod(8e3))
+    tree = spanning_tree(model.problem, np.array([1e-3, 1.0]))
+    assert tree.interface.tolist() == [0]
+
+
+def test_shear_of_a_dowel_is_measured_as_any_force():
+    """Shear of a joint is measured by its friction, .25; a dowel has none, and its shear is no small one."""
+    model = lb.structures.block(lb.PointContact(0.25), width=1.0, height=0.5)
+    (joint,) = model.interfaces
+    held = reinforced(model, dowel(joint, joint.centroid, diameter=0.02, capacity=1e3))
+    corners = [0.25, 0.25, 1.0] * 4
+    assert frictional(held.problem).tolist() == [*corners, 1.0, 1.0]
+
+
+def test_two_ties_in_parallel_and_number_of():
+    """Two ties side by side carry what one of twice the force carries; each is listed by itself."""
+    pair = [rod(4e3), rod(4e3)]
+    result = lb.nonassociated(reinforced(facade(), *pair))
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert result.stress_resultants[1:, 2] == pytest.approx([4e3, 4e3], rel=1e-6)
+    one = rod(np.inf, area=4e3 / 235e6 / 3, number_of=3)
+    assert lb.bounds(reinforced(facade(), one)).upper == pytest.approx(rocking(4e3, 4.5), rel=1e-8)
+
+
+def test_prestress_takes_from_what_a_tie_can_take():
+    """The load factor does not depend on the prestress of a tie that yields; N is what comes on top."""
+    result = lb.nonassociated(reinforced(facade(), rod(8e3, prestress=2e3)))
+    assert result.load_factor == pytest.approx(rocking(8e3, 4.5), rel=1e-8)
+    assert result.stress_resultants[1, 2] == pytest.approx(6e3, rel=1e-6)
+    # on the side to which the wall turns the prestress stays, against it
+    inward = tie("wall", (T / 2, 0, 4.5), "ground", (6, 0, 4.5), area=1e-4, strength=2e8, prestress=1e3)
+    slack = lb.nonassociated(reinforced(facade(), inward))
+    assert slack.load_factor == pytest.approx(rocking(-1e3, 4.5), rel=1e-8)
 
 
 def test_file_keeps_ties(tmp_path):

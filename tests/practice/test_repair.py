@@ -14,6 +14,7 @@ from limitblocks.practice import (
     least_ties,
     passive_fill,
     reinforced,
+    repair,
     tie,
     uplift,
     vehicle_load,
@@ -51,8 +52,35 @@ def test_least_mass_goes_to_the_outermost_and_lowest_place():
     required, own = 0.12, WEIGHT * T * H
     found = least_masses(wall(), [("wall", (0, 0, 4.0)), ("wall", (-T / 2, 0, 0.5))], required)
     least = own * (required * H - T) / 2 / (T - required * 0.5)
-    assert found.amounts == pytest.approx([0.0, least], rel=1e-5)
+    assert found.amounts == pytest.approx([0.0, least], rel=1e-6)
     assert found.bounds.lower >= required * (1 - 1e-5)
+
+
+def test_what_a_repair_brings_without_dilatancy():
+    """A wedge in a groove: a tie along it adds its force; sliding without lift starts from less.
+
+    Associated mu / sqrt(sin^2 w - mu^2 cos^2 w), without dilatancy mu / sin w (limitblocks.structures.wedge).
+    """
+    mu, w, required = 0.3, np.pi / 4, 0.7
+    groove = lb.structures.wedge(lb.PointContact(mu), half_angle=w, height=1.0, length=6.0)
+    weight = groove.free_blocks[0].weight
+    at = groove.free_blocks[0].centroid
+    rod = tie("wedge", at, "left plane", at - [9.0, 0.0, 0.0], area=1e-3, strength=1e9)
+    found = least_ties(groove, [rod], required)
+    dilating = mu / np.sqrt(np.sin(w) ** 2 - (mu * np.cos(w)) ** 2)
+    assert found.total == pytest.approx((required - dilating) * weight, rel=1e-6)
+    assert found.result.load_factor == pytest.approx(mu / np.sin(w) + found.total / weight, rel=2e-6)
+    assert found.result.load_factor < 0.98 * required
+    made = lb.report(groove, found)
+    assert "less than the load factor 0.7 required" in made.markdown
+
+
+def test_a_repair_that_does_not_reach_what_is_required_is_no_repair(monkeypatch):
+    """Whatever the program says, the bounds of the reinforced structure judge it."""
+    right = repair.least_stresses
+    monkeypatch.setattr(repair, "least_stresses", lambda *given: 0.9 * right(*given))
+    with pytest.raises(lb.errors.SolverFailure, match=r"reaches 0\.28.* only, required was 0\.3"):
+        least_ties(wall(), [rod(4.5)], 0.3)
 
 
 def test_load_factor_out_of_reach():
@@ -109,6 +137,16 @@ def test_worst_position_is_the_end_of_the_overhang():
     found = worst_position(model, vehicle, deck, (3.2, 3.95), positions=4)
     assert found.position == pytest.approx(3.95, abs=1e-3)
     assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
+def test_the_search_finds_the_worst_position_between_the_first_ones():
+    """Beyond the end at x = 4 nothing stands on the beam: worst is the end itself, P (4 - 3) = W (3 - 2)."""
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-4), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 4.8), positions=4)
+    assert found.position == pytest.approx(4.0, abs=2e-3)
+    assert found.bounds.upper == pytest.approx(40e3 / 10e3 / (found.position - 3.0), rel=1e-3)
+    assert found.load_factors.min() < 0.8 * found.load_factors[:4].min()
+    assert np.isinf(found.load_factors[np.argmax(found.positions)])
 
 
 def test_vehicle_of_two_axles_and_dispersion():

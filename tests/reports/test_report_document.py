@@ -106,12 +106,12 @@ def test_report_of_a_house_has_the_words_an_authority_looks_for(rendering, house
 def test_the_large_number_is_the_least_certified_one_without_dilatancy(house, results):
     bounds, solved, _ = results
     assert solved.load_factor < bounds.lower
-    found = answer((bounds, solved))
+    found = answer(lb.report(house, bounds, solved).sections)
     assert (found.load_factor, found.certified) == (solved.load_factor, True)
     html = lb.report(house, bounds, solved).html
     assert re.search(r'class="number">([^<]*)<', html)[1] == f"{solved.load_factor:#.4g}"
     higher = replace(solved, load_factor=1.5 * solved.load_factor)
-    least = answer((higher, bounds, solved))
+    least = answer(lb.report(house, higher, bounds, solved).sections)
     assert least.load_factor == solved.load_factor
     assert "least of the 2 certified" in least.reason
 
@@ -119,17 +119,17 @@ def test_the_large_number_is_the_least_certified_one_without_dilatancy(house, re
 def test_what_is_not_certified_is_an_upper_estimate_and_says_so(house, results):
     bounds, solved, stands = results
     stalled = replace(solved, status=Status.OUT_OF_STEPS)
-    found = answer((stalled, bounds))
+    found = answer(lb.report(house, stalled, bounds).sections)
     assert (found.load_factor, found.certified) == (bounds.lower, False)
     made = lb.report(house, stalled, bounds)
     assert "real friction dilates less than associated flow assumes" in made.markdown
     assert f"≤ {bounds.lower:#.4g}" in made.html
-    assert answer((stalled, stands)).load_factor is None
+    assert answer(lb.report(house, stalled, stands).sections).load_factor is None
     assert "no load factor to design with" in lb.report(house, stands).html
 
 
 def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):
-    said = answer(results).quantity(house)
+    said = answer(lb.report(house, *results).sections).quantity(house)
     factor = results[1].load_factor
     assert "a horizontal acceleration along +Y" in said
     assert f"{factor:#.4g} g" in said
@@ -187,12 +187,12 @@ def test_a_saved_result_is_reported(house, results, tmp_path):
         lb.files.write_result(result, file)
         made = lb.report(house, lb.read_result(file, house))
         assert f"{result.load_factor:#.4g}" in made.html
-    assert answer(lb.report(house, lb.read_result(tmp_path / "solved.json", house)).results).certified
+    assert answer(lb.report(house, lb.read_result(tmp_path / "solved.json", house)).sections).certified
     changed = json.loads((tmp_path / "solved.json").read_text())
     changed["load_factor"] *= 1.1
     (tmp_path / "solved.json").write_text(json.dumps(changed))
     made = lb.report(house, lb.read_result(tmp_path / "solved.json", house))
-    assert not answer(made.results).certified
+    assert not answer(made.sections).certified
     assert "FAIL" in made.markdown
 
 

@@ -6,17 +6,22 @@ from __future__ import annotations
 import re
 from array import array
 from collections.abc import Container, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, one_line, read_bytes, refuse_many
+from limitblocks.io.colours import common, parts_of
+from limitblocks.io.imported import one_line, read_bytes, refuse_many
+from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
 from limitblocks.io.solid import Solid
 
-_Section = tuple[str, str, str]  # name, layer and material of what is drawn
+_Section = tuple[str, str, str, tuple[str, ...]]  # name, layer, material and groups of what is drawn
+_OWN = "# limitblocks"  # in such files the words after g are a layer and groups, each without blanks
+_BLANK = "\N{NO-BREAK SPACE}"
 _Face = tuple[int, ...]
 _MOST_LINES, _LONGEST_LINE = 6_000_000, 1_000_000
 
@@ -29,16 +34,22 @@ def contents(path: Path) -> Contents:
     ModelError
         A line cannot be read.
     """
-    vertices = array("d")
+    vertices, tints = array("d"), dict[int, tuple[float, ...]]()
     drawn: dict[_Section, list[_Face]] = {}
-    state = {"o": "", "g": "", "usemtl": ""}
-    for number, (word, *rest) in _lines(read_bytes(path)):
+    state, colours = {"o": "", "g": "", "usemtl": ""}, dict[str, str]()
+    data = read_bytes(path)
+    own = data.startswith(_OWN.encode())
+    for number, (word, *rest) in _lines(data):
         try:
             if word == "v":
                 x, y, z = map(float, rest[:3])
                 vertices.extend((x, y, z))
+                if len(rest) == 6:  # x y z and red green blue, as many programs write
+                    tints[len(vertices) // 3 - 1] = tuple(map(float, rest[3:]))
+            elif word == "mtllib":
+                colours |= _materials(path, " ".join(rest))
             elif word == "f":
-                drawn.setdefault(_section(state, path), []).append(_face(rest, len(vertices) // 3))
+                drawn.setdefault(_section(state, path, own), []).append(_face(rest, len(vertices) // 3))
             elif word in state:
                 state[word] = " ".join(rest)
         except ValueError as error:
@@ -48,13 +59,35 @@ def contents(path: Path) -> Contents:
     refuse_many(faces=sum(map(len, drawn.values())))
     points = np.array(vertices).reshape(-1, 3)
     bodies: list[Solid] = []
-    for (name, layer, material), faces in drawn.items():
+    for (name, layer, material, groups), faces in drawn.items():
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
         found = solids(name, layer, points[used], loops)
-        bodies += [solid._replace(material=material) for solid in found]
+        colour = _tint([tints.get(vertex) for vertex in used]) or colours.get(material or layer, "")
+        bodies += [solid._replace(material=material, groups=groups, colour=colour) for solid in found]
     return Contents(bodies)
+
+
+def _tint(rows: Sequence[tuple[float, ...] | None]) -> str:
+    """Return the colour of vertices with these parts of one; empty where some have none or they differ."""
+    parts = [row for row in rows if row is not None]
+    whole = len(parts) == len(rows) and bool(np.isfinite(parts).all())
+    return common(np.round(255.0 * np.clip(parts, 0.0, 1.0)).astype(np.uint8)) if whole else ""
+
+
+def _materials(path: Path, name: str) -> dict[str, str]:
+    """Return the diffuse colours of the materials in a file beside the OBJ file; none where it is missing."""
+    if not name or Path(name).name != name or not path.with_name(name).is_file():
+        return {}
+    found, material = dict[str, str](), ""
+    for _, (word, *rest) in _lines(read_bytes(path.with_name(name))):
+        if word == "newmtl":
+            material = " ".join(rest)
+        elif word == "Kd" and len(rest) == 3:
+            with suppress(ValueError):
+                found[material] = _tint([tuple(map(float, rest))])
+    return found
 
 
 def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
@@ -72,7 +105,7 @@ def _lines(data: bytes) -> Iterator[tuple[int, list[str]]]:
     for number, line in enumerate(whole.splitlines(), 1):
         if len(line) > _LONGEST_LINE:
             raise ModelError(f"line {number} has {len(line)} letters; at most {_LONGEST_LINE} are read")
-        words = line.split()
+        words = line.split(None if _BLANK not in line else " ")
         if words and not words[0].startswith("#"):
             yield number, words
 
@@ -81,11 +114,12 @@ def _joined(lines: str) -> str:
     return re.sub(r"\\\r?\n", " ", lines)
 
 
-def _section(state: dict[str, str], path: Path) -> _Section:
+def _section(state: dict[str, str], path: Path, own: bool) -> _Section:
     if state["o"]:
-        layer, material = state["g"] or state["usemtl"], state["usemtl"]
-        return state["o"], layer, "" if material == layer else material
-    return state["g"] or path.stem, state["usemtl"], ""
+        group, *groups = state["g"].split(" ") if own else (state["g"],)
+        layer, material = one_line(group) or state["usemtl"], state["usemtl"]
+        return state["o"], layer, "" if material == layer else material, tuple(map(one_line, groups))
+    return state["g"] or path.stem, state["usemtl"], "", ()
 
 
 def _face(corners: list[str], known: int) -> _Face:
@@ -99,13 +133,15 @@ def _face(corners: list[str], known: int) -> _Face:
 
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
     """Return the OBJ file of blocks: faces, names, every digit; layers as materials or groups."""
-    lines = ["# limitblocks; m, Z up"]
-    first, made = 1, any(block.material for block in blocks)
+    lines = [f"{_OWN}; m, Z up"]
+    first, made = 1, any(block.material or block.groups for block in blocks)
     for block in blocks:
         lines.append(f"o {one_line(block.name)}")
-        lines += [f"v {x!r} {y!r} {z!r}" for x, y, z in block.vertices.tolist()]
+        tint = "".join(f" {part / 255.0:.6g}" for part in parts_of(block.colour)) if block.colour else ""
+        lines += [f"v {x!r} {y!r} {z!r}{tint}" for x, y, z in block.vertices.tolist()]
         layer, material = (one_line(word) for word in (layers.get(block.name, ""), block.material))
-        lines += [f"g {layer}"] if layer and made else []
+        words = [word.replace(" ", _BLANK) for word in (layer or "block", *map(one_line, block.groups))]
+        lines += [f"g {' '.join(words)}"] if (layer or block.groups) and made else []
         lines += [f"usemtl {material or layer}"] if material or layer else []
         lines += ["f " + " ".join(str(first + vertex) for vertex in face) for face in block.faces]
         first += len(block.vertices)

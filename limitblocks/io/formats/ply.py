@@ -12,8 +12,11 @@ import numpy.typing as npt
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, read_bytes, refuse_many
-from limitblocks.io.shells import solids
+from limitblocks.io.colours import common, parts_of
+from limitblocks.io.imported import read_bytes, refuse_many
+from limitblocks.io.placed import Contents
+from limitblocks.io.shells import surfaces
+from limitblocks.io.solid import Solid
 
 _TYPES = {
     **{"char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4"},
@@ -21,6 +24,7 @@ _TYPES = {
     **{"float": "f4", "float32": "f4", "double": "f8", "float64": "f8"},
 }
 _FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_TINTS = {"red", "green", "blue"}
 _LOOPS = ("vertex_indices", "vertex_index")
 _Columns = list[npt.NDArray[Any]]
 _LONGEST = 64  # lists that are taken for all items at once
@@ -60,7 +64,19 @@ def contents(path: Path) -> Contents:
     if loops is None or not {"x", "y", "z"} <= vertices.keys():
         raise ModelError("has no faces over vertices x, y, z; is it a point cloud?")
     points = np.column_stack([vertices[axis] for axis in "xyz"])
-    return Contents(solids(path.stem, "", points, loops))
+    found = surfaces(path.stem, points, loops)
+    tints = _tints(vertices) if vertices.keys() >= _TINTS else None
+    return Contents([
+        Solid(path.stem, "", points[used], faces, colour="" if tints is None else common(tints[used]))
+        for used, faces in found
+    ])  # fmt: skip
+
+
+def _tints(vertices: dict[str, Any]) -> Any:
+    """Return the colours (n, 3) of vertices, of 255; a file may have them as parts of one."""
+    parts = np.column_stack([vertices["red"], vertices["green"], vertices["blue"]])
+    most = 255.0 if parts.dtype.kind != "f" or parts.max(initial=0.0) > 1.0 else 1.0
+    return np.round(np.clip(np.nan_to_num(parts) / most, 0.0, 1.0) * 255.0).astype(np.uint8)
 
 
 def _whole(loops: Any) -> list[list[int]]:
@@ -188,7 +204,7 @@ def _alike(element: _Element, source: _Text | _Binary) -> dict[str, Any] | None:
 
 
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:  # none
-    """Return the binary PLY file of blocks: faces and every digit, no names."""
+    """Return the binary PLY file of blocks: faces, every digit, colours of vertices if any, no names."""
     points = np.concatenate([block.vertices for block in blocks])
     starts = np.cumsum([0, *(len(block.vertices) for block in blocks)])
     faces = [
@@ -196,10 +212,19 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
         for block, start in zip(blocks, starts.tolist()[:-1], strict=True)
         for face in block.faces
     ]
+    tints, kinds = "", [("at", "<f8", 3)]
+    if any(block.colour for block in blocks):
+        tints = "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+        kinds.append(("tint", "u1", 3))
+    table = np.zeros(len(points), dtype=kinds)
+    table["at"] = points
+    if tints:
+        number = [len(block.vertices) for block in blocks]
+        table["tint"] = np.repeat([parts_of(block.colour) for block in blocks], number, axis=0)
     header = (
         "ply\nformat binary_little_endian 1.0\ncomment limitblocks; m, Z up\n"
-        f"element vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\n"
+        f"element vertex {len(points)}\nproperty double x\nproperty double y\nproperty double z\n{tints}"
         f"element face {len(faces)}\nproperty list int int vertex_indices\nend_header\n"
     )
     rows = np.concatenate([[len(face), *face] for face in faces])
-    return header.encode() + points.astype("<f8").tobytes() + rows.astype("<i4").tobytes()
+    return header.encode() + table.tobytes() + rows.astype("<i4").tobytes()

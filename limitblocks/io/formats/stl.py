@@ -12,7 +12,8 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Contents, one_line, read_bytes, refuse_many
+from limitblocks.io.imported import one_line, read_bytes, refuse_many
+from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
 from limitblocks.io.solid import Solid
 

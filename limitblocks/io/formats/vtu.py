@@ -17,6 +17,7 @@ from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
+from limitblocks.io.colours import parts_of
 from limitblocks.io.packages import package
 from limitblocks.model import Model
 from limitblocks.written import refuse_existing, write
@@ -122,9 +123,13 @@ def _blocks(model: Model, state: Array | None, field: dict[str, float]) -> bytes
 
 
 def _labels(blocks: Sequence[Block]) -> dict[str, Any]:
-    """Return the places of the blocks' layers and materials in the alphabet, where there are any."""
+    """Return places in the alphabet of the blocks' layers, materials, first groups; and colours, if any."""
     words = {word: [getattr(block, word) for block in blocks] for word in ("layer", "material")}
-    return {word: np.unique(names, return_inverse=True)[1] for word, names in words.items() if any(names)}
+    words["group"] = [block.groups[0] if block.groups else "" for block in blocks]
+    found = {word: np.unique(names, return_inverse=True)[1] for word, names in words.items() if any(names)}
+    if not any(block.colour for block in blocks):
+        return found
+    return found | {"colour": np.array([parts_of(block.colour) for block in blocks], dtype=np.uint8)}
 
 
 def _interfaces(model: Model, path: Path, resultants: Array | None) -> tuple[Path, bytes]:

@@ -28,6 +28,8 @@ function blockCard(scene, k, result, step) {
   const rows = [["Kind", block.support ? "support" : "free block"]];
   if (block.layer) rows.push(["Layer", block.layer]);
   if (block.material) rows.push(["Material", block.material]);
+  if (block.groups) rows.push(["Groups", block.groups]);
+  if (block.colour) rows.push(["Colour", block.colour]);
   if (block.weight !== null) rows.push(["Weight", inUnits(block.weight, "N")]);
   rows.push(["Volume", `${digits(block.volume)} m³`]);
   rows.push(["Centroid", place(block.centroid)]);

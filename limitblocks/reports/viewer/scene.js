@@ -22,6 +22,8 @@ function readScene() {
       volume: blocks.volume[k],
       layer: blocks.layer[k],
       material: blocks.material[k],
+      groups: blocks.groups[k],
+      colour: blocks.colour[k],
       centroid: blocks.centroid.slice(3 * k, 3 * k + 3),
       shape: data.shapes[blocks.shape[k]],
     })),

@@ -27,7 +27,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
 from limitblocks.io.formats.compas.geometry import frame, polygons, transformation
-from limitblocks.io.imported import SUPPORT_LAYERS, Contents, foreign
+from limitblocks.io.imported import SUPPORT_LAYERS, foreign, one_line
+from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
@@ -141,7 +142,12 @@ def _nodes(graph: Mapping[str, Any], place: Array, left_out: Counter[str]) -> It
         if shape is not None:
             name = shape[1] or part.name or _numbered(str(key))
             layer, material = (str(node.get(word) or "") for word in ("layer", "material"))
-            yield _solid(shape[0], where, name, support, layer, material)
+            solid = _solid(shape[0], where, name, support, layer, material)
+            groups, colour = node.get("groups"), node.get("colour")
+            yield solid._replace(
+                groups=tuple(one_line(str(one)) for one in groups) if isinstance(groups, list) else (),
+                colour=colour if isinstance(colour, str) else "",
+            )
         elif part.kind:
             left_out[f"{part.kind} without geometry"] += 1
 
@@ -187,7 +193,16 @@ def _model(data: Mapping[str, Any], place: Array, left_out: Counter[str]) -> Ite
         material = thing(materials.get(item.data.get("material"))).name
         if item.data.get("features"):
             left_out[f"features of block {name!r}"] += len(item.data["features"])
-        yield _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material=material)
+        solid = _solid(shape[0], top @ where, name, bool(item.data.get("is_support")), material=material)
+        yield solid._replace(groups=_groups(elements, parents, guid))
+
+
+def _groups(elements: Mapping[str, Thing], parents: Mapping[str, str], guid: str) -> tuple[str, ...]:
+    """Return the names of the groups above an element in the tree, the nearest first."""
+    names = []
+    while guid := parents.get(guid, ""):
+        names += [elements[guid].name] if elements[guid].kind == "Group" and elements[guid].name else []
+    return tuple(names)
 
 
 def _parents(tree: Mapping[str, Any]) -> Iterator[tuple[str, str]]:

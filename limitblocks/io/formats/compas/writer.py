@@ -53,6 +53,8 @@ def _node(k: int, block: Block, layer: str, support: bool) -> dict[str, Any]:
         "is_support": support,
         "layer": layer,
         "material": block.material,
+        "groups": list(block.groups),
+        "colour": block.colour,
         "x": x,
         "y": y,
         "z": z,

@@ -17,7 +17,8 @@ class Part(NamedTuple):
     """An entity of a drawing, out of its block references.
 
     `matrix` (4, 4) takes its coordinates to those of the drawing; `layer` and `name` are what a solid made
-    of it has, `handle` is where the drawing holds it and `reference` a number for the block reference.
+    of it has, as `groups` and `colour`, `handle` is where the drawing holds it and `reference` a number for
+    the block reference.
     """
 
     entity: Any
@@ -25,6 +26,8 @@ class Part(NamedTuple):
     layer: str
     name: str
     reference: int
+    groups: tuple[str, ...] = ()
+    colour: str = ""
 
     @property
     def kind(self) -> str:
@@ -37,9 +40,9 @@ class Part(NamedTuple):
         return str(self.entity.dxf.handle)
 
     @property
-    def material(self) -> str:
-        """What this library wrote that it is made of."""
-        return written(self.entity, 1)
+    def words(self) -> dict[str, Any]:
+        """Material, as this library wrote it, groups and colour of a solid made of it."""
+        return {"material": written(self.entity, 1), "groups": self.groups, "colour": self.colour}
 
     def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
         """Return faces in the sense they have in the drawing, which a mirror image turns."""

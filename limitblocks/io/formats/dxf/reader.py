@@ -1,19 +1,21 @@
-"""Blocks from DXF drawings: solids in space. See dxf_outlines for drawings in the plane."""
+"""Blocks from DXF drawings: solids in space. See elevation for drawings in the plane."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.io.formats.dxf.part import Part, written
-from limitblocks.io.imported import MOST_FACES, Contents, foreign, on_groups, read_bytes
+from limitblocks.io.formats.dxf import colours
+from limitblocks.io.formats.dxf.part import APPLICATION, Part, written
+from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
+from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # block references within block references
@@ -45,13 +47,12 @@ def contents(path: Path) -> Contents:
                 continue
             for points, loops in shape:
                 made = shells.solids(part.name, part.layer, points, part.turned(loops))
-                solids += [solid._replace(material=part.material) for solid in made]
+                solids += [solid._replace(**part.words) for solid in made]
         solids += bodies.from_3d_faces(faces)
-        groups = on_groups((name, len(group)) for name, group in drawing.groups)
     if not solids and not wrong:
         raise ModelError(f"holds no solid{_instead(left_out)}")
-    notes = [*unit_notes(drawing), *groups, *notes_on(left_out)]
-    return Contents(solids, metres_per_unit(drawing), notes, "z", wrong)
+    notes = [*unit_notes(drawing), *notes_on(left_out)]
+    return Contents(solids, metres_per_unit(drawing), notes, "z", wrong, hidden_of(left_out))
 
 
 def _instead(left_out: Counter[str]) -> str:
@@ -102,6 +103,11 @@ def notes_on(left_out: Counter[str]) -> list[str]:
     return [f"left out: {listed(left_out)}"] if left_out else []
 
 
+def hidden_of(left_out: Counter[str]) -> tuple[str, ...]:
+    """Return what is left out since it is hidden, and may be meant as blocks."""
+    return (f"{left_out['hidden entities']} hidden entities",) if left_out["hidden entities"] else ()
+
+
 def listed(counts: Counter[str]) -> str:
     """Return counts in words."""
     return ", ".join(f"{number} {word}" for word, number in sorted(counts.items()))
@@ -115,37 +121,52 @@ def parts(drawing: Any, left_out: Counter[str]) -> Iterator[Part]:
     ModelError
         A block is missing or contains itself, or the drawing has too many entities.
     """
-    hidden = {layer.dxf.name.lower() for layer in drawing.layers if layer.is_off() or layer.is_frozen()}
-    return _Expansion(hidden, left_out).parts(drawing.modelspace(), np.eye(4), "", "", 0)
+    return _Expansion(drawing, left_out).parts(drawing.modelspace(), _Above(np.eye(4)), 0)
+
+
+class _Above(NamedTuple):
+    """What entities have of the block reference they are in: placement, layer, name, groups, colour."""
+
+    matrix: Array
+    layer: str = ""
+    name: str = ""
+    groups: tuple[str, ...] = ()
+    colour: str = ""
 
 
 class _Expansion:
     """State of taking a drawing apart: entities met and block references met so far."""
 
-    def __init__(self, hidden: set[str], left_out: Counter[str]) -> None:
-        self.hidden, self.left_out = hidden, left_out
+    def __init__(self, drawing: Any, left_out: Counter[str]) -> None:
+        layers = list(drawing.layers)
+        self.hidden = {one.dxf.name.lower() for one in layers if one.is_off() or one.is_frozen()}
+        self.colours = {one.dxf.name.lower(): colours.of_layer(one) for one in layers}
+        self.groups, self.left_out = _groups(drawing), left_out
         self.met = self.references = 0
 
-    def parts(
-        self, entities: Iterable[Any], matrix: Array, layer: str, name: str, depth: int
-    ) -> Iterator[Part]:
+    def parts(self, entities: Iterable[Any], above: _Above, depth: int) -> Iterator[Part]:
         reference = self.references
         for entity in entities:
             self.met += 1
             if self.met > MOST_FACES:
                 raise ModelError(f"has more than {MOST_FACES} entities, the most that are read")
             # what is on layer 0 of a block takes on the layer of the reference
-            own = layer if layer and entity.dxf.layer == "0" else entity.dxf.layer
+            own = above.layer if above.layer and entity.dxf.layer == "0" else entity.dxf.layer
             if own.lower() in self.hidden or entity.dxf.get("invisible", 0):
                 self.left_out["hidden entities"] += 1
-            elif entity.dxftype() == "INSERT":
-                yield from self.inserted(entity, matrix, own, depth)
+                continue
+            groups = tuple(dict.fromkeys((*above.groups, *self.groups.get(entity.dxf.handle, ()))))
+            by_layer = "" if entity.has_xdata(APPLICATION) else self.colours.get(own.lower(), "")
+            colour = colours.of_entity(entity, by_layer, above.colour)
+            if entity.dxftype() == "INSERT":
+                where = above._replace(layer=own, groups=groups, colour=colour)
+                yield from self.inserted(entity, where, depth)
             else:
                 # the name that was written, else a name by which the entity is found in the drawing
-                given = written(entity, 0) or name or f"{own} {entity.dxf.handle}"
-                yield Part(entity, matrix, own, given, reference)
+                given = written(entity, 0) or above.name or f"{own} {entity.dxf.handle}"
+                yield Part(entity, above.matrix, own, given, reference, groups, colour)
 
-    def inserted(self, insert: Any, matrix: Array, layer: str, depth: int) -> Iterator[Part]:
+    def inserted(self, insert: Any, above: _Above, depth: int) -> Iterator[Part]:
         title, handle = insert.dxf.name, insert.dxf.handle
         block = insert.block()
         if block is None:
@@ -159,7 +180,16 @@ class _Expansion:
         for one in insert.multi_insert() if insert.mcount > 1 else (insert,):
             self.references += 1
             # ezdxf writes points as rows
-            where = matrix @ np.array(list(one.matrix44())).reshape(4, 4).T
-            yield from self.parts(block, where, layer, f"{title} {handle}", depth + 1)
+            where = above.matrix @ np.array(list(one.matrix44())).reshape(4, 4).T
+            yield from self.parts(block, above._replace(matrix=where, name=f"{title} {handle}"), depth + 1)
             for label in one.attribs:
-                yield Part(label, matrix, layer, "", self.references)
+                yield Part(label, above.matrix, above.layer, "", self.references)
+
+
+def _groups(drawing: Any) -> dict[str, list[str]]:
+    """Return the names of the groups of each entity by its handle; groups without a name are none."""
+    groups: dict[str, list[str]] = {}
+    for name, group in drawing.groups:
+        for entity in group if not name.startswith("*") else ():
+            groups.setdefault(entity.dxf.handle, []).append(one_line(name))
+    return groups

@@ -83,5 +83,6 @@ def from_3d_faces(parts: Iterable[Part]) -> list[Solid]:
     bodies = []
     for group in groups.values():
         points, faces = soup([part.placed(part.entity.wcs_vertices()) for part in group])
-        bodies += solids(group[0].name, group[0].layer, points, faces)
+        found = solids(group[0].name, group[0].layer, points, faces)
+        bodies += [solid._replace(**group[0].words) for solid in found]
     return bodies

@@ -5,14 +5,16 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Container, Mapping, Sequence
+from typing import Any
 
 from limitblocks.geometry import Block
+from limitblocks.io.formats.dxf.colours import true_colour
 from limitblocks.io.formats.dxf.part import APPLICATION
 from limitblocks.io.packages import package
 
 _METRES = 6  # $INSUNITS
 _LONGEST = 255  # of names
-_COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of the colour index
+_COLOURS = (7, 1, 3, 5, 4, 6, 2, 30)  # of layers, in the colour index; blocks have none of it
 
 
 def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str]) -> bytes:
@@ -23,15 +25,22 @@ def encoded(blocks: Sequence[Block], layers: Mapping[str, str], supports: Contai
     for k, layer in enumerate(dict.fromkeys(names.values())):
         if layer not in drawing.layers:
             drawing.layers.add(layer, color=_COLOURS[k % len(_COLOURS)])
-    space = drawing.modelspace()
+    space, groups = drawing.modelspace(), dict[str, list[Any]]()
     for block in blocks:
         mesh = space.add_mesh({"layer": names[block.name]})
         mesh.vertices = block.vertices.tolist()
         mesh.faces = block.faces
+        if block.colour:
+            mesh.dxf.true_color = true_colour(block.colour)
         mesh.set_xdata(
             APPLICATION,
             [(1000, " ".join(word.split())[:_LONGEST]) for word in (block.name, block.material) if word],
         )
+        for name in block.groups:
+            groups.setdefault(_layer(name), []).append(mesh)
+    for name, meshes in groups.items():
+        with drawing.groups.new(name).edit_data() as members:
+            members.extend(meshes)
     stream = io.StringIO()
     drawing.write(stream)
     return bytes(drawing.encode(stream.getvalue()))

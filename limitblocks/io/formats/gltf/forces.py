@@ -10,8 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.drawing.arrows import Picture
-from limitblocks.io.imported import Z_UP
 from limitblocks.io.packages import package
+from limitblocks.io.placed import Z_UP
 
 _COLOURS = {
     "blocks": (0.76, 0.68, 0.56, 0.25),

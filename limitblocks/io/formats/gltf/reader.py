@@ -14,7 +14,9 @@ import numpy.typing as npt
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import strict_json
-from limitblocks.io.imported import Contents, foreign, read_bytes, refuse_many
+from limitblocks.io.colours import of_linear
+from limitblocks.io.imported import foreign, one_line, read_bytes, refuse_many
+from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
 from limitblocks.io.solid import Solid
 
@@ -49,9 +51,9 @@ def contents(path: Path) -> Contents:
                 refuse_many(len(bodies), faces := faces + len(triangles))
                 refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
                 points = points @ placement[:3, :3].T + placement[:3, 3]
-                layer, material = _labels(document, node, mesh)
-                found = solids(str(name), layer, points, triangles)
-                bodies += [solid._replace(material=material) for solid in found]
+                words = _words(document, node, mesh)
+                found = solids(str(name), words["layer"], points, triangles)
+                bodies += [solid._replace(**words) for solid in found]
     return Contents(bodies, metres=1.0, up="y")
 
 
@@ -197,11 +199,24 @@ def _accessor(document: dict[str, Any], buffers: list[bytes], k: int, kind: str)
     return np.ndarray((count, columns), item, data, first, (stride, item.itemsize))
 
 
-def _labels(document: dict[str, Any], node: dict[str, Any], mesh: dict[str, Any]) -> tuple[str, str]:
-    """Return layer and material of a node: its material is its layer unless its extras name one."""
+def _words(document: dict[str, Any], node: dict[str, Any], mesh: dict[str, Any]) -> dict[str, Any]:
+    """Return layer, material, groups and colour of a node.
+
+    Its material is its layer unless its extras, as this library writes them, name one.
+    """
     first = next((one["material"] for one in mesh["primitives"] if "material" in one), None)
-    material = "" if first is None else str(document["materials"][first].get("name", ""))
-    extras = node.get("extras")
-    if isinstance(extras, dict) and isinstance(extras.get("layer"), str):
-        return extras["layer"], material
-    return material, ""
+    made = {} if first is None else document["materials"][first]
+    material, extras = str(made.get("name", "")), node.get("extras")
+    extras = extras if isinstance(extras, dict) else {}
+    layer, colour, groups = (extras.get(key) for key in ("layer", "colour", "groups"))
+    if not isinstance(colour, str):
+        factor = made.get("pbrMetallicRoughness", {}).get("baseColorFactor")
+        colour = "" if factor is None else of_linear(factor)
+    groups = tuple(one_line(str(one)) for one in groups) if isinstance(groups, list) else ()
+    own = isinstance(layer, str)
+    return {
+        "layer": layer if own else material,
+        "material": material if own else "",
+        "groups": groups,
+        "colour": colour,
+    }

@@ -17,8 +17,10 @@ from limitblocks.arrays import Array
 from limitblocks.drawing.motion import motion
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.io.imported import Z_UP, labels
+from limitblocks.io.colours import linear_of
+from limitblocks.io.imported import labels
 from limitblocks.io.packages import package
+from limitblocks.io.placed import Z_UP
 from limitblocks.model import Model
 from limitblocks.written import write
 
@@ -85,8 +87,11 @@ def encoded(
             # an animation moves a translation, not the matrix that trimesh would write
             node |= {"name": block.name, "translation": (Z_UP.T @ block.centroid).tolist()}
             mesh["name"] = block.name
-            if block.material:
-                node["extras"] = {"layer": layers.get(block.name, "")}
+            # what the material alone would not tell; its colour is for show where the block has none
+            extras: dict[str, Any] = {"layer": layers.get(block.name, "")} if block.material else {}
+            if block.groups:
+                extras["groups"] = list(block.groups)
+            node["extras"] = extras | {"colour": block.colour}
         if states is not None:
             document["animations"] = [_animation(buffers, document["accessors"], blocks, states)]
 
@@ -94,9 +99,10 @@ def encoded(
 
 
 def _material(trimesh: ModuleType, block: Block, layers: Mapping[str, str], support: bool) -> Any:
+    shown = _COLOURS["support" if support else "block"] if layers else _PLAIN
     return trimesh.visual.material.PBRMaterial(
         name=block.material or layers.get(block.name) or None,
-        baseColorFactor=_COLOURS["support" if support else "block"] if layers else _PLAIN,
+        baseColorFactor=(*linear_of(block.colour), 1.0) if block.colour else shown,
         metallicFactor=0.0,
         roughnessFactor=0.9,
         doubleSided=True,

@@ -13,9 +13,11 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io import shells
+from limitblocks.io.colours import hex_of
 from limitblocks.io.formats.rhino import breps, chunks, trial
-from limitblocks.io.imported import MOST_FACES, Contents, foreign, on_groups, read_bytes
+from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
+from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # instances within instances
@@ -35,6 +37,13 @@ class Part(NamedTuple):
     layer: str
     name: str
     material: str
+    groups: tuple[str, ...]
+    colour: str
+
+    @property
+    def words(self) -> dict[str, Any]:
+        """Material, groups and colour of a solid made of it."""
+        return {"material": self.material, "groups": self.groups, "colour": self.colour}
 
     def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
         """Return faces in the sense they have in the model, which a mirror image turns."""
@@ -66,11 +75,8 @@ def contents(path: Path) -> Contents:
             else:
                 points, faces = part.placed(shape[0]), part.turned(shape[1])
                 made = shells.solids(part.name, part.layer, points, faces)
-                solids += [solid._replace(material=part.material) for solid in made]
+                solids += [solid._replace(**part.words) for solid in made]
         metres, units = _metres(model)
-        groups = on_groups(
-            (group.Name, len(model.Groups.GroupMembers(group.Index))) for group in model.Groups
-        )
     listed = ", ".join(f"{number} {word}" for word, number in sorted(left_out.items()))
     if not solids and not wrong:
         shown = "; switch on what is hidden, objects and layers, and save again" * (
@@ -79,8 +85,9 @@ def contents(path: Path) -> Contents:
         raise ModelError(
             f"holds no solid{f' but {listed}' if listed else ''}; expected meshes or polysurfaces{shown}"
         )
-    notes += [*units, *groups, *([f"left out: {listed}"] if listed else [])]
-    return Contents(solids, metres, notes, "z", wrong)
+    notes += [*units, *([f"left out: {listed}"] if listed else [])]
+    hidden = left_out["hidden objects"]
+    return Contents(solids, metres, notes, "z", wrong, (f"{hidden} hidden objects",) * (hidden > 0))
 
 
 def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
@@ -106,6 +113,15 @@ def _metres(model: Any) -> tuple[float | None, list[str]]:
     return _METRES[unit], []
 
 
+class _Above(NamedTuple):
+    """What objects have of the block instance they are in: placement, name, groups, colour."""
+
+    matrix: Array
+    name: str = ""
+    groups: tuple[str, ...] = ()
+    colour: str = ""
+
+
 class _Expansion:
     """State of taking a model apart."""
 
@@ -113,6 +129,7 @@ class _Expansion:
         self.rhino3dm, self.model, self.left_out = rhino3dm, model, left_out
         self.met = 0
         self.materials = model.Materials
+        self.groups = {group.Index: one_line(group.Name) for group in model.Groups}
         self.layers = {layer.Index: layer for layer in model.Layers}
         shown = {str(layer.Id): layer for layer in model.Layers}
         self.hidden = {
@@ -122,9 +139,9 @@ class _Expansion:
     def everything(self) -> Iterator[Part]:
         """Yield what the model shows, instances taken apart."""
         top = [item for item in self.model.Objects if not item.Attributes.IsInstanceDefinitionObject]
-        return self.parts(top, np.eye(4), "", 0)
+        return self.parts(top, _Above(np.eye(4)), 0)
 
-    def parts(self, items: Sequence[Any], matrix: Array, name: str, depth: int) -> Iterator[Part]:
+    def parts(self, items: Sequence[Any], above: _Above, depth: int) -> Iterator[Part]:
         for item in items:
             self.met += 1
             if self.met > MOST_FACES:
@@ -135,13 +152,27 @@ class _Expansion:
             if attributes.LayerIndex in self.hidden or (depth == 0 and not attributes.Visible):
                 self.left_out["hidden objects"] += 1
                 continue
-            title = name or attributes.Name
+            title = above.name or attributes.Name
+            own = tuple(self.groups[k] for k in attributes.GetGroupList() or () if self.groups.get(k))
+            groups = tuple(dict.fromkeys((*above.groups, *own)))
+            colour = self.colour(attributes, layer, above.colour)
             if isinstance(geometry, self.rhino3dm.InstanceReference):
-                yield from self.instances(geometry, matrix, title, depth)
+                yield from self.instances(geometry, _Above(above.matrix, title, groups, colour), depth)
             elif geometry is not None:
                 path = layer.FullPath if layer is not None else ""
                 title = title or f"{path} {str(attributes.Id)[:8]}".strip()
-                yield Part(geometry, matrix, path, title, self.material(attributes, layer))
+                material = self.material(attributes, layer)
+                yield Part(geometry, above.matrix, path, title, material, groups, colour)
+
+    def colour(self, attributes: Any, layer: Any, reference: str) -> str:
+        """Return the colour of an object, its own or that of its layer or instance; empty for plain black."""
+        sources = self.rhino3dm.ObjectColorSource
+        if attributes.ColorSource == sources.ColorFromObject:
+            return hex_of(*attributes.ObjectColor[:3])
+        if attributes.ColorSource == sources.ColorFromParent and reference:
+            return reference
+        found = hex_of(*layer.Color[:3]) if layer is not None else ""
+        return "" if found == "#000000" else found
 
     def material(self, attributes: Any, layer: Any) -> str:
         """Return the name of the material of an object, its own or that of its layer; empty for none."""
@@ -149,17 +180,21 @@ class _Expansion:
         index = attributes.MaterialIndex if own else layer.RenderMaterialIndex if layer is not None else -1
         return str(self.materials[index].Name) if 0 <= index < len(self.materials) else ""
 
-    def instances(self, reference: Any, matrix: Array, name: str, depth: int) -> Iterator[Part]:
+    def instances(self, reference: Any, above: _Above, depth: int) -> Iterator[Part]:
         definition = self.model.InstanceDefinitions.FindId(reference.ParentIdefId)
         if definition is None:
-            raise ModelError(f"block instance {name!r}: its definition {reference.ParentIdefId} is missing")
+            raise ModelError(
+                f"block instance {above.name!r}: its definition {reference.ParentIdefId} is missing"
+            )
         if depth == _DEEPEST:
             raise ModelError(
                 f"block {definition.Name!r} contains itself, or blocks nest deeper than {_DEEPEST}"
             )
         items = [self.model.Objects.FindId(key) for key in definition.GetObjectIds()]
-        where = matrix @ _matrix(reference.Xform)
-        yield from self.parts([i for i in items if i is not None], where, name or definition.Name, depth + 1)
+        where = above._replace(
+            matrix=above.matrix @ _matrix(reference.Xform), name=above.name or definition.Name
+        )
+        yield from self.parts([i for i in items if i is not None], where, depth + 1)
 
 
 def _visible(layer: Any, known: dict[str, Any], steps: int) -> Iterator[bool]:

@@ -10,6 +10,7 @@ from typing import Any
 
 from limitblocks.errors import LimitBlocksError
 from limitblocks.geometry import Block
+from limitblocks.io.colours import parts_of
 from limitblocks.io.packages import package
 
 _VERSION = 7  # of Rhino, that can open the file
@@ -32,6 +33,7 @@ class Drawing:
         self.model.Settings.ModelUnitSystem = self.rhino3dm.UnitSystem.Meters
         self.layers: dict[str, int] = {}
         self.materials: dict[str, int] = {}
+        self.groups: dict[str, int] = {}
 
     def encoded(self) -> bytes:
         """Return the file."""
@@ -54,6 +56,11 @@ class Drawing:
         if block.material:
             attributes.MaterialIndex = self.material(block.material)
             attributes.MaterialSource = self.rhino3dm.ObjectMaterialSource.MaterialFromObject
+        if block.colour:
+            attributes.ObjectColor = (*parts_of(block.colour), 255)
+            attributes.ColorSource = self.rhino3dm.ObjectColorSource.ColorFromObject
+        for name in block.groups:
+            attributes.AddToGroup(self.group(name))
         self.model.Objects.AddMesh(_mesh(self.rhino3dm, block), attributes)
 
     def layer(self, path: str) -> int:
@@ -66,6 +73,15 @@ class Drawing:
                 layer.ParentLayerId = self.model.Layers[self.layer(above)].Id
             self.layers[path] = self.model.Layers.Add(layer)
         return self.layers[path]
+
+    def group(self, name: str) -> int:
+        """Return the number of the group with this name, made where there is none."""
+        if name not in self.groups:
+            group = self.rhino3dm.Group()
+            group.Name = name
+            self.groups[name] = len(self.groups)
+            self.model.Groups.Add(group)
+        return self.groups[name]
 
     def material(self, name: str) -> int:
         """Return the number of the material with this name, made where there is none."""

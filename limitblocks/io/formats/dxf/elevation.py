@@ -1,0 +1,149 @@
+"""Blocks from drawings in the plane: closed outlines of an elevation, made prisms of a given thickness."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.io import faults
+from limitblocks.io.formats.dxf import reader as dxf
+from limitblocks.io.formats.dxf.outlines import Outline, outline_of
+from limitblocks.io.formats.dxf.part import Part
+from limitblocks.io.imported import ImportedBlocks, UnitWeight, foreign, imported
+from limitblocks.io.placed import Contents, frame
+from limitblocks.io.solid import Solid
+
+
+def read_drawing(
+    file: str | Path,
+    *,
+    thickness: float,
+    layers: str | Sequence[str] | None = None,
+    units: str | None = None,
+    unit_weight: UnitWeight = None,
+    skip_bad: bool = False,
+) -> ImportedBlocks:
+    """Return the blocks in a DXF drawing of an elevation: prisms over its closed outlines.
+
+    x of the drawing becomes X, y becomes Z; the prisms extend along Y, from -thickness / 2 to thickness / 2.
+    An outline is a polyline that is closed, or ends within 1 % of its size from its start. Arcs become chords
+    of at most 5 degrees, whose distance from the arc is at most 0.1 % of its radius. A text inside an outline
+    names the block. Neighbours need not share corners; gaps are left to :func:`limitblocks.find_interfaces`.
+
+    Parameters
+    ----------
+    file : str or Path
+        A DXF file, text or binary.
+    thickness : float
+        m.
+    layers : str or sequence of str, optional
+        Layers to take outlines from; all that are visible if left out.
+    units : str, optional
+        Unit of length of the file, one of "m", "cm", "mm", "in", "ft"; left out, what the file says, and
+        metres where it says nothing.
+    unit_weight : float or mapping of str to float, optional
+        N/m3, of all blocks or by layer.
+    skip_bad : bool
+        Leave out outlines that are no blocks, with a note each, instead of refusing the file.
+
+    Raises
+    ------
+    ModelError
+        The file cannot be read, or outlines in it are no blocks; `problems` has a line per fault.
+    MissingDependency
+        ezdxf is not installed.
+    """
+    path = Path(file)
+    with faults.named(path):
+        if not 0.0 < thickness < np.inf:
+            raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
+        drawing = dxf.opened(path)
+        stated = dxf.metres_per_unit(drawing)
+        with foreign("DXF"):
+            found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
+        notes = [*dxf.unit_notes(drawing), *found.notes]
+        contents = found._replace(metres=stated, notes=notes, up="z")
+        depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])
+        solids = [solid._replace(vertices=solid.vertices * depth) for solid in found.solids]
+        return imported(contents._replace(solids=solids), units, unit_weight, "z", skip_bad=skip_bad)
+
+
+def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
+    left_out: Counter[str] = Counter()
+    everything = list(dxf.parts(drawing, left_out))
+    labels = [part for part in everything if part.kind in ("TEXT", "MTEXT", "ATTRIB")]
+    known = {part.layer for part in everything}
+    unknown = [layer for layer in layers or () if layer not in known]
+    if unknown:
+        raise ModelError(
+            *(f"layer {layer!r} is empty or missing{faults.near(layer, known)}" for layer in unknown)
+        )
+    notes: list[str] = []
+    wrong: dict[str, tuple[str, ...]] = {}
+    outlines, dropped = list[Outline](), list[str]()
+    for part in everything:
+        if part.kind in ("TEXT", "MTEXT", "ATTRIB"):
+            continue
+        said = len(notes)
+        try:
+            outline = outline_of(part, notes) if layers is None or part.layer in layers else None
+        except ModelError as error:
+            wrong[f"{part.kind} {part.handle}"] = error.problems
+            continue
+        if outline is None:
+            left_out[part.kind] += 1
+            if any(note.startswith("left out") for note in notes[said:]):
+                dropped.append(f"{part.kind} {part.handle}")
+        else:
+            outlines.append(outline)
+    if not outlines and not wrong:
+        raise ModelError(
+            f"holds no closed outline{f' but {dxf.listed(left_out)}' if left_out else ''}", *notes
+        )
+    names = _labelled(outlines, labels)
+    solids = [
+        Solid(name, outline.part.layer, *_prism(outline.corners, 1.0))
+        for name, outline in zip(names, outlines, strict=True)
+    ]
+    gone = (*dropped, *dxf.hidden_of(left_out))
+    return Contents(solids, notes=[*notes, *dxf.notes_on(left_out)], wrong=wrong, left_out=gone)
+
+
+def _prism(corners: Array, depth: float) -> tuple[Array, list[tuple[int, ...]]]:
+    n = len(corners)
+    x, z = np.tile(corners, (2, 1)).T
+    y = np.repeat([-depth / 2, depth / 2], n)
+    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
+    return np.column_stack([x, y, z]), [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *sides]
+
+
+def _labelled(outlines: Sequence[Outline], labels: Sequence[Part]) -> list[str]:
+    """Return the names of outlines: the only text inside and in no smaller outline, or the usual one."""
+    places = [part.placed([_text_place(part.entity)])[0, :2] for part in labels]
+    tree = shapely.STRtree([shapely.Polygon(outline.corners) for outline in outlines])
+    inside: dict[int, list[str]] = {}
+    for part, place in zip(labels, places, strict=True):
+        around = tree.query(shapely.Point(place), predicate="within") if np.isfinite(place).all() else []
+        text = " ".join(part.entity.plain_text().split())
+        if len(around) and text:
+            smallest = min(around, key=lambda k: tree.geometries[k].area)
+            inside.setdefault(int(smallest), []).append(text)
+    return [
+        inside[k][0] if len(inside.get(k, [])) == 1 else outline.part.name
+        for k, outline in enumerate(outlines)
+    ]
+
+
+def _text_place(entity: Any) -> tuple[float, float, float]:
+    """Return where a text is anchored."""
+    if entity.dxftype() == "MTEXT":
+        return tuple(entity.dxf.insert)
+    place = entity.dxf.align_point if entity.dxf.get("halign", 0) or entity.dxf.get("valign", 0) else None
+    return tuple(entity.ocs().to_wcs(place or entity.dxf.insert))

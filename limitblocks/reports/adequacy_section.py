@@ -1,0 +1,50 @@
+"""What a report says of a load factor with partial factors: each value, its factor, its design value."""
+
+from __future__ import annotations
+
+from limitblocks.model import Model
+from limitblocks.practice import Adequacy
+from limitblocks.reports.document import Table
+from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import rounded_down, with_unit
+
+FACTORED = (
+    "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "
+    "loads, gamma_M divides strengths and cohesion of the joints, gamma_phi (gamma_M where it is not given) "
+    "their friction coefficient, gamma_S the strength of ties and dowels (EN 1990, Eqs (6.1), (6.3); EN "
+    "1997-1, Table A.4, for friction). An adequacy factor of one is E_d = R_d, Eq. (6.8), for the loads and "
+    "factors given; which factors a code asks for is not judged here. Where dead loads help, the answer with "
+    "a gamma_G of 1 or less counts as well."
+)
+
+
+def adequacy_section(_model: Model, found: Adequacy) -> Section:
+    """Return the section of a load factor with partial factors."""
+    end = found.result or found.bounds
+    real = [("Without dilatancy", f"{found.factor:#.7g}", "of the design model")] if found.result else []
+    rows = [
+        (one.symbol, one.where, with_unit(one.characteristic, one.unit), one.factor,
+         f"{found.factors.value(one.factor):.6g}", with_unit(one.design, one.unit))
+        for one in found.values
+    ]  # fmt: skip
+    heads = ("Symbol", "Of", "Characteristic", "Partial factor", "Its value", "Design")
+    return Section(
+        title="Adequacy with partial factors",
+        own=True,
+        meaning=FACTORED,
+        headline=rounded_down(found.factor),
+        quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",
+        values=(
+            ("Characteristic load factor", f"{found.characteristic.lower:#.7g}", "associated, as given"),
+            ("Design load factor, static", f"{found.bounds.lower:#.7g}", "associated, of the design model"),
+            (
+                "Design load factor, kinematic",
+                f"{found.bounds.upper:#.7g}",
+                "associated, of the design model",
+            ),
+            *real,
+        ),
+        checks=checks_of(end.residuals, end.tolerance),
+        tolerance=end.tolerance,
+        parts=(Table.of("Characteristic and design values", heads, rows, right=(2, 4, 5)),),
+    )

@@ -1,0 +1,76 @@
+"""What a report says of a capacity curve: every point with its evidence."""
+
+from __future__ import annotations
+
+from limitblocks.mechanics.loads.load import triple
+from limitblocks.model import Model
+from limitblocks.practice import CapacityCurve, CapacityPoint
+from limitblocks.reports.curve import Curve, line_curve
+from limitblocks.reports.document import Table
+from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import some
+
+
+def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
+    """Return the section of a capacity curve."""
+    first, last = curve.points[0], curve.points[-1]
+    filled = last.displacement > curve.proven_to
+    beyond = (
+        (f"beyond {curve.proven_to:.4g} m joints of the capacity curve press across their gaps",)
+        if filled
+        else ()
+    )
+    ended = "load factor zero" if curve.zero is not None else "end of the curve"
+    return Section(
+        title="Capacity curve",
+        meaning=(
+            "The mechanism without dilatancy moves the blocks by finite screws; contacts are found anew and "
+            "each point is an answer of its own, recomputed without the solver. Slow motion: no impact, no "
+            "rebound."
+        ),
+        headline=f"{last.displacement:#.4g} m",
+        quantity=f"displacement at {ended}",
+        values=(
+            ("Load factor at rest", f"{first.load_factor:#.7g}", "without dilatancy, the first point"),
+            ("Ends", f"{last.displacement:#.6g} m", curve.ended),
+            ("No joint presses across a gap up to", f"{curve.proven_to:#.6g} m", "proven for the geometry"),
+            ("Control point", triple(curve.control.point.tolist()), f"m, on {curve.control.block}"),
+            ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),
+        ),
+        checks=checks_of(last.result.residuals, last.result.tolerance),
+        tolerance=last.result.tolerance,
+        warnings=beyond,
+        curve=_capacity_curve(curve),
+        parts=(_points(curve),),
+    )
+
+
+def _points(curve: CapacityCurve) -> Table:
+    rows = [
+        (f"{one.displacement:#.6g}", f"{_clean(one.load_factor):.6g}", _changes(one),
+         some(list(one.across)) or "none", f"{one.result.residuals.worst.value:.1e}")
+        for one in curve.points
+    ]  # fmt: skip
+    heads = ("Displacement, m", "Load factor", "Contacts that change", "Presses across a gap", "Residual")
+    return Table.of("Points of the capacity curve", heads, rows, right=(0, 1, 4))
+
+
+def _changes(point: CapacityPoint) -> str:
+    taken = [f"{point.shift:.3g} of the live load taken from the dead loads"] if point.shift else []
+    return some([*point.changes, *taken]) or "none"
+
+
+def _capacity_curve(curve: CapacityCurve) -> Curve | None:
+    if len(curve.points) < 2:
+        return None
+    control = curve.control
+    label = f"displacement of {control.block} along {triple(control.direction.tolist())}, m"
+    title = "Load factor against displacement"
+    said = [f"{one.displacement:.4g} m: load factor {_clean(one.load_factor):.4g}" for one in curve.points]
+    caption = f"{title}, a dot a point with an answer of its own: {curve.ended}."
+    return line_curve((title, caption, label, "load factor"), (curve.displacements, curve.load_factors), said)
+
+
+def _clean(load_factor: float) -> float:
+    """The load factor without the rounding errors about its zero."""
+    return round(load_factor, 9) + 0.0

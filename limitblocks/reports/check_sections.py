@@ -1,0 +1,84 @@
+"""What a report says of a check, of a claim with its check, and of stability."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from limitblocks.evidence.check import Check
+from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
+from limitblocks.evidence.stability_result import Stability
+from limitblocks.model import Model
+from limitblocks.reports.claims import CheckedClaim
+from limitblocks.reports.rows import SHOWN, backward, loose, number
+from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import some
+
+
+def check_section(_model: Model, check: Check) -> Section:
+    """Return the section of a check."""
+    source = "found by the checker, from the stresses alone" if check.mechanism_found else "as claimed"
+    return Section(
+        title="Check",
+        meaning=(
+            "A claimed solution put into Eqs (54)-(59) of the model, without a word from any solver. It is a "
+            "solution if every residual is within the tolerance; that does not make it the only one."
+        ),
+        headline="passed" if check.passed else "near" if check.accepted else "failed",
+        quantity=f"worst residual {check.worst.value:.1e} ({check.worst.name})",
+        values=(
+            ("Mechanism and multipliers", source, "by which the flow rule was checked"),
+            backward(check.backward_error),
+        ),
+        checks=checks_of(check.residuals, check.tolerance),
+        tolerance=check.tolerance,
+        warnings=check.remarks + loose(check.tolerance),
+    )
+
+
+def claim_section(model: Model, claim: CheckedClaim) -> Section:
+    """Return the section of a claim and its check."""
+    check = check_section(model, claim.check)
+    associated = not isfinite(claim.claim.dilatancy)
+    flow = "associated: joints dilate by the friction angle" if associated else f"{claim.claim.dilatancy:g}"
+    source = "by the checker, from the claimed state alone"
+    return Section(
+        title=f"Claimed solution, check {check.headline}",
+        meaning=f"A load factor and a state that were read, not computed here. {check.meaning}",
+        headline=f"{claim.load_factor:#.4g}" if claim.check.accepted else "not proven",
+        quantity="load factor α as claimed",
+        values=(
+            ("Load factor", number(claim.load_factor), "as claimed"),
+            ("Check", check.headline, source),
+            ("Dilatancy", flow, "tangent of the dilatancy angle"),
+            *check.values,
+        ),
+        checks=check.checks,
+        tolerance=check.tolerance,
+        rates=claim.displacement_rates,
+        warnings=check.warnings,
+        designs=((claim.load_factor, "claimed solution, checked"),) if claim.certified else (),
+        upper=claim.load_factor if claim.check.accepted and not claim.certified else None,
+    )
+
+
+def stability_section(_model: Model, answer: Stability) -> Section:
+    """Return the section of the answer whether a structure stands."""
+    return Section(
+        title="Stability under the dead loads",
+        meaning=(
+            "The dead loads alone. Stresses within the yield surface that carry them are necessary for the "
+            "structure to stand, and not sufficient: friction can hold what is wedged, and nothing may wedge "
+            "it. It stands by itself where such stresses arise on unstressed blocks with slightly compliant "
+            "joints that slide without lifting."
+        ),
+        headline=answer.kind.value.split(":")[0],
+        quantity=f"margin {answer.margin:.3g} of the weight",
+        values=(
+            ("Answer", answer.kind.value.split(": ")[1], ""),
+            ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
+            ("Blocks that move", some(list(answer.blocks), SHOWN) or "none", ""),
+        ),
+        checks=checks_of(answer.residuals, ARISEN),
+        tolerance=ARISEN,
+        rates=answer.displacement_rates,
+    )

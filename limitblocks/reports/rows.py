@@ -1,0 +1,50 @@
+"""Rows and lines that sections of several kinds of results share."""
+
+from __future__ import annotations
+
+from math import isfinite, isnan
+
+from limitblocks.evidence.backward_error import BackwardError
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.reports.as_read import AS_READ
+from limitblocks.reports.comparison import NOT_CLAIMED
+from limitblocks.reports.words import some
+
+SHOWN = 4  # names in a cell
+Row = tuple[str, str, str]
+
+
+def limits(result: Nonassociated) -> tuple[Row, Row]:
+    """Return name, value and meaning of the load factors that no solution is below and above."""
+    lower, upper = result.frictionless, result.associated
+    if result.from_file:
+        least = NOT_CLAIMED if isnan(lower) else number(lower)
+        return ("Frictionless", least, AS_READ), ("Associated", number(upper), AS_READ)
+    return (
+        ("Frictionless", NOT_CLAIMED, result.unclaimed)
+        if isnan(lower)
+        else ("Frictionless", number(lower), "joints carry no shear: no solution is lower"),
+        ("Associated", number(upper), "joints dilate by the friction angle: no solution is higher")
+        if isfinite(upper)
+        else ("Associated", number(upper), "dilating joints jam under this load: nothing is known above"),
+    )
+
+
+def number(load_factor: float) -> str:
+    """Return a load factor as text."""
+    return f"{load_factor:#.7g}" if isfinite(load_factor) else "unlimited"
+
+
+def backward(error: BackwardError) -> Row:
+    """Return name, value and meaning of a backward error."""
+    parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
+    where = some([f"{name} ({change:.1e})" for name, change in error.places], SHOWN)
+    said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")
+    return "Backward error", f"{error.value:.1e}", said
+
+
+def loose(tolerance: float, usual: float = TOLERANCE) -> tuple[str, ...]:
+    """Return a warning if a tolerance is looser than usual."""
+    said = f"the tolerance {tolerance:.1e} is looser than the usual {usual:.1e}"
+    return (said,) if tolerance > usual else ()

@@ -1,0 +1,57 @@
+"""What a report says of sensitivities: the data that govern the load factor."""
+
+from __future__ import annotations
+
+from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
+from limitblocks.mechanics.loads.load import triple
+from limitblocks.model import Model
+from limitblocks.reports.document import Part, Table
+from limitblocks.reports.section import Section
+
+MOST = 10  # data listed
+MEANING = (
+    "How much the associated load factor changes with the data of the model, by the derivatives at the "
+    "collapse found, without solving again. They hold for small changes: a larger one may bring another "
+    "mechanism. The load factor without dilatancy changes alike only as far as its mechanism is the same."
+)
+ONE_SIDED = "the mechanism is not unique: derivatives by weights and loads may hold in one direction only"
+
+
+def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
+    """Return the section of the sensitivities of a load factor."""
+    governing = found.governing(MOST)
+    first = governing[0] if governing else None
+    sides = "all stress states agree" if found.agreed.all() else "some may hold in one direction only"
+    return Section(
+        title="Sensitivity",
+        meaning=MEANING,
+        headline=f"{first.elasticity:+.3g}" if first else "none",
+        quantity=f"change of the load factor per unit of relative change: {first.kind} of {first.name}"
+        if first
+        else "no friction or unit weight changes the load factor",
+        values=(
+            ("Load factor", f"{found.load_factor:#.7g}", "static load factor, associated flow"),
+            ("Friction, all together", f"{found.of_interfaces.sum():+.4g}", "per unit of relative change"),
+            ("Unit weights, all together", f"{found.of_blocks.sum():+.4g}", "per unit of relative change"),
+            ("Derivatives by friction", "two-sided" if found.agreed.all() else "in part one-sided", sides),
+        ),
+        checks=(),
+        tolerance=0.0,
+        warnings=() if found.unique else (ONE_SIDED,),
+        parts=_tables(found),
+    )
+
+
+def _tables(found: Sensitivities) -> tuple[Part, ...]:
+    rows = [(one.kind, one.name, f"{one.elasticity:+.4g}") for one in found.governing(MOST)]
+    heads = ("Datum", "Of", "Change of the load factor")
+    caption = "Data that govern: change of the load factor per unit of relative change, the largest first"
+    governing = Table.of(caption, heads, rows, right=(2,))
+    if not found.positions:
+        return (governing,)
+    places = [(_load(one), one.block, triple(one.gradient.tolist())) for one in found.positions]
+    return governing, Table.of("Points of loads", ("Load", "On", "Change per m along X, Y, Z"), places)
+
+
+def _load(one: LoadPosition) -> str:
+    return f"{one.load}, term {one.term + 1}"

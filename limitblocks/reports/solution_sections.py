@@ -1,0 +1,161 @@
+"""What a report says of bounds, non-associated solutions and load paths."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.results import Nonassociated
+from limitblocks.model import Model
+from limitblocks.reports.as_read import AS_READ
+from limitblocks.reports.claims import USUAL_OF_BOUNDS
+from limitblocks.reports.curve import convergence_curve, path_curve
+from limitblocks.reports.document import Table
+from limitblocks.reports.rows import SHOWN, Row, backward, limits, loose
+from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import some
+
+ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
+NONASSOCIATED = "joints follow the flow rule stated: a collapse that can happen, not the only one"
+HISTORY = "the collapse that the live load reaches as it grows from nothing; other histories may reach others"
+SNAP = "load factors before and after, at one displacement of the live load"
+
+
+def bounds_section(_model: Model, bounds: Bounds) -> Section:
+    """Return the section of bounds."""
+    static, kinematic = bounds.solvers
+    return Section(
+        title="Associated bounds",
+        meaning=(
+            "If sliding and twisting dilated the joints by the friction angle (associated flow), the "
+            "structure would collapse at a load factor between the static value, of stresses in equilibrium "
+            "within the yield surface, and the kinematic value, of a mechanism. Each is solved by itself; "
+            "where they agree, both are proven for the yield surface below. Real joints dilate less: their "
+            "load factor is at most this one and can be smaller."
+        ),
+        headline=f"{bounds.lower:#.4g}",
+        values=(
+            ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
+            ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
+            ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
+            ("Proven", *_proven(bounds.proof)),
+        ),
+        checks=checks_of(bounds.residuals, bounds.tolerance),
+        tolerance=bounds.tolerance,
+        rates=bounds.displacement_rates,
+        warnings=loose(bounds.tolerance, USUAL_OF_BOUNDS),
+        upper=bounds.lower,
+        compared=(("Associated", f"{bounds.lower:#.7g}", ASSOCIATED),),
+    )
+
+
+def nonassociated_section(_model: Model, result: Nonassociated) -> Section:
+    """Return the section of a non-associated solution."""
+    flow = "do not lift" if result.dilatancy == 0.0 else f"lift by {result.dilatancy:g} of what they slide"
+    near = "satisfy, for a model as near as was asked for," if result.accepted else "do not yet satisfy"
+    proven = "together satisfy" if result.converged else near
+    return Section(
+        title="Non-associated solution" if result.converged else "Non-associated state, not converged",
+        meaning=(
+            f"Joints that slide or twist {flow}. Stresses, mechanism and multipliers {proven} equilibrium, "
+            "yield, flow rule and complementarity, Eqs (54)-(59), at this load factor."
+        ),
+        headline=f"{result.load_factor:#.4g}",
+        values=(
+            ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, within the next two"),
+            *limits(result),
+            ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
+            ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
+            ("Way", result.how, "which path led to this solution"),
+            backward(result.backward_error),
+            *_confirmation(result),
+        ),
+        checks=checks_of(result.residuals, result.tolerance),
+        tolerance=result.tolerance,
+        rates=result.displacement_rates,
+        warnings=_remarks(result) + loose(result.tolerance),
+        curve=convergence_curve(result.history),
+        designs=_designs(result, "non-associated solution"),
+        compared=_compared(result, "Non-associated", NONASSOCIATED),
+    )
+
+
+def path_section(model: Model, path: LoadPath) -> Section:
+    """Return the section of a load path."""
+    end = nonassociated_section(model, path.collapse)
+    told = ", as the file says" if path.from_file else ""
+    last = "is a collapse" if path.collapse.converged else "is not yet a collapse"
+    return Section(
+        title="Load path" if path.collapse.converged else "Load path, not converged",
+        meaning=(
+            "The live load grows from nothing, in steps, on the structure under its permanent loads; every "
+            f"step is in equilibrium and within the yield surface{told}, and the last {last}, Eqs (54)-(59). "
+            "Displacements before collapse are relative to the compliance of the joints."
+        ),
+        headline=end.headline,
+        values=(
+            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
+            ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
+            ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
+            *(
+                ("Snap", f"{one.before.load_factor:#.7g} to {one.after.load_factor:#.7g}", SNAP)
+                for one in path.snaps
+            ),
+            *end.values[1:5],
+        ),
+        checks=end.checks,
+        tolerance=end.tolerance,
+        rates=end.rates,
+        warnings=end.warnings,
+        parts=(_steps(path),),
+        curve=path_curve(model, path),
+        designs=_designs(path.collapse, "load path"),
+        compared=_compared(path.collapse, "Load path", HISTORY),
+    )
+
+
+def _steps(path: LoadPath) -> Table:
+    names = tuple(dict.fromkeys(name for step in path.steps for name in step.residuals))
+    rows = tuple(
+        (
+            str(k),
+            f"{step.load_factor:#.6g}",
+            *(f"{step.residuals.get(name, float('nan')):.1e}" for name in names),
+            some([f"{interface} {mode}" for interface, mode in step.active], SHOWN),
+        )
+        for k, step in enumerate(path.steps)
+    )
+    heads = ("Step", "Load factor", *names, "Begins to flow")
+    return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
+
+
+def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str], ...]:
+    sound = result.accepted and isfinite(result.load_factor)
+    return ((result.load_factor, source),) if sound else ()
+
+
+def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
+    unproven = "" if result.converged else "; not converged, so not proven"
+    return (*limits(result), (name, f"{result.load_factor:#.7g}", meaning + unproven))
+
+
+def _proven(proof: Proof) -> tuple[str, str]:
+    """Whether the bounds are theorems, and what that means, or why not."""
+    if proof.complete:
+        return "yes", "theorems about the numbers of the limit problem, rounding errors included"
+    return "no", "; ".join(sorted({proof.static, proof.kinematic} - {""}))
+
+
+def _confirmation(result: Nonassociated) -> tuple[Row, ...]:
+    """The row of the table that says whether the state is a fixed point, where that is known."""
+    change = result.fixed_point_change
+    if change is None:
+        return ()
+    said = AS_READ if result.from_file else "change of the load factor with the flow frozen here"
+    return (("Fixed point", f"{change:.1e}", said),)
+
+
+def _remarks(result: Nonassociated) -> tuple[str, ...]:
+    return (() if result.converged else (result.status.value,)) + result.remarks

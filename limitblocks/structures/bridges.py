@@ -1,0 +1,193 @@
+"""Arch bridges of several spans: rings of voussoirs, bonded or not, on piers and abutments, under fill."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block, find_interfaces
+from limitblocks.joints import Joint
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import fill as earth
+from limitblocks.mechanics.loads import mass_proportional, self_weight
+from limitblocks.model import Model
+from limitblocks.structures.build import (
+    HORIZONTAL,
+    UNIT_WEIGHT,
+    base,
+    pier,
+    prism,
+    refuse,
+    refuse_fewer,
+    refuse_not_positive,
+)
+from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
+from limitblocks.structures.rings import Ring, circular
+
+
+def arch_bridge(
+    joint: Joint,
+    *,
+    span: float,
+    rise: float,
+    thickness: float,
+    voussoirs: int,
+    spans: int = 1,
+    pier_width: float | None = None,
+    pier_height: float = 2.0,
+    pier_blocks: int = 4,
+    rings: int = 1,
+    ring_joint: Joint | None = None,
+    fill: Fill | None = None,
+    depth: float = 1.0,
+    unit_weight: float = UNIT_WEIGHT,
+    direction: Sequence[float] = HORIZONTAL,
+) -> Model:
+    """Return a bridge of equal circular arches between two abutments and on piers, in the plane X, Z.
+
+    The first span is centred at X = 0, the next ones follow along +X, a clear span and a pier apart. Piers
+    stand on Z = 0. Abutments and what piers stand on are supports. Blocks are named `span 1 voussoir 1` from
+    the left, with several rings `span 1 ring 1 voussoir 1` from the intrados, `pier 1 block 1` from below and
+    `pier 1 springer`, the stone from which two arches spring.
+
+    Parameters
+    ----------
+    joint : Joint
+        Joint of all interfaces but those between rings.
+    span, rise : float
+        Clear span and rise of the intrados, m, as surveyed; the rise is at most half the span.
+    thickness : float
+        Of all rings together, m.
+    voussoirs : int
+        In each ring of each span.
+    spans : int
+        Number of spans.
+    pier_width : float, optional
+        Along X, m; needed with two spans or more. At least twice the thickness times the sine of the angle of
+        the springing from the vertical.
+    pier_height : float
+        Of the springings above what the piers stand on, m.
+    pier_blocks : int
+        Courses of each pier, single blocks.
+    rings : int
+        Rings of equal thickness on one another. Their joints are all radial and in line: whether rings part
+        is up to the joint between them.
+    ring_joint : Joint, optional
+        Joint between rings: dry, such as ``PointContact(0.5)``, or bonded by cohesion, such as
+        ``OrdunaLourenco(0.5, cohesion=2e5, tensile_strength=1e5)``; `joint` unless given. The contact is one
+        facet a voussoir, so that a ring that slides without dilatancy is held as by a friction angle larger
+        by half the angle of a voussoir.
+    fill : Fill, optional
+        (height, unit_weight, pressure, inertia); see :class:`Fill` for what the load factor multiplies.
+    depth : float
+        Width of the bridge, along Y, m.
+    unit_weight : float
+        N/m3.
+    direction : sequence of float
+        Direction of the live load, which is the weight; :func:`limitblocks.practice.worst_position` puts a
+        vehicle in its place.
+    """
+    refuse_not_positive(span=span, rise=rise, thickness=thickness, depth=depth, pier_height=pier_height)
+    refuse_fewer(1, spans=spans, rings=rings, pier_blocks=pier_blocks)
+    if rise > span / 2:
+        refuse([f"rise is {rise!r}, expected at most half the clear span {span!r}"])
+    half = 2 * np.arctan(2 * rise / span)  # between springing and crown
+    width = _pier_width(spans, pier_width, 2 * thickness * float(np.sin(half)))
+    radius = (span**2 / 4 + rise**2) / (2 * rise)
+    lift = (pier_height if spans > 1 else 0.0) - radius * float(np.cos(half))
+    each, whole = (
+        [circular(radius + inner + size / 2, size, voussoirs, 2 * half).raised(lift) for inner, size in sizes]
+        for sizes in ([(k * thickness / rings, thickness / rings) for k in range(rings)], [(0.0, thickness)])
+    )
+    blocks: list[Block] = []
+    surfaces: list[tuple[str, Array]] = []
+    supports = _abutments(whole[0], (spans - 1) * (span + width), depth)
+    for k in range(spans):
+        named = list(_voussoirs(each, k, k * (span + width)))
+        blocks += [prism(name, outline, depth, unit_weight) for name, outline, _ in named]
+        surfaces += [(name, top) for name, _, top in named[-voussoirs:]]  # the outermost ring
+    for k in range(1, spans):
+        at = k * (span + width) - (span + width) / 2
+        stones, top = _pier(f"pier {k}", at, width, pier_height, pier_blocks, whole[0], depth, unit_weight)
+        blocks += stones
+        surfaces.append((stones[-1].name, top))
+        y = (-depth / 2, depth / 2)
+        supports.append(base((at - width / 2, at + width / 2), y, pier_height / pier_blocks, f"base {k}"))
+    extra = (Load(), Load())
+    if fill is not None:
+        fill = Fill(*fill)
+        refuse_fill(fill)
+        level = float(each[-1].extrados[..., 1].max()) + fill.height
+        live = fill_loads(fill, surfaces, level, depth, direction)[1]
+        extra = earth(fill.unit_weight, level, earth_pressure=fill.pressure), live
+    everything = [*supports, *blocks]
+    between = joint if ring_joint is None else ring_joint
+
+    def law(i: Block, j: Block) -> Joint:
+        return between if 0 < _ring(i) != _ring(j) > 0 else joint
+
+    return Model(
+        blocks=everything,
+        supports=[support.name for support in supports],
+        interfaces=find_interfaces(everything, law),
+        dead=self_weight() + extra[0],
+        live=mass_proportional(direction) + extra[1],
+        name=f"arch bridge of {spans} span{'s' * (spans > 1)}",
+    )
+
+
+def _pier_width(spans: int, given: float | None, least: float) -> float:
+    """Width of the piers, or 0 where there are none."""
+    if spans == 1:
+        return 0.0
+    if given is None or not least * (1 - 1e-12) <= given < np.inf:
+        refuse([f"pier width is {given!r}, expected at least {least:.4g} m, what the springings need"])
+    return float(given or 0.0)
+
+
+def _voussoirs(rings: Sequence[Ring], k: int, at: float) -> Iterator[tuple[str, Array, Array]]:
+    """Name, outline and upper edge of each voussoir of span k, centred at X = `at`, ring by ring."""
+    for number, ring in enumerate(rings, start=1):
+        word = f" ring {number}" if len(rings) > 1 else ""
+        for j, (outline, top) in enumerate(zip(ring.voussoirs(), ring.extrados, strict=True), start=1):
+            yield f"span {k + 1}{word} voussoir {j}", np.add(outline, (at, 0.0)), np.add(top, (at, 0.0))
+
+
+def _abutments(ring: Ring, far: float, depth: float) -> list[Block]:
+    """Supports before the first and behind the last span, whose centre is at X = `far`."""
+    skewbacks = ring.skewbacks()
+    return [
+        prism("left abutment", skewbacks["left"], depth),
+        prism("right abutment", skewbacks["right"] + (far, 0.0), depth),
+    ]
+
+
+def _pier(
+    name: str,
+    at: float,
+    width: float,
+    height: float,
+    count: int,
+    ring: Ring,
+    depth: float,
+    unit_weight: float,
+) -> tuple[list[Block], Array]:
+    """Blocks of a pier about X = `at`, its springer last, and the edge of its top."""
+    left, right = at - width / 2, at + width / 2
+    y = (-depth / 2, depth / 2)
+    blocks = pier(f"{name} block", (left, right), y, count, height / count, unit_weight)
+    inward, up = np.abs(ring.outer[0] - ring.inner[0]).tolist()
+    top = np.array([(left + inward, height + up), (right - inward, height + up)])
+    if up > 1e-9 * width:
+        ends = top[::-1] if np.ptp(top[:, 0]) > 1e-9 * width else top[:1]
+        outline = np.array([(left, height), (right, height), *ends])
+        blocks.append(prism(f"{name} springer", outline, depth, unit_weight))
+    return blocks, top
+
+
+def _ring(block: Block) -> int:
+    """Number of the ring of a voussoir; 0 of another stone, and where there is one ring."""
+    _, _, tail = block.name.partition(" ring ")
+    return int(tail.split()[0]) if tail else 0

@@ -1,0 +1,184 @@
+"""Bridges of several spans and rings: an independent program in the plane, identities, weights, misuse."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from planar_bridge import Bridge, load_factor, measures
+
+import limitblocks as lb
+from limitblocks.loads import top_force
+from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, tie, vehicle_load, worst_position
+from limitblocks.structures import Fill, arch_bridge
+
+JOINT = lb.PointContact(0.6)
+STRONG = lb.OrdunaLourenco(0.6, cohesion=2e6, tensile_strength=2e6)
+
+
+def bridge(at=-0.75, **settings):
+    """A bridge with a force of 1 kN at X = `at` on its extrados; no fill."""
+    shape = {"span": 3.0, "rise": 0.75, "thickness": 0.22, "voussoirs": 15, "depth": 2.0} | settings
+    model = arch_bridge(JOINT, **shape)
+    return replace(model, live=top_force((0, 0, -1e3), (at, 0.0)))
+
+
+@pytest.mark.parametrize(
+    ("shape", "loaded"),
+    [
+        ({}, 0),
+        ({"rings": 2}, 0),
+        ({"rings": 3, "between": 0.3}, 0),
+        ({"rings": 2, "between": 0.0}, 0),
+        ({"spans": 2}, 0),
+        ({"spans": 2, "rings": 2, "between": 0.4}, 0),
+        ({"spans": 3, "width": 0.4}, 1),
+    ],
+    ids=str,
+)
+def test_another_program_has_the_same_load_factor(shape, loaded):
+    """Spans, piers and rings: the same model, within 1e-6."""
+    own = Bridge(**shape)
+    at = loaded * (own.span + own.width) - 0.75
+    settings = {"spans": own.spans, "rings": own.rings, "ring_joint": lb.PointContact(own.between)}
+    model = bridge(at, pier_width=own.width, pier_height=own.height, **settings)
+    found = lb.bounds(model)
+    assert found.proven
+    assert found.upper == pytest.approx(load_factor(own, at, loaded), rel=1e-6)
+
+
+def test_another_program_with_a_tie():
+    """A tie across the haunches, 20 kN at most, from voussoir 3 to voussoir 13 at the level of the first."""
+    own = Bridge()
+    left = (own.point(0, 0, 2) + own.point(0, 1, 3)) / 2
+    ends = left, left * (-1.0, 1.0)
+    x, z = zip(*ends, strict=True)
+    model = bridge()
+    rod = tie(
+        "span 1 voussoir 3", (x[0], 0, z[0]), "span 1 voussoir 13", (x[1], 0, z[1]), area=1e-4, strength=2e8
+    )
+    pull = (ends[0], (1.0, 0.0), 20e3, (0, 0, 2), (0, 0, 12))
+    tied = lb.bounds(reinforced(model, rod))
+    assert tied.upper == pytest.approx(load_factor(own, -0.75, pulls=[pull]), rel=1e-6)
+    assert tied.upper > 1.1 * lb.bounds(model).upper
+
+
+def test_another_program_with_passive_fill():
+    """On each facet K gamma times the integral of the depth over its height, at its centre of pressure."""
+    own, level, K, gamma = Bridge(), 1.3, 3.0, 20e3
+    pulls = []
+    for j in range(15):
+        z1, z2 = own.point(0, 1, j)[1], own.point(0, 1, j + 1)[1]
+        low, high = sorted((z1, z2))
+        if high - low < 1e-9:
+            continue
+        force = K * gamma * own.depth * ((level - low) ** 2 - (level - high) ** 2) / 2
+        below = (
+            2 / 3 * ((level - low) ** 3 - (level - high) ** 3) / ((level - low) ** 2 - (level - high) ** 2)
+        )
+        inwards = 1.0 if z2 > z1 else -1.0
+        pulls.append(((0.0, level - below), (inwards, 0.0), force, (0, 0, j), None))
+    model = bridge()
+    fill = passive_fill(model, level, unit_weight=gamma, coefficient=K)
+    found = lb.bounds(reinforced(model, *fill))
+    assert found.upper == pytest.approx(load_factor(own, -0.75, pulls=pulls), rel=1e-6)
+
+
+def test_bonded_rings_are_one_ring():
+    """A strong bond makes one ring of them; dry ones carry less, the smoother the less."""
+    whole = lb.bounds(bridge()).upper
+    bonded = lb.bounds(bridge(rings=2, ring_joint=STRONG)).upper
+    assert bonded == pytest.approx(whole, rel=1e-6)
+    dry = [lb.bounds(bridge(rings=2, ring_joint=lb.PointContact(mu))).upper for mu in (0.6, 0.3, 0.0)]
+    assert np.all(np.diff([whole, *dry]) < -0.04 * whole)
+
+
+def test_bond_is_needed_where_it_is():
+    """A bond between that of dry rings and the strong one gives a load factor between both."""
+    weak = lb.OrdunaLourenco(0.6, cohesion=5e3)
+    dry, some, whole = (lb.bounds(bridge(rings=2, ring_joint=joint)).upper for joint in (JOINT, weak, STRONG))
+    assert dry * 1.01 < some < whole * 0.99
+
+
+def test_a_wide_pier_is_an_abutment():
+    """The loaded span falls alone where the piers are heavy: the load factor of one span."""
+    alone = lb.bounds(bridge()).upper
+    assert lb.bounds(bridge(spans=2, pier_width=4.0)).upper == pytest.approx(alone, rel=1e-6)
+    slender = lb.bounds(bridge(spans=2, pier_width=0.4, pier_height=3.0)).upper
+    assert slender < 0.9 * alone
+
+
+@pytest.mark.parametrize("rise", [0.75, 1.5])
+@pytest.mark.parametrize("rings", [1, 2])
+def test_weights_by_formula(rise, rings):
+    """Voussoirs are trapezia between circles; fill is what they leave below its level."""
+    own = Bridge(rise=rise, spans=2, rings=rings, width=0.7)
+    model = arch_bridge(JOINT, span=3.0, rise=rise, thickness=0.22, voussoirs=15, depth=2.0, spans=2,
+                        rings=rings, pier_width=0.7, pier_height=1.5, fill=Fill(0.3, 18e3))  # fmt: skip
+    half = 2 * np.arctan(2 * rise / 3.0)
+    inner = (3.0**2 / 4 + rise**2) / (2 * rise)
+    outer = inner + 0.22
+    arches = 2 * 15 * (outer**2 - inner**2) / 2 * np.sin(2 * half / 15)
+    up, inward = 0.22 * np.cos(half), 0.22 * np.sin(half)
+    piers = 0.7 * 1.5 + (0.7 - inward) * up
+    assert sum(block.volume for block in model.free_blocks) == pytest.approx(2.0 * (arches + piers))
+    level = max(block.vertices[:, 2].max() for block in model.free_blocks) + 0.3
+    edge = [own.point(k, rings, j) for k in (0, 1) for j in range(16)]
+    area = measures(np.array([*edge, (edge[-1][0], level), (edge[0][0], level)]))[0]
+    weight = -model.dead.on(model.free_blocks)[:, 2].sum()
+    assert weight == pytest.approx(2.0 * (20e3 * (arches + piers) + 18e3 * area))
+
+
+def test_names_and_supports():
+    model = bridge(spans=2, rings=2, pier_width=0.5)
+    assert model.supports == ("left abutment", "right abutment", "base 1")
+    names = {block.name for block in model.free_blocks}
+    assert {"span 2 ring 1 voussoir 15", "pier 1 block 4", "pier 1 springer"} <= names
+    assert len(model.interfaces) == 2 * (2 * 16 + 15) + 4 + 1
+    # between rings only, on the springings there is the joint of the arch
+    made = bridge(rings=2, ring_joint=STRONG)
+    assert [i.name.count("ring") for i in made.interfaces if i.joint == STRONG] == [2] * 15
+
+
+def test_worst_position_over_two_spans():
+    """By symmetry a position and its mirror image have one load factor; the envelope has two lows."""
+    model = bridge(spans=2, pier_width=0.5, pier_height=1.5)
+    deck, vehicle = Deck(level=2.6), Vehicle((1e3,))
+    found = worst_position(model, vehicle, deck, (-1.3, 4.8), positions=9)
+    order = np.argsort(found.positions[:9])
+    envelope = found.load_factors[:9][order]
+    assert envelope == pytest.approx(envelope[::-1], rel=1e-5)
+    mirrored = replace(model, live=vehicle_load(model, vehicle, deck, 3.5 - found.position))
+    assert lb.bounds(mirrored).upper == pytest.approx(found.bounds.upper, rel=1e-5)
+    assert found.bounds.upper <= found.load_factors.min() * (1 + 1e-6)
+
+
+def test_fill_is_listed_as_fill_and_not_drawn(tmp_path):
+    """Resistance of fill raises the load factor; pictures have no line of it, tables what presses."""
+    model = bridge()
+    fill = passive_fill(model, 1.3, unit_weight=20e3, coefficient=3.0)
+    held = reinforced(model, *fill)
+    assert lb.bounds(held).upper > 1.2 * lb.bounds(model).upper
+    assert {one.interface.name for one in fill} <= {
+        f"fill span 1 voussoir {k}|left abutment" for k in range(1, 16)
+    }
+    made = lb.report(held, lb.bounds(held))
+    assert "tie-yield" not in made.html.split("<style")[0]
+    assert "passive resistance of fill" in made.markdown
+    again = lb.read(held.save(tmp_path / "held.json"))
+    assert again.digest == held.digest
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"spans": 2}, "pier width is None, expected at least 0.352 m"),
+        ({"spans": 2, "pier_width": 0.3}, "pier width is 0.3, expected at least 0.352 m"),
+        ({"rise": 2.0}, "rise is 2.0, expected at most half the clear span"),
+        ({"rings": 0}, "rings is 0, expected at least 1"),
+        ({"spans": 1.5}, "spans is 1.5, expected at least 1"),
+        ({"thickness": -0.2}, "thickness is -0.2"),
+    ],
+)  # fmt: skip
+def test_misuse(settings, words):
+    with pytest.raises(lb.ModelError, match=words):
+        bridge(**settings)
