@@ -37,7 +37,8 @@ def main(folder="output"):
 def picture(folder):
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3.1))
     x, y = np.meshgrid(np.linspace(-0.135, 0.135, 13), np.linspace(-0.085, 0.085, 8))
     r = np.hypot(x, y)
     left.quiver(x, y, -y / r, x / r, scale=24, width=0.004, pivot="mid", color="#0072B2")
@@ -54,9 +55,9 @@ def picture(folder):
         L2 / L1, rectangle_torsion_constant(1, L2 / L1), "o", color="#D55E00", label="the joint of Fig. 12"
     )
     right.set(xlabel="$l_2/l_1$", ylabel="$c_T/l_1$", title="Torsion constant", ylim=(0.45, 0.8))
-    right.legend(frameon=False)
+    right.legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "01_torsion_of_a_rectangle.png", dpi=120)
+    figure.savefig(folder / "01_torsion_of_a_rectangle.png")
     plt.close(figure)
 
 

@@ -35,7 +35,8 @@ def picture(folder):
     import matplotlib.pyplot as plt
     from matplotlib.patches import Polygon
 
-    figure, axes = plt.subplots(2, 3, figsize=(11, 5.2), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(2, 3, figsize=(7, 3.2))
     V, T = torsion_shear_curve(RECTANGLE, (-1, 0), CENTRES)
     angle = np.linspace(-np.pi, np.pi, 721)
     for ax, distance, shear, torsion in zip(axes.flat, CENTRES, V, T, strict=True):
@@ -60,7 +61,7 @@ def picture(folder):
         ax.axis("off")
     figure.suptitle("Lines of friction stress (Fig. 6); the cross is the twisting centre")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "02_stress_lines.png", dpi=120)
+    figure.savefig(folder / "02_stress_lines.png")
     plt.close(figure)
 
 

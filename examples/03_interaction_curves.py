@@ -60,13 +60,14 @@ def main(folder="output"):
 def picture(folder):
     import matplotlib.pyplot as plt
 
-    figure = plt.figure(figsize=(12, 10), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure = plt.figure(figsize=(7, 6.7))
     torsion_shear(figure.add_subplot(2, 2, 1))
     torsion_bending(figure.add_subplot(2, 2, 2))
     shear_surface(figure.add_subplot(2, 2, 3, projection="3d"))
     bending_surface(figure.add_subplot(2, 2, 4, projection="3d"))
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "03_interaction_curves.png", dpi=120)
+    figure.savefig(folder / "03_interaction_curves.png")
     plt.close(figure)
 
 
@@ -80,13 +81,13 @@ def torsion_shear(ax):
     ax.plot(
         [*V, 1],
         [*approximate_torsion_shear(V), 0],
-        color="#D55E00",
+        color="#E69F00",
         linewidth=2,
         label="planes, Eqs (23)-(29)",
     )
     ax.set(xlabel="$V/V_0$", ylabel="$T/T_0$", xlim=(0, 1.05), ylim=(0, 1.05), aspect="equal")
     ax.set_title("Torsion and shear (Figs 7 and 11a)")
-    ax.legend(frameon=False, loc="lower left")
+    ax.legend(loc="lower left")
 
 
 def torsion_bending(ax):
@@ -104,8 +105,8 @@ def torsion_bending(ax):
         ax.plot(M1, T, "ko", clip_on=False)
         ax.annotate(point, (M1, T), xytext=(6, 6), textcoords="offset points", fontweight="bold")
     ax.set(xlabel="$M_1$ (N m)", ylabel="$T$ (N m)", xlim=(0, 25.5), ylim=(0, 18))
-    ax.set_title("Torsion and bending (Figs 8b and 12); dashed: Eqs (23), (30)")
-    ax.legend(frameon=False, loc="lower left")
+    ax.set_title("Torsion and bending (Figs 8b, 12);\ndashed: Eqs (23), (30)")
+    ax.legend(loc="lower left")
 
 
 def shear_surface(ax):
@@ -143,7 +144,7 @@ def bending_surface(ax):
     ax.set(xlabel="$M_1$ (N m)", ylabel="$M_2$ (N m)", zlabel="$T$ (N m)")
     ax.set(xticks=(-24, 0, 24), yticks=(-36, 0, 36), zticks=(0, 5, 10, 15))
     ax.view_init(elev=28, azim=32)
-    ax.set_title("Effective rectangle, and the planes as wires (Fig. 13)")
+    ax.set_title("Effective rectangle; planes as wires (Fig. 13)")
 
 
 if __name__ == "__main__":

@@ -90,7 +90,8 @@ def cut(joint, first, second):
 def picture(folder):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.6), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 3))
     shear1, shear2 = FRICTION * np.eye(6)[0], FRICTION * np.eye(6)[1]
     torsion, bending = FRICTION * C_T * np.eye(6)[5], L2 * np.eye(6)[3]
     styles = ("#009E73", "#E69F00", "#D55E00", "#CC79A7")
@@ -110,10 +111,10 @@ def picture(folder):
     labels = (("$V_1/V_0$", "$V_2/V_0$"), ("$V_2/V_0$", "$T/T_0$"), ("$M_1/(l_2|N|)$", "$T/T_0$"))
     for ax, (x, y) in zip(axes, labels, strict=True):
         ax.set(xlabel=x, ylabel=y, xlim=(0, 1.12), ylim=(0, 1.12), aspect="equal")
-    axes[1].legend(frameon=False, loc="lower left")
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     figure.suptitle("Yield surfaces of a joint with $l_2/l_1$ = 2/3, cut at constant N")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "04_plane_surface_against_exact.png", dpi=120)
+    figure.savefig(folder / "04_plane_surface_against_exact.png")
     plt.close(figure)
 
 

@@ -71,12 +71,13 @@ def load_factor(joint, lever):
 def picture(folder, levers, found):
     import matplotlib.pyplot as plt
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 3.2))
     for (name, values), style in zip(found.items(), ("s-", "o-", "^--", "v--"), strict=True):
         left.plot(levers, values, style, label=name)
     left.set(xlabel="lever of the push (m)", ylabel="load factor", ylim=(0, 0.75))
     left.set_title("A stone pushed off its middle (associated flow)")
-    left.legend(frameon=False)
+    left.legend()
     ratio = np.geomspace(1, 50, 200)
     right.semilogx(ratio, np.hypot(ratio, 1) / rectangle_torsion_constant(ratio, 1))
     for known in (1, 4):
@@ -88,7 +89,7 @@ def picture(folder, levers, found):
     right.set_xticks([1, 2, 4, 10, 20, 50], ["1", "2", "4", "10", "20", "50"])
     right.minorticks_off()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "05_orduna_lourenco_against_point_contact.png", dpi=120)
+    figure.savefig(folder / "05_orduna_lourenco_against_point_contact.png")
     plt.close(figure)
 
 

@@ -50,19 +50,20 @@ def on_tilting_plane(ratio):
 def picture(folder, load_factors):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained", width_ratios=(1.4, 1, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.7), width_ratios=(1.4, 1, 1))
     ratio = np.linspace(0, 1.2, 200)
     axes[0].plot(ratio, np.minimum(FRICTION, ratio), color="0.6", label="min(mu, b/h)")
     axes[0].plot(RATIOS, load_factors, "o", color="#D55E00", label="found")
     axes[0].set(xlabel="b/h", ylabel="load factor", ylim=(0, 0.7), title="A block with friction 0.6")
-    axes[0].annotate("rocks", (0.2, 0.33), color="#0072B2")
+    axes[0].annotate("rocks", (0.32, 0.2), color="#0072B2")
     axes[0].annotate("slides", (0.85, 0.63), color="#0072B2")
-    axes[0].legend(frameon=False, loc="lower right")
+    axes[0].legend(loc="lower right")
     for ax, ratio, word in zip(axes[1:], (0.3, 1.0), ("rocks", "slides"), strict=True):
         lb.plots.mechanism(stone(ratio), lb.nonassociated(stone(ratio)), ax=ax)
         ax.set(title=f"b/h = {ratio:g}: {word}", xlim=(-0.3, 1.4), ylim=(-0.2, 1.3))
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "06_sliding_and_rocking_block.png", dpi=120)
+    figure.savefig(folder / "06_sliding_and_rocking_block.png")
     plt.close(figure)
 
 

@@ -110,23 +110,24 @@ def load_factor_of(hinges, signs, joints, stones):
 def picture(folder, arch, lower, upper, bounds):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.4), layout="constrained", width_ratios=(1.1, 1, 1))
-    axes[0].plot(SHARES, lower, "o-", color="#0072B2", label="it stands: thrust within the middle share")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.5), width_ratios=(1.1, 1, 1))
+    axes[0].plot(SHARES, lower, "o-", color="#0072B2", label="it stands: thrust within\nthe middle share")
     shown = upper[upper < 3 * bounds.upper]
     axes[0].plot(
-        np.linspace(1, 1 / 3, len(shown)), shown, ".", color="#D55E00", label="it falls: four hinges, sorted"
+        np.linspace(1, 1 / 3, len(shown)), shown, ".", color="#D55E00", label="it falls: four hinges"
     )
     axes[0].axhline(bounds.upper, color="0.6", linestyle=":")
     axes[0].set(xlabel="share of the joints used", ylabel="load factor", ylim=(0, None))
-    axes[0].legend(frameon=False, loc="upper right")
-    axes[0].set_title("The bounds close on the load factor")
+    axes[0].legend(loc="upper right")
+    axes[0].set_title("The bounds close in")
     middle = within(arch, 1 / 3)
     lb.plots.thrust_line(middle, lb.bounds(middle), ax=axes[1])
-    axes[1].set_title(f"middle third: stands at {lower[0]:.3f}")
+    axes[1].set_title(f"Middle third: stands, {lower[0]:.3f}")
     lb.plots.mechanism(arch, bounds, ax=axes[2])
-    axes[2].set_title(f"the best mechanism: falls at {bounds.upper:.4f}")
+    axes[2].set_title(f"Best mechanism: falls, {bounds.upper:.4f}")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "07_why_two_bounds.png", dpi=120)
+    figure.savefig(folder / "07_why_two_bounds.png")
     plt.close(figure)
 
 

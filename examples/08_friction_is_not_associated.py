@@ -59,7 +59,8 @@ def main(folder="output"):
 def picture(folder, wall, continued, loaded):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 5.4), layout="constrained", width_ratios=(1.3, 1, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.9), width_ratios=(1.3, 1, 1))
     axes[0].plot(
         DILATANCIES,
         [found.load_factor for found in continued],
@@ -73,14 +74,14 @@ def picture(folder, wall, continued, loaded):
     axes[0].plot(0, 0.264, "k*", markersize=14, zorder=0)
     axes[0].set(xlabel="dilatancy", ylabel="load factor", ylim=(0.2, 0.36))
     axes[0].set_title("Load factor against dilatancy")
-    axes[0].legend(frameon=False, loc="lower right")
+    axes[0].legend(loc="lower right")
     for ax, found, word in zip(
-        axes[1:], (continued[0], loaded[-1]), ("associated", "zero dilatancy, loaded"), strict=True
+        axes[1:], (continued[0], loaded[-1]), ("associated", "zero dilatancy"), strict=True
     ):
         lb.plots.mechanism(wall, found, ax=ax)
         ax.set_title(f"{word}: {found.load_factor:.5f}")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "08_friction_is_not_associated.png", dpi=120)
+    figure.savefig(folder / "08_friction_is_not_associated.png")
     plt.close(figure)
 
 

@@ -50,7 +50,8 @@ def main(folder="output"):
 def picture(folder, walls, found):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 4, figsize=(14, 5), layout="constrained", width_ratios=(2, 2, 1.6, 2))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 4, figsize=(7, 2.9), width_ratios=(2, 2, 1.6, 2))
     for ax, number in zip(axes, walls, strict=True):
         lb.plots.mechanism(walls[number], found[number], ax=ax)
         ax.set_title(
@@ -59,7 +60,7 @@ def picture(folder, walls, found):
         )
     figure.suptitle("Mechanisms for zero dilatancy")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "09_ferris_and_tin_loi_walls.png", dpi=120)
+    figure.savefig(folder / "09_ferris_and_tin_loi_walls.png")
     plt.close(figure)
 
 

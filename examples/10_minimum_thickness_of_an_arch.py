@@ -92,22 +92,23 @@ def continuous(friction):
 def picture(folder, found):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.4), layout="constrained", width_ratios=(1.2, 1, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.5), width_ratios=(1.2, 1, 1))
     friction = np.r_[np.linspace(0.309215, 0.3958, 40), 0.395832, 0.62]
     axes[0].plot(friction, [continuous(mu) for mu in friction], color="0.6", label="equations")
     axes[0].plot(FRICTIONS, found, "o", color="#D55E00", label=f"{VOUSSOIRS} voussoirs")
     axes[0].plot(PRINTED.keys(), PRINTED.values(), "k*", markersize=12, label="Cocchetti & Rizzi (2020)")
     axes[0].axvspan(0.24, 0.309215, color="0.92")
-    axes[0].annotate("no thickness\nstands", (0.245, 0.125), color="0.35", fontsize="small")
+    axes[0].annotate("none\nstands", (0.25, 0.125), color="0.35", fontsize="small")
     axes[0].set(xlabel="friction", ylabel="least t/R", xlim=(0.24, 0.62), ylim=(0.09, 0.22))
-    axes[0].legend(frameon=False)
+    axes[0].legend()
     for ax, mu in zip(axes[1:], (0.6, 0.33), strict=True):
         thickness = found[FRICTIONS.index(mu)] * 1.001  # just standing
         model = arch(mu, thickness)
         lb.plots.thrust_line(model, lb.bounds(model, tolerance=1e-5), ax=ax)
         ax.set_title(f"friction {mu}: t/R = {thickness:.4f}")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "10_minimum_thickness_of_an_arch.png", dpi=120)
+    figure.savefig(folder / "10_minimum_thickness_of_an_arch.png")
     plt.close(figure)
 
 

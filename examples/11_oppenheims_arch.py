@@ -38,13 +38,14 @@ def main(folder="output"):
 def picture(folder, arch, bounds):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 2, figsize=(12, 4.6), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 2, figsize=(7, 2.5))
     lb.plots.thrust_line(arch, bounds, ax=axes[0])
     axes[0].set_title("Line of thrust")
     lb.plots.mechanism(arch, bounds, ax=axes[1])
     axes[1].set_title(f"Mechanism at {bounds.lower:.3f} g")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "11_oppenheims_arch.png", dpi=120)
+    figure.savefig(folder / "11_oppenheims_arch.png")
     plt.close(figure)
 
 

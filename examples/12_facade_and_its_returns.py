@@ -79,7 +79,8 @@ def glued(model):
 def picture(folder, alone, free, tied, lifted, one_body):
     import matplotlib.pyplot as plt
 
-    figure = plt.figure(figsize=(14, 4.8), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure = plt.figure(figsize=(7, 2.8))
     left = figure.add_subplot(1, 3, 1)
     values = [found.load_factor for found in tied.values()]
     left.plot(list(tied), values, "o-", color="#0072B2", label="interlocked")
@@ -87,7 +88,7 @@ def picture(folder, alone, free, tied, lifted, one_body):
     left.axhline(free.lower, color="#D55E00", label="free-standing, t/H")
     left.plot([0.3, one_body, 0.8], [0.3, one_body, one_body], ":", color="0.6", label="slides, or one body")
     left.set(xlabel="friction", ylabel="load factor", ylim=(0, None), title="A facade pushed outwards")
-    left.legend(frameon=False, loc="lower right")
+    left.legend(loc="lower right")
     cases = (
         (alone, free, f"free-standing: {free.lower:.3f}"),
         (facade(0.6), tied[0.6], f"interlocked, friction 0.6: {tied[0.6].load_factor:.3f}"),
@@ -97,7 +98,7 @@ def picture(folder, alone, free, tied, lifted, one_body):
         lb.plots.mechanism(model, found, ax=ax)
         ax.set_title(word, y=1.08)
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "12_facade_and_its_returns.png", dpi=120)
+    figure.savefig(folder / "12_facade_and_its_returns.png")
     plt.close(figure)
 
 

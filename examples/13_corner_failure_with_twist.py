@@ -67,25 +67,26 @@ def twisted_quoin(joint):
 def picture(folder, corners, flat):
     import matplotlib.pyplot as plt
 
-    figure = plt.figure(figsize=(14, 5), layout="constrained")
-    figure.get_layout_engine().set(wspace=0.1)
-    left = figure.add_subplot(1, 3, 1)
+    plt.style.use("limitblocks.plots.paper")
+    figure = plt.figure(figsize=(7, 5))
+    grid = figure.add_gridspec(2, 2, height_ratios=(1, 1.8))
+    left = figure.add_subplot(grid[0, :])
     names = list(corners)
     left.barh(names, [found.lower for found in corners.values()], color="#E69F00", label="if sliding lifted")
     values = [found.load_factor for found in flat.values()]
     left.barh(list(flat), values, height=0.4, color="#0072B2", label="without lift")
     for k, found in enumerate(corners.values()):
         left.annotate(f"{found.lower:.4f}", (found.lower, k), (4, -4), textcoords="offset points")
-    left.set(xlabel="load factor", xlim=(0, 1.25 * max(found.lower for found in corners.values())))
+    left.set(xlabel="load factor", xlim=(0, 1.45 * max(found.lower for found in corners.values())))
     left.set_title("The corner by its joints")
-    left.legend(frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
+    left.legend(loc="lower right")
     model, found = corner(JOINTS["Orduña & Lourenço"]), flat["Orduña & Lourenço"]
     for k, draw in enumerate((lb.plots.mechanism, lb.plots.interface_states)):
-        ax = figure.add_subplot(1, 3, k + 2, projection="3d", proj_type="ortho", elev=25, azim=-110)
+        ax = figure.add_subplot(grid[1, k], projection="3d", proj_type="ortho", elev=25, azim=-110)
         draw(model, found, ax=ax)
         ax.set_title(("Mechanism", "What the joints do")[k], y=1.08)
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "13_corner_failure_with_twist.png", dpi=120)
+    figure.savefig(folder / "13_corner_failure_with_twist.png")
     plt.close(figure)
 
 

@@ -49,12 +49,14 @@ def least_thickness(voussoirs):
 def picture(folder, found, limit):
     import matplotlib.pyplot as plt
 
-    figure = plt.figure(figsize=(14, 4.6), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure = plt.figure(figsize=(7, 2.6))
     first = figure.add_subplot(1, 3, 1, projection="3d", proj_type="ortho", elev=25, azim=-60)
     second, third = figure.add_subplot(1, 3, 2), figure.add_subplot(1, 3, 3)
     figure.get_layout_engine().set(wspace=0.1)
     lb.plots.structure(lunes(0.15, 13, angle=0.6), ax=first, live=False)
-    first.set_title("Two opposite lunes (thicker and wider)")
+    first.set_zlabel("")
+    first.set_title("Two lunes (thicker, wider)")
     model = lunes(found[-1] * 1.001, COUNTS[-1])  # just standing
     lb.plots.thrust_line(model, lb.bounds(model, tolerance=1e-5), ax=second)
     second.set_title(f"Line of thrust, t/R = {found[-1]:.4f}")
@@ -63,10 +65,10 @@ def picture(folder, found, limit):
     third.axhline(0.042, color="0.6", label="Heyman (1967), 0.042")
     third.plot(0, limit, "k*", markersize=12, label="many voussoirs")
     third.set_xticks([1 / n**2 for n in COUNTS], [f"1/{n}²" for n in COUNTS])
-    third.set(xlabel="1/voussoirs²", ylabel="least t/R", title="Convergence")
-    third.legend(frameon=False)
+    third.set(xlabel="1/voussoirs²", ylabel="least t/R", title="Convergence", ylim=(None, 0.0438))
+    third.legend(loc="upper right")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "14_dome_of_lunes.png", dpi=120)
+    figure.savefig(folder / "14_dome_of_lunes.png")
     plt.close(figure)
 
 

@@ -114,19 +114,20 @@ def resultants(model, forces):
 def picture(folder, model, claims, started):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained", width_ratios=(1.1, 1, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.4), width_ratios=(1.1, 1, 1))
     press = np.linspace(0, 2, 50)
-    axes[0].plot(press, FRICTION * (1 + 2 * press), color="0.6", label="mu (1 + 2 P/W): all are solutions")
+    axes[0].plot(press, FRICTION * (1 + 2 * press), color="0.6", label="mu (1 + 2 P/W): all solve")
     axes[0].plot(PRESSES, [one.load_factor for one in claims], "o", color="#D55E00", label="claimed by hand")
     ends = [(pressing(model, found), found.load_factor) for found in started]
-    axes[0].plot(*zip(*ends, strict=True), "kx", markersize=10, label="found, started from P = 0 and P = W")
-    axes[0].set(xlabel="force of the ceiling over weight, P/W", ylabel="load factor", ylim=(0, 1.6))
-    axes[0].legend(frameon=False)
+    axes[0].plot(*zip(*ends, strict=True), "kx", markersize=10, label="found")
+    axes[0].set(xlabel="force of the ceiling, P/W", ylabel="load factor", ylim=(0, 2.4))
+    axes[0].legend(loc="upper left")
     for ax, one in zip(axes[1:], started, strict=True):
         lb.plots.forces(model, one, ax=ax)
-        ax.set_title(f"load factor {one.load_factor:.3f}: forces")
+        ax.set_title(f"load factor {one.load_factor:.3f}")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "15_two_right_answers.png", dpi=120)
+    figure.savefig(folder / "15_two_right_answers.png")
     plt.close(figure)
 
 

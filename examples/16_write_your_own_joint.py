@@ -113,7 +113,8 @@ def twisted(joint):
 def picture(folder):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.8), layout="constrained", width_ratios=(1, 1.2, 0.7))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.8), width_ratios=(1, 1.2, 0.7))
     square = lb.joints.interface([(0.25, -0.25), (0.25, 0.25), (-0.25, 0.25), (-0.25, -0.25)], None)
     for ax, (x, y) in zip(axes, (("V1", "V2"), ("V1", "T")), strict=False):
         lb.plots.interaction(Mortar(0.6), square, x, y, exact=True, label="your joint, dry", ax=ax)
@@ -125,7 +126,7 @@ def picture(folder):
     lb.plots.mechanism(model, found, ax=axes[2])
     axes[2].set(title=f"On mortar: {found.load_factor:.3f}", ylim=(-0.3, None))
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "16_write_your_own_joint.png", dpi=120)
+    figure.savefig(folder / "16_write_your_own_joint.png")
     plt.close(figure)
 
 

@@ -89,7 +89,8 @@ def picture(folder, model, checks):
     import matplotlib.pyplot as plt
     from matplotlib.colors import LogNorm
 
-    figure, (left, right) = plt.subplots(1, 2, figsize=(13, 4.6), layout="constrained", width_ratios=(0.6, 2))
+    plt.style.use("limitblocks.plots.paper")
+    figure, (left, right) = plt.subplots(1, 2, figsize=(7, 2.8), width_ratios=(0.5, 2))
     lb.plots.structure(model, ax=left)
     left.set_title("A stone, friction 0.3")
     names = list(next(iter(checks.values())).residuals.to_dict())
@@ -97,15 +98,15 @@ def picture(folder, model, checks):
     drawn = np.clip(values, 1e-9, 1)
     right.imshow(drawn, norm=LogNorm(1e-9, 1), cmap="YlOrBr", aspect="auto", alpha=0.75)
     for (row, column), value in np.ndenumerate(values):
-        text = "0" if value < 1e-12 else f"{value:.1e}"
+        text = "0" if value < 1e-12 else f"{value:.0e}"
         right.text(
             column, row, text, ha="center", va="center", fontweight="bold" if value > TOLERANCE else None
         )
     verdicts = [f"{word}: {'passed' if check.passed else 'FAILED'}" for word, check in checks.items()]
-    right.set_xticks(range(len(names)), names, fontsize=8)
+    right.set_xticks(range(len(names)), names, rotation=90)
     right.set_yticks(range(len(checks)), verdicts)
-    right.set_title("Residuals of five claims; bold: above the tolerance of 1e-8")
-    figure.savefig(folder / "17_check_somebody_elses_answer.png", dpi=120)
+    right.set_title("Residuals of five claims; bold: above 1e-8")
+    figure.savefig(folder / "17_check_somebody_elses_answer.png")
     plt.close(figure)
 
 

@@ -82,7 +82,8 @@ def shear(model, found):
 def picture(folder, alpha, shears):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 2, figsize=(12, 5), layout="constrained", width_ratios=(1.2, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 2, figsize=(7, 3.4), width_ratios=(1.2, 1))
     degrees = np.linspace(15, 90, 100)
     axes[0].fill_between(
         degrees,
@@ -104,12 +105,17 @@ def picture(folder, alpha, shears):
         axes[1].plot(*shears[name], mark, color=colour, label=name)
     axes[0].set(xlabel="half angle of the groove (deg)", ylabel="load factor", ylim=(0, 3))
     axes[0].set_title("Wedge pushed along a groove, friction 0.6")
-    axes[0].legend(frameon=False)
-    axes[1].set(xlabel="shear along the groove over mu N", ylabel="up the plane", aspect="equal")
+    axes[0].legend()
+    axes[1].set(
+        xlabel="shear along the groove over mu N",
+        ylabel="up the plane",
+        aspect="equal",
+        xticks=(-1, -0.5, 0, 0.5, 1),
+    )
     axes[1].set_title("Shear force found at 45 degrees")
-    axes[1].legend(frameon=False, loc="center")
+    axes[1].legend(loc="center")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "18_round_or_eight_sided_friction.png", dpi=120)
+    figure.savefig(folder / "18_round_or_eight_sided_friction.png")
     plt.close(figure)
 
 

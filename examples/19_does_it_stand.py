@@ -104,15 +104,17 @@ def lift(model, answer):
 def picture(folder, wedges, found):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, len(wedges), figsize=(15, 3.5), layout="constrained", sharey=True)
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, len(wedges), figsize=(7, 1.3), sharey=True)
     for axis, (w, model) in zip(axes, wedges.items(), strict=True):
         for block in model.blocks:
             section = block.vertices[:4, [0, 2]]
             stone = block.name == "stone"
             axis.fill(*section.T, color=COLOURS[found[w].kind.name] if stone else "lightgrey", ec="black")
-        axis.set(title=f"{w} deg: {found[w].kind.value.split(':')[0]}", aspect="equal", xticks=[], yticks=[])
+        said = found[w].kind.value.split(":")[0].replace("only by ", "only\nby ")
+        axis.set(title=f"{w}°\n{said}", aspect="equal", xticks=[], yticks=[])
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "19_does_it_stand.png", dpi=120)
+    figure.savefig(folder / "19_does_it_stand.png")
     plt.close(figure)
 
 

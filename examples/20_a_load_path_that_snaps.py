@@ -118,7 +118,8 @@ def lift(model, step):
 def picture(file, model, path):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.2), layout="constrained", width_ratios=(0.8, 1, 1))
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 3), width_ratios=(0.8, 1, 1))
     lb.plots.mechanism(model, path.collapse, ax=axes[0])
     axes[0].set_title("the plug leaves its seat")
     lb.plots.load_path(path, model, block="jack", component="Z", ax=axes[1])
@@ -127,9 +128,9 @@ def picture(file, model, path):
     for one, mark in ((path.snaps[0].before, "v"), (path.snaps[0].after, "^")):
         near = np.abs(load_factor - one.load_factor).argmin()
         axes[2].plot(length[near], load_factor[near], mark, color="#D55E00", markersize=8)
-    axes[2].set(xlabel="arclength (–)", ylabel="load factor (–)", title="every point of the increments")
+    axes[2].set(xlabel="arclength (–)", ylabel="load factor (–)", title="every point")
     file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=120)
+    figure.savefig(file)
     plt.close(figure)
 
 

@@ -79,14 +79,15 @@ def rounds(result):
 def picture(folder, answers):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 3, figsize=(14, 4.4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axes = plt.subplots(1, 3, figsize=(7, 2.5))
     marks = {"bounds": "^", "path": "o", "fixed point": "x"}
     for (name, found), shift in zip(answers.items(), (-0.15, 0.0, 0.15), strict=True):
         places = [number + shift for number in found]
         axes[0].plot(places, [one.load_factor for one in found.values()], marks[name], label=name)
-    axes[0].plot(*zip(*NONASSOCIATED.items(), strict=True), "k_", markersize=40, label="published", alpha=0.4)
+    axes[0].plot(*zip(*NONASSOCIATED.items(), strict=True), "k_", markersize=16, label="published", alpha=0.4)
     axes[0].set(xlabel="wall", ylabel="load factor", xticks=list(NONASSOCIATED), ylim=(0.0, 0.7))
-    axes[0].legend(frameon=False)
+    axes[0].legend()
     for number, one in answers["fixed point"].items():
         stages = rounds(one)
         numbers = [stage.inner for stage in stages]
@@ -94,12 +95,12 @@ def picture(folder, answers):
         worst = [max(stage.residuals.values()) for stage in stages]
         axes[1].plot(numbers, loads, ".-", label=f"wall {number}")
         axes[2].semilogy([*numbers, numbers[-1] + 1], [*worst, one.residuals.worst.value], ".-")
-    axes[1].set(xlabel="round", ylabel="load factor over the associated one")
+    axes[1].set(xlabel="round", ylabel="load factor over\nthe associated one")
     axes[2].set(xlabel="round, and the closing", ylabel="worst residual")
     axes[2].axhline(1e-8, color="0.6", linestyle=":")
-    axes[1].legend(frameon=False)
+    axes[1].legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "21_three_answers_all_checked.png", dpi=120)
+    figure.savefig(folder / "21_three_answers_all_checked.png")
     plt.close(figure)
 
 

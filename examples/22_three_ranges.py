@@ -75,16 +75,17 @@ def by_hand():
 def picture(folder, found, expected):
     import matplotlib.pyplot as plt
 
-    figure, ax = plt.subplots(figsize=(9, 3.6), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, ax = plt.subplots(figsize=(7, 2.6))
     ax.axvspan(*expected, color="0.9", label="every solution, by hand")
     levels = {lb.results.Origin.SEARCHED: 1, lb.results.Origin.REACHED: 2, lb.results.Origin.LOAD_PATH: 3}
     for origin, level in levels.items():
         values = [one.load_factor for one in found.answers if one.origin is origin]
-        ax.plot(values, [level] * len(values), "o", markersize=9, label=origin.value)
+        ax.plot(values, [level] * len(values), "o", markersize=6, label=origin.value)
     ax.set(xlabel="load factor", ylim=(0.5, 5.2), yticks=[])
-    ax.legend(frameon=False, loc="upper left", ncols=1)
+    ax.legend(loc="upper left", ncols=1)
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "22_three_ranges.png", dpi=120)
+    figure.savefig(folder / "22_three_ranges.png")
     plt.close(figure)
 
 

@@ -75,7 +75,8 @@ def main(folder="output"):
 def picture(folder, share):
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(6.6, 3.2), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axis = plt.subplots(figsize=(7, 2.4))
     width, colours = 0.26, ("#0072B2", "#E69F00", "#009E73")
     for k, (friction, colour) in enumerate(zip(FRICTIONS, colours, strict=True)):
         places = np.arange(len(STRUCTURES)) + width * (k - 1)
@@ -83,9 +84,9 @@ def picture(folder, share):
     axis.axhline(1.0, color="black", linewidth=0.8)
     axis.set_xticks(range(len(STRUCTURES)), STRUCTURES)
     axis.set(ylabel="without lift / associated", ylim=(0.5, 1.15))
-    axis.legend(frameon=False, ncols=3, loc="upper center")
+    axis.legend(ncols=3, loc="upper center")
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "23_what_the_flow_rule_costs.png", dpi=120)
+    figure.savefig(folder / "23_what_the_flow_rule_costs.png")
     plt.close(figure)
 
 

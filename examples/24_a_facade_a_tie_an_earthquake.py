@@ -79,7 +79,8 @@ def structure():
 def picture(folder, curves):
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(6, 4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axis = plt.subplots(figsize=(3.5, 2.6))
     for curve, label, marker in zip(curves, ("facade", "with a tie"), "os", strict=True):
         axis.plot(curve.displacements, curve.load_factors, marker=marker, label=label)
     turn = np.linspace(0.0, np.arctan(curves[0].load_factors[0]))
@@ -88,7 +89,7 @@ def picture(folder, curves):
     axis.set(xlabel="displacement of the top, m", ylabel="load factor", ylim=(0, None), xlim=(0, None))
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "24_a_facade_a_tie_an_earthquake.png", dpi=120)
+    figure.savefig(folder / "24_a_facade_a_tie_an_earthquake.png")
     plt.close(figure)
 
 

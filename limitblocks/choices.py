@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from enum import Enum
+from typing import TypeVar
 
 from limitblocks.errors import ModelError
+
+E = TypeVar("E", bound=Enum)
 
 
 class Turning(Enum):
@@ -18,15 +21,6 @@ class Turning(Enum):
     PRESSURE = "centre of pressure"
 
 
-def turning_of(word: Turning | str) -> Turning:
-    """Return the turning that `word` names, or raise ModelError."""
-    try:
-        return Turning(word)
-    except ValueError:
-        choices = " or ".join(repr(turning.value) for turning in Turning)
-        raise ModelError(f"turning is {word!r}, expected {choices}") from None
-
-
 class Method(Enum):
     """How the non-associated analysis looks for a solution: one tracked path, or the outer loop alone."""
 
@@ -34,10 +28,19 @@ class Method(Enum):
     FIXED_POINT = "fixed point"
 
 
+def turning_of(word: Turning | str) -> Turning:
+    """Return the turning that `word` names, or raise ModelError."""
+    return _member(Turning, "turning", word)
+
+
 def method_of(word: Method | str) -> Method:
     """Return the method that `word` names, or raise ModelError."""
+    return _member(Method, "method", word)
+
+
+def _member(kind: type[E], setting: str, word: E | str) -> E:
     try:
-        return Method(word)
+        return kind(word)
     except ValueError:
-        choices = " or ".join(repr(method.value) for method in Method)
-        raise ModelError(f"method is {word!r}, expected {choices}") from None
+        choices = " or ".join(repr(one.value) for one in kind)
+        raise ModelError(f"{setting} is {word!r}, expected {choices}") from None

@@ -104,7 +104,10 @@ KINDS: dict[str, Kind] = {
         home=f"{_PRACTICE}.settlement:Settlement",
         section=f"{_REPORTS}.practice_sections:settlement_section",
     ),
-    "settlement until collapse": Kind(home=f"{_PRACTICE}.collapse_result:SettlementCurve"),
+    "settlement until collapse": Kind(
+        home=f"{_PRACTICE}.collapse_result:SettlementCurve",
+        section=f"{_REPORTS}.collapse_section:collapse_section",
+    ),
     "repair": Kind(
         home=f"{_PRACTICE}.repair:Repair",
         section=f"{_REPORTS}.practice_sections:repair_section",

@@ -11,7 +11,7 @@ from io import TextIOWrapper
 
 import typer
 
-from limitblocks.cli import design, documents, practice, verbs
+from limitblocks.cli import bridges, design, documents, practice, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.later import Later
@@ -64,7 +64,8 @@ app.command(cls=Command)(practice.settle)
 app.command(cls=Command)(practice.capacity)
 app.command()(practice.verify)
 app.command()(design.adequacy)
-app.command()(practice.vehicle)
+app.command()(bridges.vehicle)
+app.command()(bridges.backfill)
 app.command()(verbs.check)
 app.command()(documents.info)
 app.command()(documents.report)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from limitblocks.cli.errors import refuse_existing
+from limitblocks.cli.errors import INTERRUPTED, interrupts, refuse_existing
 from limitblocks.errors import NotConverged
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ def answer(
     """Solve the model in `file`, write and print the result; write the best state where it stopped early.
 
     A report goes to `filed`, with the results `beside` this one, which may come about while it is solved.
+    After Ctrl-C what there is until then is written, and the exit code is 130.
     """
     from limitblocks.io import read, write_result
 
@@ -39,11 +40,15 @@ def answer(
         refuse_existing(filed, force, file, option="--report")
     model = read(file)
     try:
-        result = solve(model, **settings)
+        with interrupts() as stopped:
+            result = solve(model, **settings)
     except NotConverged as error:
         if output and error.result is not None:
             write_result(error.result, output, overwrite=force)
             typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+        if stopped:
+            typer.echo(f"error: {error}", err=True)
+            raise typer.Exit(INTERRUPTED) from None
         raise
     if output:
         write_result(result, output, overwrite=force)
@@ -52,6 +57,8 @@ def answer(
 
         report(model, result, *beside).save(filed, overwrite=force)
     show(model, result, as_json)
+    if stopped:
+        raise typer.Exit(INTERRUPTED)
     return result
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import typer
 
@@ -26,6 +29,26 @@ def clean_errors() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("interrupted, with nothing to write yet", err=True)
         raise typer.Exit(INTERRUPTED) from None
+
+
+@contextmanager
+def interrupts() -> Iterator[list[int]]:
+    """Give a list that has an entry once the user pressed Ctrl-C, whatever the analysis makes of it."""
+    seen: list[int] = []
+    usual = signal.getsignal(signal.SIGINT)
+
+    def noted(number: int, frame: Any) -> None:
+        seen.append(number)
+        signal.default_int_handler(number, frame)
+
+    noting = threading.current_thread() is threading.main_thread()  # no other may set handlers
+    if noting:
+        signal.signal(signal.SIGINT, noted)
+    try:
+        yield seen
+    finally:
+        if noting:
+            signal.signal(signal.SIGINT, usual)
 
 
 def exit_code(error: LimitBlocksError) -> int:

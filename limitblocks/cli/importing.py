@@ -88,7 +88,7 @@ def import_blocks(
         from limitblocks.io.blocks import read_blocks
         from limitblocks.io.formats.dxf.elevation import read_drawing
         from limitblocks.io.structure_file import model_of
-        from limitblocks.mechanics import mass_proportional
+        from limitblocks.mechanics.loads import mass_proportional
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)

@@ -1,4 +1,4 @@
-"""Commands of practice: settlement of a support, capacity curve, verification, a vehicle."""
+"""Commands of practice: settlement of a support, capacity curve, verification."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
-from limitblocks.cli.vectors import vector
+from limitblocks.cli.vectors import numbers, vector
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
-    from limitblocks.practice import Verification
+    from limitblocks.practice import Floor, Spectrum, Verification
 
 Support = Annotated[str, typer.Option(help="Support that gives way.", show_default=False)]
 Direction = Annotated[Any, vector("--direction", names="X,Y,Z", help="Of its motion.")]
@@ -39,17 +39,14 @@ Behaviour = Annotated[
 ]
 Confidence = Annotated[float, typer.Option("--confidence", help="Confidence factor FC.")]
 Linear = Annotated[bool, typer.Option("--linear", help="The linear check alone, without a capacity curve.")]
-Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
-Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
-Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
-Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
-First = Annotated[
-    float, typer.Option("--first", help="First place of the first axle, X in m.", show_default=False)
+Collapse = Annotated[str, typer.Option("--slc", help="A_G/g,S,F0,T_C of SLC, such as .3,1.2,2.5,.5.")]
+Damage = Annotated[str, typer.Option("--sld", help="A_G/g,S,F0,T_C of SLD: is the mechanism set off?")]
+Modes = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--mode", help="T,GAMMA,PSI,XI of a mode of the building at the height of the mechanism; repeat it."
+    ),
 ]
-Last = Annotated[
-    float, typer.Option("--last", help="Last place of the first axle, X in m.", show_default=False)
-]
-Places = Annotated[int, typer.Option("--count", help="Places to begin with.", min=3)]
 
 
 def settle(
@@ -58,6 +55,7 @@ def settle(
     direction: Direction = (0.0, 0.0, -1.0),
     until_collapse: ToCollapse = False,
     largest: Farthest = float("inf"),
+    filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
@@ -67,7 +65,7 @@ def settle(
         solve = analyses.settlement_to_collapse if until_collapse else analyses.settlement
         way: Any = {"support": support, "direction": direction}
         way |= {"largest": largest} if until_collapse else {}
-        answer(solve, model, as_json, output, force, **way)
+        answer(solve, model, as_json, output, force, filed, **way)
 
 
 def capacity(
@@ -95,6 +93,9 @@ def verify(
     behaviour: Behaviour,
     confidence: Confidence = 1.35,
     linear: Linear = False,
+    collapse: Collapse = "",
+    damage: Damage = "",
+    modes: Modes = None,
     filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -105,10 +106,14 @@ def verify(
 
     def solve(structure: Model) -> Verification:
         site = Spectrum(ground * G, soil, amplification, corner)
+        demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
+        demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
         curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
         beside.extend((solved, curve) if curve else (solved,))
-        return verification(structure, solved, site, q=behaviour, confidence=confidence, curve=curve)
+        return verification(
+            structure, solved, site, q=behaviour, confidence=confidence, curve=curve, **demands
+        )
 
     with clean_errors():
         from limitblocks.practice import Spectrum, verification
@@ -119,30 +124,26 @@ def verify(
         raise typer.Exit(1)
 
 
-def vehicle(
-    model: ModelFile,
-    axles: Axles,
-    level: Level,
-    first: First,
-    last: Last,
-    distances: Distances = "0",
-    spread: Spread = 0.5,
-    count: Places = 25,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
-) -> None:
-    """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
-    with clean_errors():
-        from limitblocks.practice import Deck, Vehicle
+def _spectrum(option: str, words: str) -> Spectrum | None:
+    """The spectrum of another limit state, if it is given."""
+    from limitblocks.practice import Spectrum
+    from limitblocks.practice.spectra import G
 
-        loads = Vehicle(_numbers("--axles", axles), _numbers("--distances", distances))
-        settings: Any = {"deck": Deck(level, spread), "between": (first, last), "positions": count}
-        answer(analyses.vehicle, model, as_json, output, force, vehicle=loads, **settings)
+    if not words:
+        return None
+    a_g, *rest = _counted(option, words, "A_G/g,S,F0,T_C")
+    return Spectrum(a_g * G, *rest)
 
 
-def _numbers(option: str, words: str) -> tuple[float, ...]:
-    try:
-        return tuple(float(word) for word in words.replace(",", " ").split())
-    except ValueError:
-        raise typer.BadParameter(f"{words!r}: expected numbers such as 0,1.2", param_hint=option) from None
+def _floor(modes: list[str]) -> Floor | None:
+    from limitblocks.practice import Floor, FloorMode
+
+    given = [FloorMode(*_counted("--mode", words, "T,GAMMA,PSI,XI")) for words in modes]
+    return Floor(tuple(given)) if given else None
+
+
+def _counted(option: str, words: str, names: str) -> tuple[float, ...]:
+    given = numbers(option, words)
+    if len(given) != 1 + names.count(","):
+        raise typer.BadParameter(f"{words!r}: expected {names}", param_hint=option)
+    return given

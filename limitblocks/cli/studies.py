@@ -59,7 +59,7 @@ def directions(
     """Print the load factor for each direction of a mass-proportional live load."""
     with clean_errors():
         from limitblocks.io import read
-        from limitblocks.mechanics import compass
+        from limitblocks.mechanics.loads import compass
         from limitblocks.studies import directions as study
 
         _refuse(model, csv, output, force)

@@ -64,3 +64,11 @@ def _is_number(word: str) -> bool:
         return abs(float(word)) < float("inf")
     except ValueError:
         return False
+
+
+def numbers(option: str, words: str) -> tuple[float, ...]:
+    """Return the numbers that an option gives, with commas or blanks between them."""
+    try:
+        return tuple(float(word) for word in words.replace(",", " ").split())
+    except ValueError:
+        raise typer.BadParameter(f"{words!r}: expected numbers such as 0,1.2", param_hint=option) from None

@@ -21,8 +21,8 @@ from limitblocks.io.registry import TERMS
 from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
 from limitblocks.joints import Joint, Materials
-from limitblocks.mechanics import Load, self_weight
-from limitblocks.mechanics.loads import unit_vector
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import self_weight, unit_vector
 from limitblocks.model import Model
 
 if TYPE_CHECKING:

@@ -17,7 +17,8 @@ from limitblocks.io.materials import read_materials, refuse_jointless
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Joint, Materials
-from limitblocks.mechanics import Load, self_weight
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import self_weight
 from limitblocks.model import Model
 
 _log = logging.getLogger("limitblocks")

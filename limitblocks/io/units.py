@@ -37,7 +37,7 @@ DIMENSIONS: dict[str, tuple[int, int]] = {
     "moment": (1, 1),
     "force_per_length": (1, -1),
     **dict.fromkeys(
-        ("pressure", "compressive_strength", "cohesion", "tensile_strength", "strength"), (1, -2)
+        ("pressure", "compressive_strength", "cohesion", "tensile_strength", "strength", "prestress"), (1, -2)
     ),
     "unit_weight": (1, -3),
     **dict.fromkeys(("axes", "faces", "direction", "facing", "factor", "coefficient"), (0, 0)),

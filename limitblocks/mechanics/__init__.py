@@ -1,35 +1,6 @@
-"""Loads, compatibility and the dimensionless limit problem."""
+"""Loads, compatibility and the dimensionless limit problem; functions of loads are in `loads`."""
 
 from limitblocks.mechanics.assembly import limit_problem
-from limitblocks.mechanics.loads import (
-    Load,
-    Tilting,
-    added_mass,
-    compass,
-    fill,
-    force,
-    line_load,
-    mass_proportional,
-    moment,
-    pressure,
-    self_weight,
-    tilting,
-    top_force,
-)
+from limitblocks.mechanics.loads import Load
 
-__all__ = [
-    "Load",
-    "Tilting",
-    "added_mass",
-    "compass",
-    "fill",
-    "force",
-    "limit_problem",
-    "line_load",
-    "mass_proportional",
-    "moment",
-    "pressure",
-    "self_weight",
-    "tilting",
-    "top_force",
-]
+__all__ = ["Load", "limit_problem"]

@@ -11,9 +11,10 @@ try:
 except ImportError as error:
     raise missing("matplotlib", "limitblocks.plots") from error
 
+from limitblocks.plots.brackets import bracket
 from limitblocks.plots.capacities import capacity, settlement
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
-from limitblocks.plots.curves import bracket, convergence, load_path, polar
+from limitblocks.plots.curves import convergence, load_path, polar
 from limitblocks.plots.findings import findings
 from limitblocks.plots.sensitivities import sensitivity
 from limitblocks.plots.structures import mechanism, structure

@@ -1,4 +1,4 @@
-"""Load factors as curves: convergence, load path, direction of the push, comparison of the answers."""
+"""Load factors as curves: convergence, load path, direction of the push."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
@@ -17,10 +16,9 @@ from limitblocks.plots.style import (
     BLACK,
     BLUE,
     CYCLE,
-    ORANGE,
     PALE,
-    SKY,
     VERMILION,
+    columns,
     curve_axes,
     legend_below,
     plain,
@@ -75,7 +73,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     ax.spines["top"].set_visible(False)
     right.spines["top"].set_visible(False)
     handles = [*ax.get_legend_handles_labels()[0], *right.get_legend_handles_labels()[0]]
-    legend_below(ax, handles=handles, ncols=4)
+    legend_below(ax, handles=handles, ncols=columns(ax, [one.get_label() for one in handles]))
     return ax
 
 
@@ -137,7 +135,7 @@ def load_path(
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
     ax.set_ylabel("load factor (–)")
-    ax.legend(frameon=False, fontsize="small", loc="lower right")
+    legend_below(ax, inches=0.65, ncols=columns(ax, ax.get_legend_handles_labels()[1]))
     plain(ax)
     return ax
 
@@ -194,74 +192,3 @@ def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: s
     if label is not None:
         ax.legend(frameon=False, fontsize="small", loc="upper left", bbox_to_anchor=(1.05, 1.05))
     return ax
-
-
-def bracket(*results: Bounds | Nonassociated | LoadPath, ax: Any = None) -> Any:
-    """Draw the load factors of one model as bars: frictionless, non-associated, load path, associated.
-
-    Parameters
-    ----------
-    *results : Bounds, Nonassociated or LoadPath
-        Of one model. A non-associated result and a load path bring the frictionless and the associated
-        value; the first is "not claimed" where one of them does not claim it.
-    ax : Axes, optional
-        Where to draw.
-
-    Raises
-    ------
-    LimitBlocksError
-        If there is no result, one is of another kind, or they belong to different models.
-    """
-    if not results:
-        raise LimitBlocksError("no result given; expected those of bounds, nonassociated and load_path")
-    values: dict[str, float] = {}
-    digests = set()
-    for result in results:
-        one = _load_factors(result)
-        if np.isnan(one.get("frictionless", 0.0)):  # a lower end of all results drawn, or of none
-            values.pop("frictionless", None)
-        values = one | values
-        digests.add(getattr(result, "collapse", result).digest)
-    if len(digests) > 1:
-        raise LimitBlocksError("the results belong to different models; compare results of one")
-    order = [name for name in COLOURS if name in values]
-    ax = curve_axes(ax, size=(6.0, 0.9 + 0.42 * len(order)))
-    numbers = np.array([values[name] for name in order])
-    finite = np.isfinite(numbers)
-    longest = float(np.abs(numbers[finite]).max(initial=0.0)) or 1.0
-    drawn = np.where(finite, numbers, np.where(np.isposinf(numbers), 1.25 * longest, 0.0))
-    ax.barh(order, drawn, height=0.6, color=[COLOURS[name] for name in order], edgecolor=BLACK, linewidth=0.6)
-    for k, (number, end) in enumerate(zip(numbers.tolist(), drawn.tolist(), strict=True)):
-        said = f"{number:.4g}" if np.isfinite(number) else "unlimited" if number > 0 else "not claimed"
-        ax.annotate(
-            said, (max(end, 0.0), k), (4, 0), textcoords="offset points", va="center", fontsize="small"
-        )
-    ax.invert_yaxis()
-    ax.margins(x=0.18)
-    ax.set_xlabel("load factor (–)")
-    plain(ax)
-    return ax
-
-
-COLOURS = {
-    "frictionless": PALE,
-    "non-associated": BLUE,
-    "load path": SKY,
-    "associated, static": ORANGE,
-    "associated, kinematic": VERMILION,
-    "associated": ORANGE,
-}
-
-
-def _load_factors(result: Any) -> dict[str, float]:
-    if isinstance(result, Bounds):
-        if result.gap < 1e-3:
-            return {"associated": result.lower}
-        return {"associated, static": result.lower, "associated, kinematic": result.upper}
-    end = result.collapse if isinstance(result, LoadPath) else result
-    if not isinstance(end, Nonassociated):
-        raise LimitBlocksError(
-            f"{type(result).__name__} given; expected results of bounds, nonassociated or load_path"
-        )
-    name = "load path" if isinstance(result, LoadPath) else "non-associated"
-    return {"frictionless": end.frictionless, name: end.load_factor, "associated": end.associated}

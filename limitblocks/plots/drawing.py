@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import product
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import to_rgb
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import FixedLocator, Locator, MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 
@@ -18,10 +19,12 @@ from limitblocks.arrays import Array
 from limitblocks.drawing.painter import painting_order, placed
 from limitblocks.drawing.silhouette import hulls, outlines
 from limitblocks.geometry import polyhedron
-from limitblocks.plots.style import EDGE, SUPPORT, legend_below, plain
+from limitblocks.plots.style import EDGE, SUPPORT, columns, inches, legend_below, plain, room
 
 LIGHT = np.array([-0.35, -0.6, 0.72])
-LARGEST = 5.0  # inches: width or height of an axonometric drawing
+BESIDE = 1.3  # inches: left free beside an axonometric drawing
+LETTER, ASIDE = 0.06, 0.5  # inches: a letter of 7 pt, and how far a title may stand out
+SHORT = 0.25  # of the longest axis: one tick is enough
 ABOVE = 10_000.0  # zorder of what is drawn over all blocks
 
 
@@ -121,9 +124,10 @@ class Canvas:
         span = np.maximum(high - low, 0.02 * (high - low).max())
         middle = (low + high) / 2
         for name, centre, length in zip("xyz", middle, span, strict=True):
+            share = float(length / span.max())
             axis = getattr(self.ax, f"{name}axis")
             getattr(self.ax, f"set_{name}lim3d")(centre - 0.51 * length, centre + 0.51 * length)
-            axis.set_major_locator(MaxNLocator(max(1, round(5 * length / span.max())), steps=[1, 2, 5, 10]))
+            axis.set_major_locator(_few(share, float(centre), inches(self.ax)))
             axis.set_label_text(f"{name.upper()} (m)")
             axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         self.ax.set_box_aspect(span)
@@ -131,19 +135,24 @@ class Canvas:
         self._cut(0.75)
 
     def title(self, text: str) -> None:
-        """Write a line above the drawing."""
+        """Write lines above the drawing, broken to the width of the axes."""
+        most = int((inches(self.ax) + ASIDE) / LETTER)
+        text = "\n".join(part for line in text.splitlines() for part in wrap(line, most))
         low, high = self._extent()
-        place = {"x": (low[0] + high[0]) / 2, "y": high[1] + 0.03} if self.spatial else {}
+        above = high[1] + (0.12 if self.beyond else 0.03)  # what is beyond the frame has a word above it
+        place = {"x": (low[0] + high[0]) / 2, "y": above} if self.spatial else {}
         self.ax.set_title(text, fontsize="small", **place)
 
     def legend(self) -> None:
         """Put the legend below the drawing."""
+        names = self.ax.get_legend_handles_labels()[1]
+        ncols = columns(self.ax, names)
         if self.spatial:
-            rows = -(-len(self.ax.get_legend_handles_labels()[1]) // 4)
+            rows = -(-len(names) // ncols)
             self._cut(0.85 + 0.2 * rows)
         low, high = self._extent()
         place = ((low[0] + high[0]) / 2, low[1])
-        legend_below(self.ax, place, 0.65 if self.spatial else 0.5, ncols=4)
+        legend_below(self.ax, place, 0.65 if self.spatial else 0.5, ncols=ncols)
 
     def _extent(self) -> tuple[Array, Array]:
         """Lower left and upper right corner of what is drawn, in axes coordinates."""
@@ -162,9 +171,9 @@ class Canvas:
             return
         low, high = self._extent()
         side = float(
-            min(LARGEST / (high - low))
+            min((room() - BESIDE) / (high - low))
         )  # of the square axes, inches; they may reach beyond the figure
-        left, right, above = 0.55, 0.75, 0.55
+        left, right, above = 0.55, 0.75, 0.75
         wide, tall = side * (high - low) + [left + right, below + above]
         self.ax.figure.set_size_inches(wide, tall)
         corner = np.array([left, below]) - side * low
@@ -175,6 +184,13 @@ class Canvas:
             self.ax.add_collection3d(collection, autolim=False)
         else:
             self.ax.add_collection(collection)
+
+
+def _few(share: float, centre: float, wide: float) -> Locator:
+    """Ticks of an axis that is a `share` of the longest, on axes so many inches wide."""
+    if share < SHORT:
+        return FixedLocator([float(f"{centre:.2g}")])
+    return MaxNLocator(max(1, round(float(np.clip(1.2 * wide, 2.0, 5.0)) * share)), steps=[1, 2, 5, 10])
 
 
 def _shaded(colour: str, normal: Array) -> tuple[float, ...]:

@@ -57,7 +57,7 @@ def structure(
         _draw_live(drawn, model, [block.vertices for block in model.blocks])
     if names:
         for block in model.blocks:
-            drawn.text(block.centroid, block.name, ha="center", fontsize="x-small")
+            drawn.text(block.centroid, block.name, ha="center", fontsize="small")
     return drawn.ax
 
 

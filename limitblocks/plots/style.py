@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from io import BytesIO
 from typing import Any
 
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
@@ -45,15 +47,31 @@ class SpatialAxes(_InNotebooks, Axes3D):  # type: ignore[misc] # without types
 _KINDS: dict[str | None, type[Axes]] = {None: FlatAxes, "polar": RoundAxes, "3d": SpatialAxes}
 
 
-def new_axes(projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:
-    """Return Axes in a new figure that pyplot knows nothing of."""
+def room() -> float:
+    """Return the width of a figure that matplotlib's settings ask for, inches."""
+    return float(rcParams["figure.figsize"][0])
+
+
+def inches(ax: Any) -> float:
+    """Return the width of Axes."""
+    return float(ax.bbox.width / ax.figure.dpi)
+
+
+def columns(ax: Any, names: Sequence[str]) -> int:
+    """Return how many columns of a legend find room below Axes, from the longest name at 7 pt."""
+    longest = max(map(len, names), default=1)
+    return max(1, min(4, int((inches(ax) + 0.9) / (0.06 * longest + 0.4))))
+
+
+def new_axes(projection: str | None = None, size: tuple[float, float] | None = None) -> Any:
+    """Return Axes in a new figure that pyplot knows nothing of, as large as matplotlib's settings say."""
     kind = _KINDS[projection]
     if projection == "3d":
         return Figure(figsize=size).add_subplot(axes_class=kind, proj_type="ortho", computed_zorder=False)
     return Figure(figsize=size, layout="constrained").add_subplot(axes_class=kind)
 
 
-def curve_axes(ax: Any, projection: str | None = None, size: tuple[float, float] = (6.0, 4.2)) -> Any:
+def curve_axes(ax: Any, projection: str | None = None, size: tuple[float, float] | None = None) -> Any:
     """Return `ax` if it fits, or new Axes; LimitBlocksError if it is of another projection."""
     if ax is None:
         return new_axes(projection, size)

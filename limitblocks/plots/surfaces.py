@@ -14,7 +14,7 @@ from limitblocks.joints.base import RESULTANTS
 from limitblocks.joints.interaction import shear_strength, torsion_bending, torsion_shear_curve
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.torsion import as_region, cross, torsion_constant
-from limitblocks.plots.style import BLACK, CYCLE, curve_axes, legend_below
+from limitblocks.plots.style import BLACK, CYCLE, curve_axes, inches, legend_below
 
 LONG = 1e6  # times the size of N: what is stronger counts as unlimited
 
@@ -103,7 +103,7 @@ def interaction(
     ax.axvline(0.0, color="0.8", linewidth=0.6, zorder=0.5)
     if (x[0] in "VN") == (y[0] in "VN"):
         ax.set_aspect("equal")
-    ax.locator_params(nbins=6)
+    ax.locator_params(nbins=6 if inches(ax) > 2.5 else 4)
     legend_below(ax)
     return ax
 

@@ -11,7 +11,7 @@ from limitblocks.drawing.view import PLANES, towards, view_of
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
-from limitblocks.plots.style import new_axes
+from limitblocks.plots.style import new_axes, room
 
 
 def canvas(model: Model, ax: Any, plane: str | None, rates: Array | None = None) -> Canvas:
@@ -62,5 +62,6 @@ def _vertices(model: Model) -> Array:
 def _size(model: Model, view: Array) -> tuple[float, float]:
     """Size of a figure, inches, whose shape is that of the structure."""
     wide, high = np.ptp(_vertices(model) @ view[:2].T, axis=0)
-    width = float(np.clip(4.5 * wide / high, 3.0, 6.5))
-    return width + 0.6, float(np.clip(width * high / wide, 1.2, 6.5)) + 1.0
+    most = room() - 0.6
+    width = float(np.clip(0.7 * room() * wide / high, 0.7 * most, most))
+    return width + 0.6, float(np.clip(width * high / wide, 1.2, room())) + 1.0

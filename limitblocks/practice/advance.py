@@ -11,9 +11,9 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load
-from limitblocks.practice import displaced as moving
 from limitblocks.practice.capacity_result import Control
-from limitblocks.practice.displaced import CLOSED, Assembly, Truths
+from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
+from limitblocks.practice.rejoined import closed_up, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
@@ -51,16 +51,16 @@ def advanced(assembly: Assembly, control: Control, rates: Array, step: float) ->
     was = [own.ways[:, 2] for own in assembly.contacts]
     share, least = 1.0, -10.0 * CLOSED * assembly.size
     while share >= SHORTEST:
-        goal, left = moving.closed_up(moving.moved(assembly, share * step / pace * rates), held, sliding)
+        goal, left = closed_up(moved(assembly, share * step / pace * rates), held, sliding)
         now = [own.ways[:, 2] for own in goal.contacts]
         lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
-        if left <= CLOSED * assembly.size and lowest >= least and not moving.meet(goal):
+        if left <= CLOSED * assembly.size and lowest >= least and not meet(goal):
             break
         share /= 2.0
     else:
         return None
     changes = _changes(assembly, was, now, -least)
-    return Advanced(moving.slid(goal, sliding), _carried(assembly, goal, control), changes)
+    return Advanced(slid(goal, sliding), _carried(assembly, goal, control), changes)
 
 
 def across(assembly: Assembly, stress_resultants: Array) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.joints import Backfill
-from limitblocks.mechanics import fill
+from limitblocks.mechanics.loads import fill
 from limitblocks.mechanics.loads.load import number, unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, Element, axes_of

@@ -1,19 +1,15 @@
-"""Blocks moved by finite displacements with their contacts held together, for capacity curves."""
+"""Blocks moved by finite displacements and their contacts as each block sees them, for capacity curves."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
-from scipy.sparse.linalg import lsmr
 from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.geometry import Block, Interface, find_interfaces
-from limitblocks.geometry.overlap import find_overlaps
+from limitblocks.geometry import Block, Interface
 from limitblocks.joints import Tie
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
@@ -21,9 +17,6 @@ from limitblocks.mechanics.loads.load import Term
 from limitblocks.model import Model
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
-MEETS = 1e-6  # of the size of the structure: a deeper overlap of blocks counts
-ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
-PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
 
 Truths = npt.NDArray[np.bool_]
 
@@ -55,7 +48,7 @@ class Contact:
     @property
     def ways(self) -> Array:
         """Way from the corners on i to those on j, local axes, m, shape (k, 3); the gap comes last."""
-        return np.asarray((self.on_j - self.on_i) @ _half_way(self.axes_i, self.axes_j).T)
+        return np.asarray((self.on_j - self.on_i) @ half_way(self.axes_i, self.axes_j).T)
 
     @property
     def tied(self) -> bool:
@@ -79,10 +72,11 @@ class Assembly:
 def assembly_of(model: Model) -> Assembly:
     """Return the structure where it is first."""
     place = {block.name: k for k, block in enumerate(model.blocks)}
-    return Assembly(model, tuple(_contact(own, place) for own in model.interfaces))
+    return Assembly(model, tuple(contact(own, place) for own in model.interfaces))
 
 
-def _contact(own: Interface, place: dict[str, int]) -> Contact:
+def contact(own: Interface, place: dict[str, int]) -> Contact:
+    """Return an interface as both of its blocks see it where it is closed."""
     half = own.joint.length / 2.0 * own.axes[2] if isinstance(own.joint, Tie) else None
     corners = own.centroid + own.polygon @ own.axes[:2]
     on_i = corners if half is None else (own.centroid - half)[None]
@@ -90,8 +84,8 @@ def _contact(own: Interface, place: dict[str, int]) -> Contact:
     return Contact(own, (place[own.block_i], place[own.block_j]), on_i, on_j, own.axes, own.axes)
 
 
-def _half_way(axes_i: Array, axes_j: Array) -> Array:
-    """Axes half way between two sets of axes (3, 3), rows."""
+def half_way(axes_i: Array, axes_j: Array) -> Array:
+    """Return the axes half way between two sets of axes (3, 3), rows."""
     turn = Rotation.from_matrix(axes_j.T @ axes_i).as_rotvec()
     return np.asarray(axes_i @ Rotation.from_rotvec(turn / 2.0).as_matrix().T)
 
@@ -119,7 +113,7 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
             axes_i=own.axes_i @ turns[i].T,
             axes_j=own.axes_j @ turns[j].T,
         )
-        contacts.append(replace(turned, interface=_placed(turned)))
+        contacts.append(replace(turned, interface=placed(turned)))
     place = {block.name: k for k, block in enumerate(model.blocks)}
     blocks = tuple(
         Block(own.name, at(k, own.vertices), own.faces, own.unit_weight) if displacements[k].any() else own
@@ -155,9 +149,9 @@ def _screw_shift(displacements: Array) -> Array:
     return np.asarray(along + sine[:, None] * (v - along) + versine[:, None] * np.cross(axis, v))
 
 
-def _placed(own: Contact) -> Interface:
-    """The interface half way between both blocks, on its closed corners; a tie between its anchors."""
-    axes = _half_way(own.axes_i, own.axes_j)
+def placed(own: Contact) -> Interface:
+    """Return the interface half way between both blocks, on its closed corners; a tie between its anchors."""
+    axes = half_way(own.axes_i, own.axes_j)
     if own.tied:
         n = own.on_j[0] - own.on_i[0]
         n = n / np.linalg.norm(n)
@@ -171,88 +165,3 @@ def _placed(own: Contact) -> Interface:
         middle = (own.on_i + own.on_j)[kept].mean(axis=0) / 2.0
         centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
     return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))
-
-
-def closed_up(assembly: Assembly, held: list[Truths], sliding: list[bool]) -> tuple[Assembly, float]:
-    """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
-
-    `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide.
-    """
-    wanted = np.concatenate(
-        [
-            np.stack([own & (not slides)] * 2 + [own], axis=1)
-            for own, slides in zip(held, sliding, strict=True)
-        ]
-    )
-    size = np.array([block.size for block in assembly.model.blocks])
-    scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
-    scale[[block.name in assembly.model.supports for block in assembly.model.blocks]] = 0.0
-    left = np.inf
-    for _ in range(ROUNDS):
-        way = np.where(wanted, np.concatenate([own.ways for own in assembly.contacts]), 0.0)
-        last, left = left, float(np.abs(way).max(initial=0.0))
-        if left == 0.0 or left > last / 2.0:  # rounding is reached
-            break
-        rows = _rows(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
-        step = lsmr(rows, -way[wanted], atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
-        assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
-    return assembly, left
-
-
-def _rows(assembly: Assembly) -> sparse.csr_array:
-    """Rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
-    centres = np.stack([block.centroid for block in assembly.model.blocks])
-    parts = [
-        (sign, own.ends[side], points, _half_way(own.axes_i, own.axes_j))
-        for own in assembly.contacts
-        for side, sign, points in ((0, -1.0, own.on_i), (1, 1.0, own.on_j))
-    ]
-    data, rows, columns, start = [], [], [], 0
-    for number, (sign, k, points, axes) in enumerate(parts):
-        turn = np.cross((points - centres[k])[:, None, :], axes)  # a . (w x r) = w . (r x a)
-        values = sign * np.concatenate([np.broadcast_to(axes, turn.shape), turn], axis=2)
-        data.append(values.ravel())
-        rows.append(np.repeat(start + np.arange(3 * len(points)), 6))
-        columns.append(np.tile(6 * k + np.arange(6), 3 * len(points)))
-        start += 3 * len(points) * (number % 2)
-    places = np.concatenate(rows), np.concatenate(columns)
-    shape = start, 6 * len(assembly.model.blocks)
-    return sparse.coo_array((np.concatenate(data), places), shape=shape).tocsr()
-
-
-def meet(assembly: Assembly) -> bool:
-    """Whether blocks that no interface joins overlap."""
-    blocks = assembly.model.blocks
-    joined = {tuple(sorted(own.ends)) for own in assembly.contacts}
-    low, high = (np.array([end(block.vertices, axis=0) for block in blocks]) for end in (np.min, np.max))
-    inside = np.triu((low[:, None] < high[None]).all(axis=2) & (low[None] < high[:, None]).all(axis=2), 1)
-    pairs = np.array([pair for pair in np.argwhere(inside).tolist() if tuple(pair) not in joined])
-    points = [block.vertices for block in blocks]
-    return len(pairs) > 0 and bool(find_overlaps(blocks, points, pairs, MEETS * assembly.size))
-
-
-def slid(assembly: Assembly, sliding: list[bool]) -> Assembly:
-    """Return the structure with the contacts that slide where block j now is, and their areas found anew.
-
-    Faces that slide flat on one another get the area that they now share; an opened joint that slides keeps
-    its corners on block j.
-    """
-    contacts: list[Contact] = []
-    for own, slides in zip(assembly.contacts, sliding, strict=True):
-        contacts += list(_found_anew(assembly, own)) if slides and not own.tied else [own]
-    model = replace(assembly.model, interfaces=tuple(own.interface for own in contacts))
-    return Assembly(model, tuple(contacts))
-
-
-def _found_anew(assembly: Assembly, own: Contact) -> Iterator[Contact]:
-    i, j = own.ends
-    blocks = assembly.model.blocks
-    if own.axes_i[2] @ own.axes_j[2] > 1.0 - PARALLEL and np.ptp(own.ways[:, 2]) <= CLOSED * assembly.size:
-        place = {block.name: k for k, block in enumerate(blocks)}
-        faces = find_interfaces([blocks[i], blocks[j]], own.interface.joint)
-        same = [face for face in faces if face.axes[2] @ own.interface.axes[2] > 1.0 - PARALLEL]
-        if same:
-            yield from (_contact(face, place) for face in same)
-            return
-    moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * _half_way(own.axes_i, own.axes_j)[2])
-    yield replace(moved_on, interface=_placed(moved_on))

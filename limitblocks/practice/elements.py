@@ -13,7 +13,8 @@ from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Tie
 from limitblocks.joints.base import checked_count
-from limitblocks.mechanics import Load, force
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model
 

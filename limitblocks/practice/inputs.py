@@ -6,37 +6,39 @@ from limitblocks.practice.spectra import Floor, Spectrum
 from limitblocks.practice.verification_result import Quantity
 
 GIVEN = "given"
-CODE, FLOORS = "NTC 2018, 3.2.3.2.1", "Circolare 7/2019, C7.2.3"
+NTC = "NTC 2018"
 
 
 def given(spectrum: Spectrum, state: str = "SLV") -> list[Quantity]:
     """Return the parameters of a spectrum; symbols of another limit state than SLV end in its name."""
     end = "" if state == "SLV" else f"_{state}"
+    rows = (
+        ("a_g", "ground acceleration on rock", GIVEN, spectrum.a_g, "m/s2", "3.2"),
+        ("S", "soil and topography, S_S S_T", GIVEN, spectrum.S, "", "[3.2.3]"),
+        ("F0", "largest amplification", GIVEN, spectrum.F0, "", "3.2"),
+        ("T_C", "start of constant velocity", GIVEN, spectrum.T_C, "s", "[3.2.5]"),
+        ("T_D", "start of constant displacement", "4 a_g / g + 1.6", spectrum.T_D, "s", "[3.2.7]"),
+    )
     return [
-        Quantity(f"a_g{end}", f"ground acceleration on rock, {state}", GIVEN, spectrum.a_g, "m/s2", CODE),
-        Quantity(f"S{end}", f"soil and topography, {state}", GIVEN, spectrum.S, "", CODE),
-        Quantity(f"F0{end}", f"largest amplification, {state}", GIVEN, spectrum.F0, "", CODE),
-        Quantity(f"T_C{end}", f"start of constant velocity, {state}", GIVEN, spectrum.T_C, "s", CODE),
-        Quantity(
-            f"T_D{end}",
-            f"start of constant displacement, {state}",
-            "4 a_g / g + 1.6",
-            spectrum.T_D,
-            "s",
-            CODE,
-        ),
+        Quantity(f"{symbol}{end}", f"{meaning}, {state}", formula, value, unit, f"{NTC} {source}")
+        for symbol, meaning, formula, value, unit, source in rows
     ]
 
 
-def carried(floor: Floor, largest: float) -> list[Quantity]:
+def carried(floor: Floor, spectrum: Spectrum) -> list[Quantity]:
     """Return the modes that carry the mechanism, and the largest acceleration of its floor, m/s2."""
     found: list[Quantity] = []
-    for k, mode in enumerate(floor.modes, start=1):
+    for k, (mode, peak) in enumerate(zip(floor.modes, floor.peaks(spectrum), strict=True), start=1):
         found += [
-            Quantity(f"T_{k}", f"period of mode {k}", GIVEN, mode.period, "s", FLOORS),
-            Quantity(f"gamma_{k}", f"participation of mode {k}", GIVEN, mode.participation, "", FLOORS),
-            Quantity(f"psi_{k}(Z)", f"shape of mode {k} at the height Z", GIVEN, mode.shape, "", FLOORS),
-            Quantity(f"xi_{k}", f"damping of mode {k}", GIVEN, mode.damping, "", FLOORS),
-        ]
-    words = "root of the sum of a_Zk^2, at least a_g S"
-    return [*found, Quantity("a_Z", "largest acceleration at the height Z", words, largest, "m/s2", FLOORS)]
+            Quantity(f"T_{k}", f"period of mode {k}", GIVEN, mode.period, "s", "C7.2.3"),
+            Quantity(f"gamma_{k}", f"participation of mode {k}", GIVEN, mode.participation, "", "C7.2.3"),
+            Quantity(f"psi_{k}(z)", f"shape of mode {k} at the height z", GIVEN, mode.shape, "", "C7.2.3"),
+            Quantity(f"xi_{k}", f"damping of mode {k}", GIVEN, mode.damping, "", "C7.2.3"),
+            Quantity(f"a_Z,{k}", f"share of mode {k} in the acceleration of the floor",
+                     "S_e(T_k, xi_k) |gamma_k psi_k| sqrt(1 + .0004 xi_k^2), xi_k in %", peak, "m/s2",
+                     "[C7.2.7]"),
+        ]  # fmt: skip
+    words = "root of the sum of a_Z,k^2; here at least a_g S, on the safe side"
+    largest = Quantity("a_Z", "largest acceleration at the height z", words, floor.largest(spectrum), "m/s2",
+                       "[C7.2.8]")  # fmt: skip
+    return [*found, largest]

@@ -17,7 +17,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Tie
-from limitblocks.mechanics import added_mass
+from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
 from limitblocks.mechanics.loads.load import number, of, triple
 from limitblocks.model import Model

@@ -17,7 +17,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
-from limitblocks.mechanics import force
+from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, axes_of

@@ -1,7 +1,7 @@
 """Elastic response spectrum of NTC 2018 and floor spectra of Circolare 7/2019, with explicit inputs.
 
 Sources: NTC 2018 (D.M. 17/01/2018), Section 3.2.3.2.1, Eqs [3.2.2]-[3.2.8]; Circolare 7/2019, Section
-C7.2.3. The text of the Circolare was not seen while this was written: compare before relying on it.
+C7.2.3, Eqs [C7.2.5]-[C7.2.8], and [C8.7.1.12], checked against a transcription of the official text.
 """
 
 from __future__ import annotations
@@ -112,11 +112,11 @@ class FloorMode:
 
 @dataclass(frozen=True)
 class Floor:
-    """The height Z above the ground at which a mechanism is fixed, and the modes that carry it there.
+    """The height z above the ground at which a mechanism is fixed, and the modes that carry it there.
 
-    Floor spectrum of Circolare 7/2019, Section C7.2.3 (after Degli Abbati, Cattari & Lagomarsino 2018): in
-    each mode 1.1 xi_k^-0.5 eta(xi) times the largest acceleration between `a` T_k and `b` T_k, falling on
-    both sides, at T = 0 to the largest acceleration.
+    Floor spectrum of Circolare 7/2019, Eqs [C7.2.5], [C7.2.6] (after Degli Abbati, Cattari & Lagomarsino
+    2018): in each mode 1.1 xi_k^-0.5 eta(xi) times the largest acceleration between `a` T_k and `b` T_k,
+    falling on both sides, at T = 0 to the largest acceleration. The first mode is that of [C8.7.1.12].
     """
 
     modes: tuple[FloorMode, ...]
@@ -131,7 +131,7 @@ class Floor:
     def peaks(self, ground: Spectrum) -> Sequence[float]:
         """Return the largest acceleration of the floor in each mode, m/s2.
 
-        It is S_e(T_k, xi_k) gamma_k |psi_k| sqrt(1 + .0004 xi_k^2), xi_k in %.
+        It is ``S_e(T_k, xi_k) |gamma_k psi_k| sqrt(1 + .0004 xi_k^2)``, xi_k in %, Eq. [C7.2.7].
         """
         return [
             ground.acceleration(mode.period, mode.damping)
@@ -141,11 +141,11 @@ class Floor:
         ]
 
     def largest(self, ground: Spectrum) -> float:
-        """Return the largest floor acceleration, m/s2: all modes, no less than that of the ground."""
+        """Return the largest floor acceleration, m/s2, Eq. [C7.2.8], here no less than that of the ground."""
         return max(float(np.linalg.norm(self.peaks(ground))), ground.acceleration(0.0))
 
     def acceleration(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
-        """Return S_eZ(T), m/s2: all modes, no less than the spectrum of the ground."""
+        """Return S_eZ(T), m/s2, Eqs [C7.2.5], [C7.2.6]; no less than the spectrum of the ground at any T."""
         eta, shares = damping_factor(damping), []
         for mode, peak in zip(self.modes, self.peaks(ground), strict=True):
             excess = 1.1 * mode.damping**-0.5 * eta - 1.0
@@ -158,5 +158,10 @@ class Floor:
         return max(float(np.linalg.norm(shares)), ground.acceleration(period, damping))
 
     def displacement(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
-        """Return S_DeZ(T) = S_eZ(T) (T / 2 pi)^2, m."""
-        return self.acceleration(ground, period, damping) * (period / (2.0 * np.pi)) ** 2
+        """Return S_eZ(T) (T / 2 pi)^2, m, and beyond b T_1 no less than there, Eq. [C8.7.1.12]."""
+        first = self.modes[0].period
+        found = self.acceleration(ground, period, damping) * (period / (2.0 * np.pi)) ** 2
+        if period <= self.b * first:
+            return found
+        least = self.acceleration(ground, first, damping) * (self.b * first / (2.0 * np.pi)) ** 2
+        return max(found, least)

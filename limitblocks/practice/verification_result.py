@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from limitblocks.practice.moving_masses import MovingMass
 from limitblocks.shown import Result
 
-UNSEEN = (
-    "Nothing is claimed beyond the inequalities named. The text of Circolare 7/2019 was not seen when this "
-    "was written: its quantities follow worked examples, and numbers of single equations are not given."
+CLAIMED = (
+    "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12] and [C7.2.5] to "
+    "[C7.2.8] were checked against a transcription of the official text, not against the Gazzetta itself; "
+    "M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 (ties or other links "
+    "that break, beams that slip off) and C8.7.1.2.1.9 (time histories)."
 )
 
 
@@ -65,16 +68,24 @@ class Verification(Result):
     ----------
     quantities : tuple of Quantity
     checks : tuple of Inequality
-    moving : tuple of str
-        Blocks of the mechanism.
+    masses : tuple of MovingMass
+        Weights of the mechanism with their virtual displacements.
+    remarks : tuple of str
+        What the text asks and the input does not follow.
     digest : str
         SHA-256 of the model.
     """
 
     quantities: tuple[Quantity, ...]
     checks: tuple[Inequality, ...]
-    moving: tuple[str, ...]
+    masses: tuple[MovingMass, ...]
     digest: str
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """Blocks of the mechanism."""
+        return tuple(dict.fromkeys(one.block for one in self.masses))
 
     def __getitem__(self, symbol: str) -> float:
         """Value of the quantity with a symbol; KeyError where there is none."""
@@ -99,6 +110,12 @@ class Verification(Result):
                 for one in self.checks
             ],
             "moving": list(self.moving),
+            "masses": [
+                {"name": one.name, "block": one.block, "weight": one.weight, "horizontal": one.horizontal,
+                 "vertical": one.vertical}
+                for one in self.masses
+            ],
+            "remarks": list(self.remarks),
             "model_digest": self.digest,
         }  # fmt: skip
 

@@ -9,7 +9,8 @@ import numpy as np
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas, second_moments
-from limitblocks.mechanics import Load, force
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 

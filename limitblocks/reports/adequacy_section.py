@@ -30,6 +30,7 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
     heads = ("Symbol", "Of", "Characteristic", "Partial factor", "Its value", "Design")
     return Section(
         title="Adequacy with partial factors",
+        own=True,
         meaning=FACTORED,
         headline=rounded_down(found.factor),
         quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",

@@ -51,6 +51,11 @@ SENSITIVITY = (
 )
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
+OWN = (
+    "It is the answer of the chapter {}. This report has no certified load factor of its model without "
+    "dilatancy, and nothing is said about safety beyond what that chapter says."
+)
+UNCOMPARED = "Safety: the demand {:.4g} is not compared with anything."
 TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))
 
@@ -114,6 +119,11 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
 
 def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapter:
     found = answer(sections)
+    own = next((one for one in sections if one.own), None)
+    if found.load_factor is None and own:
+        return Chapter(
+            "Answer", (Headline(own.headline, own.quantity, main=True), Text(OWN.format(own.title)))
+        )
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
@@ -121,7 +131,7 @@ def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapte
     if labels.demand is None:
         parts.append(Text(UNDEMANDED))
     elif said is None:
-        parts.append(Text(f"Safety: the demand {labels.demand:.4g} is not compared with anything."))
+        parts.append(Text(UNCOMPARED.format(labels.demand)))
     else:
         parts.append(Text(f"Safety: {said.text}"))
     return Chapter("Load factor to design with", tuple(parts))

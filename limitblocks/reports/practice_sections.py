@@ -18,6 +18,10 @@ SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
     "that move are the cracks. Dashed: the moving blocks before they moved."
 )
+LOADED = (
+    "The mechanism with the vehicle at its worst position, drawn {:.3g} times, linearly; its size is "
+    "arbitrary. Dashed: the moving blocks before they moved."
+)
 
 
 def settlement_section(_model: Model, found: Settlement) -> Section:
@@ -36,6 +40,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
     drawn = picture.sheet(f"Mechanism that follows {own.support}")
     return Section(
         title=f"Settlement of {own.support}",
+        own=True,
         meaning=(
             f"The support {own.support} gives way along {triple(own.direction.tolist())}, without turning, "
             "under the dead loads. The structure needs less and less of its reaction until, at the least "
@@ -57,6 +62,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
     rows = [(name, _newtons(amount) if amount else "not needed") for name, amount in pairs]
     return Section(
         title="Least reinforcement",
+        own=True,
         meaning=(
             "The least sum of forces or weights with which the structure reaches the required load factor "
             "if its joints dilate by the friction angle (static theorem, Eqs (56)-(57)); then the answer "
@@ -91,21 +97,31 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         (f"{a:#.6g}", f"{b:#.6g}" if np.isfinite(b) else "unlimited", "worst" if a == found.position else "")
         for a, b in zip(x.tolist(), factors.tolist(), strict=True)
     ]
+    picture = mechanism_picture(found.model, found.bounds.displacement_rates)
+    drawn = picture.sheet("Mechanism with the vehicle at its worst position")
+    acting = found.model.live.on(found.model.free_blocks)[:, :3].sum(axis=0)
     parts: tuple[Part, ...] = (
+        Figure(drawn, LOADED.format(picture.magnification), LEGEND),
         Table.of("Load factor by position", ("First axle at X, m", "Load factor", ""), rows, right=(0, 1)),
     )
     return Section(
         title="Vehicle on the deck",
+        own=True,
         meaning=(
             "Associated load factor of the axle loads given, with the vehicle at each position; the fill "
             "disperses the axles. The least one is found by a search between the worst positions, a local "
             "minimum."
         ),
         headline=f"{found.bounds.lower:#.4g}",
-        quantity=f"load factor with the first axle at X = {found.position:.4g} m, the worst position found",
+        quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
         values=(
             ("Static load factor", f"{found.bounds.lower:#.7g}", "at the worst position"),
             ("Kinematic load factor", f"{found.bounds.upper:#.7g}", "at the worst position"),
+            (
+                "Axles on the structure",
+                _newtons(-float(acting[2])),
+                "at load factor one, at the worst position",
+            ),
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,

@@ -52,6 +52,8 @@ class Section:
         is the one to design with.
     upper : float, optional
         An upper estimate of it.
+    own : bool
+        Whether its headline is at the head of a report that has no load factor to design with.
     compared : tuple of (str, str, str)
         Name, value and meaning of load factors to be put side by side.
     """
@@ -69,6 +71,7 @@ class Section:
     curve: Curve | None = None
     designs: tuple[tuple[float, str], ...] = ()
     upper: float | None = None
+    own: bool = False
     compared: tuple[tuple[str, str, str], ...] = ()
 
 

@@ -1,12 +1,14 @@
-"""What a report says of a kinematic verification: every quantity and every check."""
+"""What a report says of a kinematic verification: every mass, every quantity and every check."""
 
 from __future__ import annotations
 
 from limitblocks.model import Model
-from limitblocks.practice.verification_result import UNSEEN, Verification
+from limitblocks.practice.verification_result import CLAIMED, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
 from limitblocks.reports.words import rounded_down, some, with_unit
+
+CODE = "Circolare 7/2019, C8.7.1.2.1"
 
 
 def verification_section(_model: Model, found: Verification) -> Section:
@@ -18,30 +20,46 @@ def verification_section(_model: Model, found: Verification) -> Section:
     ]
     checks = [
         (one.name, with_unit(one.capacity, one.unit), with_unit(one.demand, one.unit),
-         rounded_down(one.ratio), _word(one.satisfied))
+         rounded_down(one.ratio), _word(one.satisfied), one.source)
         for one in found.checks
     ]  # fmt: skip
-    sources = ", ".join(dict.fromkeys(one.source for one in found.checks))
-    heads = ("Symbol", "Quantity", "Formula", "Value", "Source")
+    heads = ("Symbol", "Quantity", "Formula", "Value", "Equation or section")
     return Section(
         title="Kinematic verification of the mechanism",
-        meaning=f"A local mechanism as a rigid-body motion, {sources} with NTC 2018. {UNSEEN}",
+        meaning=(
+            f"A local mechanism as a motion of rigid bodies, {CODE} with NTC 2018; numbers of equations in "
+            f"brackets are those of the Circolare. {CLAIMED}"
+        ),
         headline=rounded_down(worst.ratio),
         quantity=f"least ratio of capacity to demand: {worst.name}, {_word(worst.satisfied)}",
         values=(),
         checks=(),
         tolerance=0.0,
+        warnings=found.remarks,
         parts=(
+            _masses(found),
             Table.of("Quantities, in the order in which they are found", heads, quantities, right=(3,)),
             Table.of(
-                f"Checks, {sources}: satisfied where capacity over demand is at least one",
-                ("Check", "Capacity", "Demand", "Ratio", "Result"),
+                f"Checks, {CODE}: satisfied where capacity over demand is at least one",
+                ("Check", "Capacity", "Demand", "Ratio", "Result", "Section"),
                 checks,
                 right=(1, 2, 3),
             ),
             Text(f"Blocks of the mechanism: {some(list(found.moving))}."),
         ),
     )
+
+
+def _masses(found: Verification) -> Table:
+    """The weights and virtual displacements that the sums are of."""
+    rows = [
+        (one.name, f"{one.weight / 1e3:.6g}", f"{one.horizontal:.6f}", f"{one.vertical:.6f}",
+         f"{one.weight * one.horizontal / 1e3:.6g}", f"{one.weight * one.horizontal**2 / 1e3:.6g}")
+        for one in found.masses
+    ]  # fmt: skip
+    heads = ("Mass", "P + Q, kN", "delta_PQx", "delta_Py", "(P + Q) dx, kN", "(P + Q) dx², kN")
+    said = "Weights and virtual displacements, the largest horizontal one 1 [C8.7.1.1]"
+    return Table.of(said, heads, rows, right=(1, 2, 3, 4, 5))
 
 
 def _word(satisfied: bool) -> str:

@@ -9,7 +9,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load, mass_proportional, self_weight
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import fill as earth
+from limitblocks.mechanics.loads import mass_proportional, self_weight
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
@@ -118,7 +120,8 @@ def arch_bridge(
         fill = Fill(*fill)
         refuse_fill(fill)
         level = float(each[-1].extrados[..., 1].max()) + fill.height
-        extra = fill_loads(fill, surfaces, level, depth, direction)
+        live = fill_loads(fill, surfaces, level, depth, direction)[1]
+        extra = earth(fill.unit_weight, level, earth_pressure=fill.pressure), live
     everything = [*supports, *blocks]
     between = joint if ring_joint is None else ring_joint
 

@@ -11,7 +11,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load, mass_proportional, self_weight
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import mass_proportional, self_weight
 from limitblocks.model import Model
 
 UNIT_WEIGHT = 20e3  # N/m3, stone masonry

@@ -18,6 +18,7 @@ __all__ = [
     "MILANKOVITCH",
     "OPPENHEIM",
     "ORDUNA_LOURENCO",
+    "PRESTWOOD",
     "Comparison",
     "Published",
 ]
@@ -94,4 +95,10 @@ ORDUNA_LOURENCO = Published(16.3, "Orduña & Lourenço (2005), Fig. 12", Compari
 ARGIENTO = {
     ratio: Published(value, "Argiento, Maione & Casapulla (2018)", Comparison.INDICATIVE, 0.03 * value)
     for ratio, value in {"1/3": 0.68, "1": 0.26}.items()
+}
+#: Prestwood bridge, kN at the quarter span. The number of voussoirs of the bare ring is not known, and moves
+#: the value by 8 %; friction, fill and its resistance are assumed.
+PRESTWOOD = {
+    "bare ring": Published(40.58, "published for the bare ring", Comparison.INDICATIVE, 0.1 * 40.58),
+    "with fill": Published(228.0, "Page (1987), TRRL RR 110, tested", Comparison.INDICATIVE, 0.15 * 228.0),
 }

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.mechanics import Load, force
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import force
 from limitblocks.structures.build import refuse, unit_vector
 
 

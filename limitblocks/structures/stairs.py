@@ -9,7 +9,8 @@ import numpy as np
 
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
-from limitblocks.mechanics import Load, force
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import force
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond
 from limitblocks.structures.build import (

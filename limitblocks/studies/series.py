@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
-from limitblocks.mechanics import Load, compass, top_force
-from limitblocks.mechanics.loads import turned, unit_vector
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model
 from limitblocks.studies.pool import Analysis, Outcome, Progress, analyse_all, failed
 from limitblocks.studies.results import Directions, MovingLoad, Sweep

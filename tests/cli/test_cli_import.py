@@ -103,7 +103,7 @@ WRONG = {
     "joint": (("--supports", "base", "--joint", "Glue"), "'--joint': 'Glue' is no joint"),
     "slip": (
         ("--supports", "base", "--slip", "round"),
-        "'--slip': Value error, 'round' is not one of 'exact'",
+        "'round' is not one of 'exact'",
     ),
     "slip of points": (
         ("--supports", "base", "--joint", "point-contact", "--slip", "paper"),

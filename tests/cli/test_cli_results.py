@@ -1,4 +1,6 @@
 import json
+import signal
+import subprocess
 import sys
 import time
 from dataclasses import replace
@@ -395,6 +397,45 @@ def test_an_interrupted_analysis_writes_its_best_state_or_says_there_is_none(sol
     assert not output.exists()
     assert run("path", file, "--dilatancy", 0.2, "-o", output).exit_code == 3
     assert output.exists()
+
+
+def _interrupted(arguments, met):
+    """Exit code and errors of the command in a process of its own, which gets SIGINT once it tells `met`."""
+    often = "import limitblocks.cli.progress as p; p.EVERY = 0.02; from limitblocks.cli import main; main()"
+    words = [sys.executable, "-c", often, *map(str, arguments)]
+    with subprocess.Popen(words, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if met in line:
+                process.send_signal(signal.SIGINT)
+                break
+        _, rest = process.communicate(timeout=60)
+    return process.returncode, "".join(said) + rest
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
+def test_a_range_stopped_by_the_user_is_written_as_far_as_it_got(tmp_path):
+    model = lb.structures.block(lb.PointContact(0.3), width=1.0, height=1.0).save(tmp_path / "model.json")
+    output = tmp_path / "range.json"
+    asked = ("range", model, "--paths", 10**6, "--mechanisms", 10**6, "--time-limit", 600, "-o", output)
+    code, said = _interrupted(asked, "load factor 0.3")
+    assert code == 130, said
+    found = lb.read_result(output)
+    assert not found.complete
+    assert found.load_path.load_factor == pytest.approx(0.3, rel=1e-6)  # friction
+    assert lb.report(lb.read(model), found).sections[0].designs
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
+def test_a_path_stopped_by_the_user_leaves_its_best_state(tmp_path):
+    joint = lb.OrdunaLourenco(0.6)
+    model = lb.structures.wall(joint, length=4.0, courses=10).save(tmp_path / "model.json")
+    output = tmp_path / "path.json"
+    code, said = _interrupted(("path", model, "-o", output), "load factor")
+    assert code == 130, said
+    assert "interrupted" in said
+    assert not lb.read_result(output).collapse.converged
 
 
 def test_a_study_interrupted_keeps_its_rows(file, tmp_path, monkeypatch):

@@ -8,9 +8,10 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
-from limitblocks.mechanics import added_mass, pressure
+from limitblocks.loads import added_mass, pressure
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
-from limitblocks.practice.displaced import assembly_of, closed_up, moved
+from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.rejoined import closed_up
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -52,6 +53,27 @@ def test_block_that_slides_keeps_its_load_factor_until_half_of_it_is_off():
     assert shifted.centroid == pytest.approx([0.5, 0, 0], abs=1e-9)
 
 
+def test_block_that_slides_off_its_base_tips_over_the_edge():
+    """The shared area shrinks: at mu until the weight is (mu h / 2) from the edge, then over the edge."""
+    h, friction = 0.3, 0.6
+    stones = [
+        lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (1, 1, h), (0, 0, h / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(friction))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, steps=2, control=("block", (0, 0, h)), largest=0.48)
+    tips = 0.5 - friction * h / 2
+    slid = curve.displacements < tips
+    assert 3 <= slid.sum() < len(slid)
+    assert curve.load_factors[slid] == pytest.approx(friction, rel=1e-9)
+    for point in np.array(curve.points)[slid]:
+        (own,) = point.model.interfaces
+        assert np.ptp(own.polygon[:, 0]) * np.ptp(own.polygon[:, 1]) == pytest.approx(1 - point.displacement)
+    first = curve.points[int(slid.sum())]
+    assert first.load_factor == pytest.approx((0.5 - first.displacement) / (h / 2), rel=1e-6)
+
+
 def test_mass_and_tie_move_with_the_block():
     """A mass on the block and an inclined tie: moments about the toe at finite rotation."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)
@@ -91,6 +113,20 @@ def test_hinges_of_an_arch_stay_together():
     assert len(lengths) == len(arch.blocks)
     volumes = [[b.volume for b in m.blocks] for m in (arch, curve.points[-1].model)]
     assert volumes[0] == pytest.approx(volumes[1], rel=1e-12)
+
+
+def test_a_facade_of_37_blocks_out_of_its_plane():
+    """The first point is the answer without dilatancy, each point has its own; no gap is pressed."""
+    door = [(1.2, 0.0, 0.8, 1.2)]
+    facade = lb.structures.facade(JOINTS[0], length=3.2, courses=5, return_length=1.6, openings=door)
+    assert len(facade.free_blocks) == 37
+    curve = capacity_curve(facade, steps=3, largest=0.05)
+    assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(facade).load_factor, rel=1e-8)
+    assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
+    assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
+    assert (np.diff(curve.load_factors) < 1e-7).all()
+    assert curve.load_factors[-1] < 0.9 * curve.load_factors[0]
+    assert curve.points[1].changes
 
 
 def test_gap_left_by_a_coarse_step_is_seen_and_closed():

@@ -8,6 +8,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
+from limitblocks.practice import reinforced, tie
 
 
 @pytest.fixture
@@ -77,12 +78,82 @@ def test_verify_files_a_report(block, tmp_path):
     done = run("verify", block, *site, "--report", tmp_path / "filed.pdf")
     assert done.exit_code == 1, done.output
     said = " ".join(page.extract_text() for page in pypdf.PdfReader(tmp_path / "filed.pdf").pages)
-    for word in ("alpha0", "M*", "e*", "a0*", "a_g S / q", "0.987 ", "NOT satisfied", "was not seen"):
+    for word in (
+        "alpha0",
+        "M*",
+        "e*",
+        "a0*",
+        "a_g S / q",
+        "0.987 ",
+        "NOT satisfied",
+        "not against the Gazzetta",
+    ):
         assert word in said, word
     assert f"{0.2 * 9.81 / 1.35:.6g} m/s²" in said
     assert run("verify", block, *site, "--report", tmp_path / "filed.doc").exit_code == 2
     (tmp_path / "kept.pdf").write_text("another's")
     assert run("verify", block, *site, "--report", tmp_path / "kept.pdf").exit_code == 2
+
+
+@pytest.fixture
+def tied(tmp_path):
+    """A wall and a tie, as the text of a model file."""
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=2e8)
+    return reinforced(wall, rod).save(tmp_path / "tied.json").read_text()
+
+
+@pytest.mark.parametrize(
+    ("was", "becomes", "words"),
+    [
+        ('"type": "Tie", "strength": 200000000.0', '"type": "Tie", "strength": -5.0', "strength"),
+        ('"friction": 0.6', '"friction": -0.6', "friction"),
+        ('"block_i": "wall", "block_j": "ground", "centroid": [-3.125',
+         '"block_i": "wall", "block_j": "wall", "centroid": [-3.125', "joins a block to itself"),
+    ],
+)  # fmt: skip
+def test_misuse_in_a_file_is_one_line(tied, tmp_path, was, becomes, words):
+    """A negative strength, and a tie with both ends in one block."""
+    compact = json.dumps(json.loads(tied))
+    assert was in compact
+    path = tmp_path / "wrong.json"
+    path.write_text(compact.replace(was, becomes))
+    done = run("bounds", path)
+    assert done.exit_code == 2
+    assert words in done.output
+    assert len(done.output.strip().splitlines()) == 1, done.output
+
+
+def test_misuse_on_the_command_line(beam, block):
+    """Settlement of a free block, of what is no block, and a spectrum without q."""
+    for name, words in (("beam", "'beam' is a free block"), ("post", "'post' is not a block of the model")):
+        done = run("settle", beam, "--support", name, "--until-collapse")
+        assert done.exit_code == 2
+        assert words in done.output
+        assert len(done.output.strip().splitlines()) == 1
+    done = run("verify", block, "--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5)
+    assert done.exit_code == 2
+    assert "--q" in done.output
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2, "--linear")
+    done = run("verify", block, *site, "--slc", "0.3,1.2")
+    assert done.exit_code == 2
+    assert "expected A_G/g,S,F0,T_C" in done.output
+
+
+def test_verify_on_a_floor_and_at_damage(block):
+    """One mode: a_Z = S_e(T) gamma psi sqrt(1.01) = .75 g 1.2 sqrt(1.01); SLD at .02 g is not set off."""
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2, "--linear", "--json")
+    done = run("verify", block, *site, "--mode", "0.3,1.2,1.0,0.05", "--sld", "0.02,1.2,2.5,0.5")
+    assert done.exit_code == 1, done.output
+    linear, damage = json.loads(done.stdout)["checks"]
+    assert linear["demand"] == pytest.approx(0.75 * 9.81 * 1.2 * 1.01**0.5 / 2)
+    assert damage["demand"] == pytest.approx(0.06 * 9.81 * 1.2 * 1.01**0.5)
+    assert damage["satisfied"] == (damage["demand"] <= 0.2 * 9.81 / 1.35)
 
 
 def test_vehicle(beam):
@@ -107,3 +178,32 @@ def test_vehicle(beam):
     assert found["position"] == pytest.approx(3.8, abs=1e-3)
     assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
     assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--first", 3, "--last", 4).output
+
+
+def test_a_bridge_from_the_shell(tmp_path):
+    """A bridge of two spans, fill that resists, a vehicle over all of it, a PDF."""
+    pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
+    bare, held, filed = tmp_path / "bridge.json", tmp_path / "held.json", tmp_path / "bridge.pdf"
+    shape = ("--span", 3, "--rise", 0.75, "--thickness", 0.3, "--voussoirs", 7, "--pier-width", 0.8)
+    made = run(
+        "new", "arch-bridge", *shape, "--spans", 2, "--fill", "0.3,20e3", "--friction", 0.6, "-o", bare
+    )
+    assert made.exit_code == 0, made.output
+    model = lb.read(bare)
+    level = max(block.vertices[:, 2].max() for block in model.free_blocks) + 0.3
+    done = run("backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 3, "-o", held)
+    assert done.exit_code == 0, done.output
+    assert "fill holds 12 blocks" in done.output  # all voussoirs but the two at the crowns
+    words = ("--axles", "50e3,50e3", "--distances", "0,1.2", "--level", level, "--count", 5)
+    found = json.loads(run("vehicle", bare, *words, "--json").stdout)
+    x = [block.vertices[:, 0] for block in model.free_blocks]
+    assert min(found["positions"]) == pytest.approx(min(part.min() for part in x) - 1.2)
+    assert max(found["positions"]) == pytest.approx(max(part.max() for part in x))
+    resisting = run("vehicle", held, *words, "--report", filed, "-o", tmp_path / "v.json")
+    assert resisting.exit_code == 0, resisting.output
+    better = lb.read_result(tmp_path / "v.json", lb.read(held))
+    assert better.bounds.lower > 1.02 * found["bounds"]["lower"]
+    said = " ".join(page.extract_text() for page in pypdf.PdfReader(filed).pages)
+    for word in ("Vehicle on the deck", "worst", "passive resistance of fill"):
+        assert word in said, word
+    assert run("vehicle", bare, *words, "--first", 1).exit_code == 2

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.practice import settlement, settling
@@ -10,7 +11,6 @@ LENGTH, BEARING, DEPTH, WEIGHT = 3.0, 0.4, 0.5, 20e3
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 UPRIGHT = np.eye(3)
 DOWN, UP = (0, 0, -1), (0, 0, 1)
-LEAST_THICKNESS, THRUST = 0.107478, 0.621772  # over the mean radius; over unit weight x t x depth x radius
 
 
 def lintel(joint, turn=UPRIGHT):
@@ -53,22 +53,88 @@ def test_direction_turns_with_the_structure():
     assert turned.upper == pytest.approx(plain.upper, rel=1e-6)
 
 
-@pytest.mark.parametrize("voussoirs", [60])
-def test_arch_of_least_thickness_has_one_thrust(voussoirs):
-    """Spread or pushed together: .621772 gamma t d R (Cocchetti, Colasante & Rizzi 2011; radial joints)."""
-    thickness = LEAST_THICKNESS * 1.0002  # it must stand
+def half_arch(voussoirs, thickness, centred=False):
+    """Intrados and extrados joints of the left half from the springing on; area and moment above each joint.
+
+    The mass of a voussoir is where it is, or, `centred`, that of a curved one on the centre line.
+    """
+    angles = np.linspace(np.pi, np.pi / 2, voussoirs // 2 + 1)
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    inner, outer = (1 - thickness / 2) * ring, (1 + thickness / 2) * ring
+    half = np.pi / voussoirs / 2
+    middle = np.cos((angles[:-1] + angles[1:]) / 2)
+    if centred:
+        areas, x = np.full(len(middle), thickness * 2 * half), middle * np.sin(half) / half
+    else:  # trapezoids: centroid at the mean of three chords over 3, by both radii
+        a, b = 1 - thickness / 2, 1 + thickness / 2
+        areas = np.full(len(middle), (b * b - a * a) / 2 * np.sin(2 * half))
+        x = middle * np.cos(half) * 2 / 3 * (b**3 - a**3) / (b**2 - a**2)
+    above = np.cumsum(areas[::-1])[::-1], np.cumsum((areas * x)[::-1])[::-1]
+    return inner, outer, *above
+
+
+def thrusts(voussoirs, thickness, centred=False):
+    """Least and greatest thrust over unit weight x t x depth x radius.
+
+    The line of the least passes the extrados of the crown and the intrados of a joint, that of the greatest
+    the extrados of the springing and the intrados of a joint.
+    """
+    inner, outer, area, moment = half_arch(voussoirs, thickness, centred)
+    k = slice(0, -1)
+    least = ((moment - area * inner[k, 0]) / (outer[-1, 1] - inner[k, 1])).max()
+    springing = moment[0] - area[0] * outer[0, 0]
+    above = slice(1, -1)
+    greatest = ((springing - moment[1:] + area[1:] * inner[above, 0]) / inner[above, 1]).min()
+    return least / thickness, greatest / thickness
+
+
+def critical(voussoirs, centred=False):
+    """Thickness over radius at which both are one."""
+    return brentq(lambda t: np.subtract(*thrusts(voussoirs, t, centred)), 0.1, 0.12, xtol=1e-15, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("centred", "thickness", "thrust"), [(True, 0.1074265, 0.6217715), (False, 0.1074780, 0.6208812)]
+)
+def test_closed_form_of_many_voussoirs(centred, thickness, thrust):
+    """.107426 and .621772 with the mass on the centre line (Cocchetti, Colasante & Rizzi 2011).
+
+    .107478 with the mass where it is (Milankovitch); its thrust is then .620881.
+    """
+    t = critical(4000, centred)
+    assert t == pytest.approx(thickness, abs=1e-7)
+    assert thrusts(4000, t, centred) == pytest.approx([thrust] * 2, abs=1e-6)
+
+
+@pytest.mark.parametrize("centred", [False, True])
+def test_arch_of_least_thickness_has_one_thrust(centred):
+    """Spread or pushed together: the closed forms of its voussoirs, at the critical thickness one number."""
+    voussoirs = 60
+    thickness = critical(voussoirs, centred) * 1.0001  # it must stand
     arch = lb.structures.arch(
         lb.PointContact(2.0), radius=1.0, thickness=thickness, voussoirs=voussoirs, unit_weight=WEIGHT
     )
-    depth = np.ptp(arch.free_blocks[0].vertices[:, 1])
-    thrust = THRUST * WEIGHT * thickness * depth
-    support = arch.supports[-1]
-    out = np.sign(next(b for b in arch.blocks if b.name == support).centroid[0])
-    spread = settlement(arch, support, (out, 0, 0), without_dilatancy=False)
-    pushed = settlement(arch, support, (-out, 0, 0), without_dilatancy=False)
-    assert spread.upper == pytest.approx(thrust, rel=2e-3)
-    assert -pushed.upper == pytest.approx(thrust, rel=2e-3)
-    assert spread.lower <= -pushed.lower
+    unit = WEIGHT * thickness * np.ptp(arch.free_blocks[0].vertices[:, 1])
+    if centred:  # the weight of each on the centre line
+        angles = np.pi - (np.arange(voussoirs) + 0.5) * np.pi / voussoirs
+        radius = np.sin(np.pi / voussoirs / 2) / (np.pi / voussoirs / 2)
+        dead = sum(
+            (
+                lb.loads.force(block.name, (0, 0, -unit * np.pi / voussoirs),
+                               at=(radius * np.cos(a), 0, radius * np.sin(a)))
+                for block, a in zip(arch.free_blocks, angles, strict=True)
+            ),
+            lb.loads.Load(),
+        )  # fmt: skip
+        arch = lb.Model(arch.blocks, arch.supports, arch.interfaces, dead, arch.live)
+    spread, pushed = (
+        settlement(arch, "right support", (way, 0, 0), without_dilatancy=False) for way in (1, -1)
+    )
+    least, greatest = thrusts(voussoirs, thickness, centred)
+    assert spread.lower / unit == pytest.approx(least, rel=1e-6)
+    assert spread.upper / unit == pytest.approx(least, rel=1e-6)
+    assert -pushed.upper / unit == pytest.approx(greatest, rel=1e-6)
+    assert thrusts(voussoirs, critical(voussoirs, centred), centred) == pytest.approx([least] * 2, rel=2e-4)
 
 
 def test_reaction_is_that_of_an_admissible_state():
@@ -97,6 +163,23 @@ def test_joints_of_a_settling_structure_have_states(joint):
     states = lb.interface_states(found.settling.model, found.result)
     assert states.state[:2].count("hinge") >= 1
     assert states.utilisation[-1] < 0.1
+
+
+def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
+    """Two stones of 20 m x .1 m: thrust W a / 4 t = 50 W at the lower edges, below the support's centroid."""
+    a, t = 20.0, 0.1
+    stones = [
+        lb.Block.box("left", (1, 1, 1), (-a - 0.5, 0, -0.5 + t)),
+        lb.Block.box("right", (1, 1, 1), (a + 0.5, 0, -0.5 + t)),
+        lb.Block.box("one", (a, 1, t), (-a / 2, 0, t / 2), WEIGHT),
+        lb.Block.box("two", (a, 1, t), (a / 2, 0, t / 2), WEIGHT),
+    ]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    spread = settlement(model, "right", (1, 0, 0))
+    thrust = 2 * WEIGHT * a * t * a / (4 * t)
+    assert spread.nonassociated == pytest.approx(thrust, rel=1e-6)
+    assert spread.upper == pytest.approx(thrust, rel=1e-6)
 
 
 def test_only_support():

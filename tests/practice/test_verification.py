@@ -59,11 +59,96 @@ def test_facade_of_one_block(facade, answer, curve):
     }
     assert {symbol: found[symbol] for symbol in given} == pytest.approx(given)
     assert len({one.symbol for one in found.quantities}) == len(found.quantities)
-    wanted = SITE.a_g * SITE.S * SITE.F0 * SITE.T_C * SITE.T_D / (2 * np.pi) ** 2  # beyond T_D
+    flat = SITE.a_g * SITE.S * SITE.F0 * SITE.T_C * SITE.T_D / (2 * np.pi) ** 2  # beyond T_D
+    wanted = flat * np.sqrt(10 / (5 + 8))
     assert found["S_De_SLV"] == pytest.approx(wanted, rel=1e-9)
     assert found.checks[1].ratio == pytest.approx(0.4 * d0 / wanted, rel=1e-7)
+    assert found["S_De_SLC"] == pytest.approx(flat * np.sqrt(10 / (5 + 10)), rel=1e-9)
     assert found["T_SLC"] == pytest.approx(1.56 * np.pi * np.sqrt(0.6 * d0 / (0.4 * a0)), rel=1e-7)
     assert [one.name for one in found.checks] == ["linear, SLV", "non-linear, SLV", "non-linear, SLC"]
+
+
+def test_each_mass_and_each_sum(facade, answer):
+    """Turning about the toe: horizontal displacements go as heights, vertical ones as arms to the toe."""
+    found = verification(facade, answer, SITE, q=2.0, confidence=FC)
+    own = WEIGHT * T * H
+    wall, floor = found.masses
+    assert (wall.name, floor.name) == ("wall", "mass on wall")
+    assert (wall.weight, floor.weight) == pytest.approx((own, FLOOR))
+    assert (wall.horizontal, floor.horizontal) == pytest.approx((0.5, 1.0))
+    assert (wall.vertical, floor.vertical) == pytest.approx((T / 2 / H, ARM / H))
+    assert found["sum P"] == pytest.approx(own + FLOOR)
+    assert found["sum P dx"] == pytest.approx(own / 2 + FLOOR)
+    assert found["sum P dx^2"] == pytest.approx(own / 4 + FLOOR)
+    assert found["sum P dy"] == pytest.approx(own * T / 2 / H + FLOOR * ARM / H)
+    assert found["alpha0"] == pytest.approx(found["sum P dy"] / found["sum P dx"], rel=1e-7)  # [C8.7.1.1]
+
+
+def test_ground_accelerations_of_the_linear_checks(facade, answer):
+    """C8.7.1.2.1.5 and .7: a_Z = a_g S at the ground, q times as much at SLV; SLD of its own spectrum."""
+    damage = Spectrum(a_g=0.05 * G, S=1.2, F0=2.5, T_C=0.5)
+    found = verification(facade, answer, SITE, q=2.0, confidence=FC, damage_demand=damage)
+    assert found["a_g,SLD"] == pytest.approx(found["a0*"] / 1.2)
+    assert found["a_g,SLV"] == pytest.approx(2 * found["a0*"] / 1.2)
+    assert found["zeta_E"] == pytest.approx(0.495985, abs=6e-7)
+    check = found.checks[1]
+    assert (check.name, check.satisfied) == ("linear, SLD", True)
+    assert (check.capacity, check.demand) == pytest.approx((found["a0*"], 0.05 * G * 1.2))
+
+
+def test_acceleration_on_the_capacity_curve(facade, answer, curve):
+    """[C8.7.1.3]: that of the displaced wall, beside the straight line; linear between the curve's points."""
+    found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve, damping=(0.05, 0.07))
+    order = np.argsort(curve.displacements)
+    scale = G / (found["e*"] * FC)
+    there = np.interp(0.4 * curve.zero, curve.displacements[order], curve.load_factors[order])
+    assert found["a*_SLV,c"] == pytest.approx(there * scale)
+    assert found["T_SLV,c"] == pytest.approx(1.68 * np.pi * np.sqrt(0.4 * found["d0*"] / found["a*_SLV,c"]))
+    exact = np.tan(np.arctan(found["alpha0"]) - np.arcsin(0.4 * curve.zero / H)) * scale
+    assert found["a*_SLV,c"] == pytest.approx(exact, rel=2e-3)
+    assert found["a*_SLV"] == pytest.approx(0.6 * found["a0*"])
+    assert found["xi_SLV"] == 0.05
+
+
+def test_ground_acceleration_of_the_displacement_check(facade, answer, curve):
+    """At the ground acceleration that is told, the demand is the displacement at the limit state."""
+    found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve)
+    again = Spectrum(found["a_g,SLV,d"], SITE.S, SITE.F0, SITE.T_C)
+    there = verification(facade, answer, again, q=2.0, confidence=FC, curve=curve)
+    assert there["S_De_SLV"] == pytest.approx(found["d*_SLV"], rel=1e-9)
+    assert found["a_g,SLV,d"] < SITE.a_g
+    assert not found.checks[1].satisfied
+
+
+def test_displacement_of_a_floor_does_not_fall_beyond_its_first_mode():
+    """[C8.7.1.12]: beyond b T_1 at least S_eZ(T_1) (b T_1 / 2 pi)^2."""
+    floor = Floor((FloorMode(period=0.5, participation=1.3, shape=1.0),))
+    least = floor.acceleration(SITE, 0.5) * (1.1 * 0.5 / (2 * np.pi)) ** 2
+    assert floor.displacement(SITE, 0.6) == pytest.approx(least)
+    assert floor.acceleration(SITE, 0.6) * (0.6 / (2 * np.pi)) ** 2 < least
+    assert floor.displacement(SITE, 0.5) == pytest.approx(
+        floor.acceleration(SITE, 0.5) * (0.5 / (2 * np.pi)) ** 2
+    )
+
+
+def test_two_modes_add_by_squares():
+    """[C7.2.8]: the root of the sum of the squares of [C7.2.7]."""
+    modes = FloorMode(0.4, 1.3, 0.8, 0.1), FloorMode(0.15, -0.4, 1.0)
+    shares = [
+        SITE.acceleration(mode.period, mode.damping)
+        * abs(mode.participation * mode.shape)
+        * np.sqrt(1 + 0.0004 * (100 * mode.damping) ** 2)
+        for mode in modes
+    ]
+    assert Floor(modes).peaks(SITE) == pytest.approx(shares)
+    assert Floor(modes).largest(SITE) == pytest.approx(np.hypot(*shares))
+
+
+def test_confidence_of_joints_without_compressive_strength(facade, answer):
+    """C8.7.1.2.1.3 asks the factor of LC1 where crushing is left out."""
+    assert verification(facade, answer, SITE, q=2.0).remarks == ()
+    (said,) = verification(facade, answer, SITE, q=2.0, confidence=1.2).remarks
+    assert said.startswith("FC 1.2 with joints without compressive strength")
 
 
 def test_scale_of_the_mechanism_does_not_matter(facade, answer):
@@ -105,7 +190,7 @@ def test_mechanism_on_a_floor(facade, answer):
     floor = Floor((FloorMode(0.4, 1.3, 0.8),))
     found = verification(facade, answer, SITE, q=2.0, floor=floor)
     assert found.checks[0].demand == pytest.approx(floor.largest(SITE) / 2.0)
-    given = {"T_1": 0.4, "gamma_1": 1.3, "psi_1(Z)": 0.8, "xi_1": 0.05, "a_Z": floor.largest(SITE)}
+    given = {"T_1": 0.4, "gamma_1": 1.3, "psi_1(z)": 0.8, "xi_1": 0.05, "a_Z": floor.largest(SITE)}
     assert {symbol: found[symbol] for symbol in given} == pytest.approx(given)
 
 
@@ -113,6 +198,7 @@ def test_mechanism_on_a_floor(facade, answer):
     ("settings", "words"),
     [
         ({"q": 0.5}, "q is 0.5, expected a finite number >= 1"),
+        ({"q": float("nan")}, "q is nan, expected a finite number >= 1"),
         ({"q": 2.0, "confidence": 0.9}, "FC is 0.9, expected a finite number >= 1"),
     ],
 )
@@ -122,8 +208,11 @@ def test_misuse(facade, answer, settings, words):
 
 
 def test_spectrum_without_q(facade, answer):
-    with pytest.raises(TypeError, match="q"):
+    with pytest.raises(
+        lb.ModelError, match="q is missing: the check at SLV needs a behaviour factor"
+    ) as caught:
         verification(facade, answer, SITE)
+    assert "\n" not in str(caught.value)
 
 
 def test_loads_that_are_no_weights(facade, answer):

@@ -23,6 +23,7 @@ from limitblocks.practice import (
     least_ties,
     reinforced,
     settlement,
+    settlement_to_collapse,
     tie,
     verification,
     worst_position,
@@ -136,16 +137,22 @@ def test_a_verification_is_there_line_by_line(reports):
         assert float(number) == pytest.approx(value, rel=1e-5), symbol
         assert unit == units.get(symbol, "")
         assert all(shown[symbol]), symbol  # meaning, formula and source, too
-    assert shown["M*"][2] == "(sum P_i delta_i)^2 / (g sum P_i delta_i^2)"
-    demand = 0.25 * G * 1.2 * 2.5 * 0.5 * 2.6 / (2 * np.pi) ** 2  # beyond T_D
+    assert shown["e*"][2:] == ["(sum P dx)^2 / (sum P  sum P dx^2)", f"{e:.6g}", "[C8.7.1.5]"]
+    sources = {"alpha0": "[C8.7.1.1]", "a0*": "[C8.7.1.8]", "d0*": "[C8.7.1.4]", "a*_SLV,c": "[C8.7.1.3]"}
+    sources |= {"T_SLV": "[C8.7.1.10]", "q": "C8.7.1.2.1.7", "d*_SLV": "C8.7.1.2.1.6"}
+    assert {symbol: shown[symbol][4] for symbol in sources} == sources
+    masses = rows(reports[0], title, "Weights and virtual displacements")
+    assert [float(cell) for cell in masses["wall"][1:4]] == pytest.approx([OWN / 1e3, 0.5, T / 2 / H])
+    assert [float(cell) for cell in masses["mass on wall"][1:3]] == pytest.approx([FLOOR / 1e3, 1.0])
+    demand = 0.25 * G * 1.2 * 2.5 * 0.5 * 2.6 / (2 * np.pi) ** 2 * np.sqrt(10 / 13)  # beyond T_D, 8 %
     checks = rows(reports[0], title, "Checks")
-    assert checks["linear, SLV"][3:] == ["0.495", "NOT satisfied"]  # .495985, never rounded up
+    assert checks["linear, SLV"][3:5] == ["0.495", "NOT satisfied"]  # .495985, never rounded up
     assert float(checks["linear, SLV"][1].split()[0]) == pytest.approx(a0, rel=1e-5)
     assert checks["non-linear, SLV"][4] == ("satisfied" if 0.4 * d0 >= demand else "NOT satisfied")
     assert float(checks["non-linear, SLV"][3]) == pytest.approx(0.4 * d0 / demand, rel=0.01)
     said = " ".join(getattr(part, "text", "") for part in chapter(reports[0], title).parts)
     assert "Nothing is claimed beyond the inequalities named" in said
-    assert "The text of Circolare 7/2019 was not seen" in said
+    assert "not against the Gazzetta itself" in said
 
 
 def test_a_capacity_curve_has_its_points_and_its_drawing(reports):
@@ -179,6 +186,23 @@ def test_a_settlement_has_reactions_and_its_mechanism(reports):
 def test_the_worst_position_is_marked(reports, vehicle):
     shown = rows(reports[1], "Vehicle on the deck", "Load factor by position")
     assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:#.6g}"]
+
+
+def test_a_report_without_a_load_factor_has_the_answer_at_its_head(beam, vehicle, settled):
+    """Not "none"; with a load factor of the model itself that comes first."""
+    for answers, word in (((vehicle,), "first axle at X"), ((settled, vehicle), "least reaction")):
+        first = lb.report(beam, *answers).document.chapters[0]
+        assert first.title == "Answer"
+        assert word in first.parts[0].quantity
+    both = lb.report(beam, lb.bounds(beam), vehicle).document.chapters[0]
+    assert both.title == "Load factor to design with"
+
+
+def test_a_vehicle_has_its_mechanism_and_its_weight(reports):
+    made = chapter(reports[1], "Vehicle on the deck")
+    drawn = [part.sheet.style for part in made.parts if hasattr(part, "sheet")]
+    assert "mechanism" in drawn
+    assert rows(reports[1], "Vehicle on the deck", "Result")["Axles on the structure"][1] == "10 kN"
 
 
 def test_the_json_follows_its_schema(reports):
@@ -238,3 +262,23 @@ def test_ties_and_dowels_have_their_force_and_their_line(facade):
     moves = relative_motion(model, solved.collapse.displacement_rates)
     turn = abs(solved.collapse.displacement_rates[1, 4])
     assert moves[1:3] == pytest.approx(turn * 4.5, rel=1e-6)
+
+
+def test_a_support_that_settles_until_collapse():
+    """Two stones that lean on one another: the thrust at rest, the points, where it falls."""
+    ring = lb.structures.arch(lb.PointContact(0.5), radius=1.0, thickness=0.3, voussoirs=2)
+    curve = settlement_to_collapse(ring, "right support", (1, 0, 0), largest=0.01)
+    report = lb.report(ring, curve)
+    title = "Settlement of right support until collapse"
+    shown = list(rows(report, title, "Points of the settlement").values())
+    assert [float(row[0]) for row in shown] == pytest.approx(curve.displacements, rel=1e-6)
+    for row, reaction in zip(shown, curve.reactions, strict=True):
+        assert [float(cell.split()[0]) for cell in row[1:4]] == pytest.approx([reaction / 1e3] * 3, rel=1e-5)
+    assert "voussoir 1|voussoir 2 opens" in shown[1][4]
+    assert len([p for p in chapter(report, title).parts if hasattr(p, "sheet")]) == 2
+    assert "Falls at" not in report.text
+    fallen = replace(curve, falls=0.012, ended="the structure falls between 0.01 and 0.012 m")
+    assert "0.01200000 m" in lb.report(ring, fallen).text
+    filled = replace(curve.points[-1], across=("a|b presses across a gap of 1 mm",))
+    said = lb.report(ring, replace(curve, points=(curve.points[0], filled))).text
+    assert "joints press across their gaps" in said

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from itertools import islice
+from itertools import islice, product
 from typing import NamedTuple
 
 import numpy as np
@@ -59,7 +59,7 @@ class _Task(NamedTuple):
     permanent: Array
     scale: float
     collected: Collected
-    tell: Callable[[State | None, str], None]
+    tell: Callable[..., None]
 
 
 def load_factor_range(
@@ -137,9 +137,9 @@ def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | Non
     scale, endless = load_scale(problem, enclosing.associated), bool(np.isinf(enclosing.associated))
     limits = (0.0, BEYOND * scale if endless else np.inf)  # a load that grows never comes below zero
 
-    def tell(state: State | None, how: str) -> None:
+    def tell(state: State | None, how: str, known: float = float("nan")) -> None:
         if progress is not None:
-            factor = state.load_factor / problem.units.live if state else float("nan")
+            factor = state.load_factor / problem.units.live if state else known
             progress(Iteration(factor, how, 0.0, {}, 0, 0))
 
     x0 = start_stresses(model, problem, problem.compliance, None)
@@ -163,6 +163,8 @@ def _walked(
         tried += 1
         first = _first(task, watch)
         arrived += first is not None
+        if first is not None:
+            task.tell(None, first.solution.how, first.load_factor)
         bounds, units = task.enclosing.bounds, task.flow.problem.stress_units
         associated = bounds.generalised_stresses / units if bounds else None
         sampler = Sampler(task.flow, task.permanent, associated, task.scale, watch)
@@ -175,7 +177,7 @@ def _walked(
     except _TimeUp:
         pass
     except KeyboardInterrupt:
-        if first is None and not task.collected.found:
+        if first is None and not list(task.collected.all()):
             raise
         stopped = True
     return first, (tried, arrived), stopped
@@ -195,7 +197,6 @@ def _first(task: _Task, watch: Callable[[object], None]) -> RangeAnswer | None:
     origin = Origin.LOAD_PATH if loaded else Origin.SEARCHED
     state = state_of(task.model, flow.problem, result)
     task.collected.add(state, result.how, origin, keep=False)
-    task.tell(state, result.how)
     return of_result(task.model, flow, task.permanent, result, origin)
 
 
@@ -204,19 +205,19 @@ def _drawn(task: _Task, count: int, seed: int, deadline: float) -> tuple[int, in
     high = task.collected.limits[1]
     draw = Mechanisms(task.flow, (0.0, high), seed)
     tried = arrived = 0
-    for one in (*task.collected.found, task.collected.least, task.collected.greatest) if count else ():
-        for sense in (1.0, -1.0):
+    ends = (*task.collected.found, task.collected.least, task.collected.greatest) if count else ()
+    try:
+        for one, sense in product(ends, (1.0, -1.0)):
             if one is not None and time.monotonic() < deadline:
                 state = draw.beyond((one.state.u, one.state.y), sense)
                 task.collected.add(state, f"descent or ascent; {one.how}", Origin.SEARCHED, keep=False)
-    try:
         while tried < count and time.monotonic() < deadline:
             tried += 1
             state, how = draw.solution(), f"mechanism drawn at random, seed {seed}, number {tried}"
             task.tell(state, how)
             arrived += task.collected.add(state, how, Origin.SEARCHED, keep=False)
     except KeyboardInterrupt:  # what was found is kept
-        tried -= 1
+        tried = max(tried - 1, 0)
     return tried, arrived
 
 

@@ -1,0 +1,99 @@
+"""Commands of bridges: a vehicle that moves along the deck, fill that resists."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from limitblocks.cli import analyses
+from limitblocks.cli.answers import answer
+from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.vectors import numbers
+
+Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
+Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
+Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
+Contact = Annotated[float, typer.Option(help="Length of the contact of a wheel along the deck, m.")]
+Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
+First = Annotated[
+    float | None,
+    typer.Option("--first", help="First place of the first axle, X in m [default: off the end]."),
+]
+Last = Annotated[
+    float | None, typer.Option("--last", help="Last place of the first axle, X in m [default: off the end].")
+]
+Places = Annotated[int, typer.Option("--count", help="Places to begin with.", min=3)]
+Surface = Annotated[
+    float, typer.Option("--level", help="Of the surface of the fill, Z in m.", show_default=False)
+]
+Weight = Annotated[float, typer.Option("--unit-weight", help="Of the fill, N/m3.", show_default=False)]
+Coefficient = Annotated[
+    float, typer.Option("--passive", help="Coefficient of passive earth pressure K_p.", show_default=False)
+]
+Resisting = Annotated[
+    list[str] | None,
+    typer.Option("--block", help="A block that the fill holds; again for more [default: all]."),
+]
+Weighs = Annotated[bool, typer.Option("--weight", help="Add the weight of the fill to the dead loads, too.")]
+Filled = Annotated[
+    Path, typer.Option("--output", "-o", metavar="MODEL", help="Model file to write.", show_default=False)
+]
+
+
+def vehicle(
+    model: ModelFile,
+    axles: Axles,
+    level: Level,
+    distances: Distances = "0",
+    contact: Contact = 0.3,
+    spread: Spread = 0.5,
+    first: First = None,
+    last: Last = None,
+    count: Places = 25,
+    filed: Filed = None,
+    as_json: AsJson = False,
+    output: ResultFile = None,
+    force: Force = False,
+) -> None:
+    """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
+    with clean_errors():
+        from limitblocks.practice import Deck, Vehicle
+
+        if (first is None) != (last is None):
+            raise typer.BadParameter("give both or neither", param_hint="--first, --last")
+        loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)
+        between = None if first is None or last is None else (first, last)
+        settings: Any = {"deck": Deck(level, spread), "between": between, "positions": count}
+        answer(analyses.vehicle, model, as_json, output, force, filed, vehicle=loads, **settings)
+
+
+def backfill(
+    model: ModelFile,
+    level: Surface,
+    unit_weight: Weight,
+    passive: Coefficient,
+    output: Filled,
+    block: Resisting = None,
+    weight: Weighs = False,
+    force: Force = False,
+) -> None:
+    """Write the model with fill that resists blocks which move into it."""
+    with clean_errors():
+        from dataclasses import replace
+
+        from limitblocks.io import read
+        from limitblocks.loads import fill
+        from limitblocks.practice import passive_fill, reinforced
+
+        refuse_existing(output, force, model)
+        structure = read(model)
+        held = passive_fill(
+            structure, level, unit_weight=unit_weight, coefficient=passive, blocks=tuple(block or ())
+        )
+        made = reinforced(structure, *held)
+        if weight:
+            made = replace(made, dead=made.dead + fill(unit_weight, level))
+        typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {len(held)} blocks")

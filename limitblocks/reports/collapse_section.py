@@ -1,0 +1,94 @@
+"""What a report says of a support that settles until the structure falls."""
+
+from __future__ import annotations
+
+from limitblocks.drawing.picture import mechanism_picture
+from limitblocks.mechanics.loads.load import triple
+from limitblocks.model import Model
+from limitblocks.practice import SettlementCurve
+from limitblocks.reports.curve import Curve, line_curve
+from limitblocks.reports.document import Figure, Table
+from limitblocks.reports.section import LEGEND, Section, checks_of
+from limitblocks.reports.words import some
+
+FOLLOWING = (
+    "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
+    "times, linearly. Dashed: the moving blocks before they move on."
+)
+
+
+def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
+    """Return the section of a support that settles until the structure falls."""
+    first, last = curve.points[0], curve.points[-1]
+    end = last.found.result or last.found.bounds
+    fallen = curve.falls is not None
+    filled = last.displacement > curve.stands_to
+    flow = "without dilatancy" if last.found.result else "of associated flow"
+    upper = "" if curve.falls is None else f"{curve.falls:#.7g} m"
+    return Section(
+        title=f"Settlement of {curve.support} until collapse",
+        meaning=(
+            f"The support {curve.support} moves along {triple(curve.direction.tolist())}, without turning, "
+            f"under the dead loads. The mechanism {flow} that follows it moves the blocks by finite screws, "
+            "contacts are found anew, and the least reaction of the displaced structure is an answer of its "
+            "own, recomputed without the solver. Where no stresses within yield carry the dead loads any "
+            "more, it falls (static theorem). Slow motion: no impact."
+        ),
+        headline=f"{curve.stands_to:#.4g} m",
+        quantity="settlement up to which it stands" + (", then it falls" if fallen else ""),
+        values=(
+            ("Stands up to", f"{curve.stands_to:#.7g} m", "no joint presses across a gap"),
+            *(
+                (("Falls at", upper, "proven: no equilibrium of the structure so displaced"),)
+                if fallen
+                else ()
+            ),
+            ("Reaction at rest", _newtons(first.reaction), f"least one, {flow}"),
+            ("Reaction at the end", _newtons(last.reaction), curve.ended),
+        ),
+        checks=checks_of(end.residuals, end.tolerance),
+        tolerance=end.tolerance,
+        warnings=(
+            (f"beyond a settlement of {curve.stands_to:.4g} m joints press across their gaps",)
+            if filled
+            else ()
+        ),
+        curve=_curve(curve),
+        parts=(_points(curve), _figure(curve)),
+    )
+
+
+def _figure(curve: SettlementCurve) -> Figure:
+    last = curve.points[-1]
+    end = last.found.result or last.found.bounds
+    picture = mechanism_picture(last.found.settling.model, end.displacement_rates)
+    drawn = picture.sheet(f"The structure at a settlement of {last.displacement:.6g} m")
+    return Figure(drawn, FOLLOWING.format("The structure", last.displacement, picture.magnification), LEGEND)
+
+
+def _points(curve: SettlementCurve) -> Table:
+    rows = [
+        (f"{one.displacement:#.7g}", _newtons(one.found.lower), _newtons(one.found.upper),
+         "" if one.found.nonassociated is None else _newtons(one.found.nonassociated),
+         some(list(one.changes)) or "none", some(list(one.across)) or "none")
+        for one in curve.points
+    ]  # fmt: skip
+    heads = ("Settlement, m", "Mechanism", "Stress state", "Without dilatancy", "Contacts that change",
+             "Presses across a gap")  # fmt: skip
+    return Table.of("Points of the settlement: least reaction at each", heads, rows, right=(0, 1, 2, 3))
+
+
+def _curve(curve: SettlementCurve) -> Curve | None:
+    if len(curve.points) < 2:
+        return None
+    label = f"settlement of {curve.support} along {triple(curve.direction.tolist())}, m"
+    title = "Least reaction against settlement"
+    said = [f"{one.displacement:.6g} m: {_newtons(one.reaction)}" for one in curve.points]
+    caption = f"{title}, a dot a point with an answer of its own: {curve.ended}."
+    return line_curve(
+        (title, caption, label, "reaction, kN"), (curve.displacements, curve.reactions / 1e3), said
+    )
+
+
+def _newtons(value: float) -> str:
+    return f"{value / 1e3:.6g} kN"

@@ -1,0 +1,219 @@
+"""What practice asks: closed forms of ties, settlement, rocking, code checks, bridges, water and repair."""
+
+import math
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+import limitblocks as lb
+from cases.case import Case, of_print
+from limitblocks.loads import added_mass
+from limitblocks.practice import (
+    Deck,
+    PartialFactors,
+    Spectrum,
+    Vehicle,
+    adequacy,
+    capacity_curve,
+    dowel,
+    least_masses,
+    least_ties,
+    passive_fill,
+    reinforced,
+    settlement,
+    strip,
+    tie,
+    uplift,
+    vehicle_load,
+    verification,
+    worst_position,
+)
+from limitblocks.structures import Fill, arch_bridge
+from limitblocks.structures.cases import COCCHETTI_RIZZI, PRESTWOOD
+
+GROUP = "Practice"
+T, H, FLOOR, ARM, G = 0.5, 5.0, 10e3, 0.35, 9.81
+OWN = 18e3 * T * H  # N a metre of the facade
+
+
+def nonassociated(model):
+    result = lb.nonassociated(model)
+    lb.check_mcp(model, result).require()
+    return result.load_factor
+
+
+@cache
+def facade(floor=FLOOR):
+    """One metre of a wall of .5 m x 5 m with a floor at its top, .35 m from the edge, pushed outwards."""
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), 18e3),
+    ]
+    carried = [added_mass("wall", (T / 2 - ARM, 0, H), weight=floor)] if floor else []
+    found = lb.find_interfaces(stones, lb.PointContact(0.7))
+    live = lb.mass_proportional((1, 0, 0), carried)
+    return lb.Model(stones, ["ground"], found, lb.self_weight(carried), live)
+
+
+def rod(z, force, prestress=0.0):
+    ends = (-T / 2, 0, z), (-6, 0, z)
+    return tie("wall", ends[0], "ground", ends[1], area=1e-3, strength=force / 1e-3, prestress=prestress)
+
+
+def rocking(force=0.0, z=0.0):
+    """Moments about the outer edge."""
+    return (OWN * T / 2 + FLOOR * ARM + force * z) / (OWN * H / 2 + FLOOR * H)
+
+
+@cache
+def verified():
+    model = facade()
+    site = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
+    curve = capacity_curve(model, control=("wall", (T / 2, 0.5, H)), steps=3)
+    return verification(model, lb.nonassociated(model), site, q=2.0, confidence=1.35, curve=curve)
+
+
+def lintel():
+    stones = [
+        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
+        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
+        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.7))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+def arch_thrust():
+    """Semicircle a trifle above its least thickness, its springing spreads: reaction over gamma t d R."""
+    t = 1.0002 * 0.107478
+    arch = lb.structures.arch(lb.PointContact(2.0), radius=1.0, thickness=t, voussoirs=60, unit_weight=20e3)
+    found = settlement(arch, "right support", (1, 0, 0), without_dilatancy=False)
+    return found.upper / (20e3 * t)
+
+
+def rocked():
+    block = lb.structures.block(lb.PointContact(0.6), width=0.2, height=1.0)
+    return capacity_curve(block, control=("block 1", (0.2, 0.5, 1.0)), steps=3).zero
+
+
+def tipped():
+    """An axle of 10 kN at the end of an overhang of 1 m tips the lintel."""
+    found = worst_position(lintel(), Vehicle((10e3,), contact=1e-6), Deck(0.5), (3.5, 3.999), positions=3)
+    return found.bounds.upper * (found.position - 3.0)
+
+
+def wedge_in_fill():
+    """A prism of 45 degrees that slides into fill."""
+    section = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]
+    points = [(x, y, z) for y in (-0.5, 0.5) for x, z in section]
+    faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
+    stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
+    found = lb.find_interfaces(stones, lb.PointContact(0.2))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return nonassociated(reinforced(model, *passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)))
+
+
+def bridge(**settings):
+    """Quarter span of the first arch, clear span 3 m, no fill, one metre of width."""
+    model = arch_bridge(lb.PointContact(0.6), span=3.0, rise=0.75, thickness=0.22, voussoirs=15, **settings)
+    return lb.bounds(replace(model, live=lb.loads.top_force((0, 0, -1e3), (-0.75, 0)))).upper
+
+
+def prestwood(voussoirs=40, filled=True):
+    """Masonry 18 kN/m3, friction .6; fill 20 kN/m3, .165 m over the crown, 2:1 from .3 m, K_p = 3."""
+    joint, top = lb.PointContact(0.6), Fill(0.165, 20e3)
+    model = arch_bridge(joint, span=6.55, rise=1.428, thickness=0.22, voussoirs=voussoirs, depth=3.8,
+                        unit_weight=18e3, fill=top if filled else None)  # fmt: skip
+    if not filled:
+        return lb.bounds(replace(model, live=lb.loads.top_force((0, 0, -1e3), (-6.55 / 4, 0)))).upper
+    level = max(block.vertices[:, 2].max() for block in model.free_blocks) + top.height
+    loaded = replace(model, live=vehicle_load(model, Vehicle((1e3,)), Deck(level), -6.55 / 4))
+    fill = passive_fill(loaded, level, unit_weight=20e3, coefficient=3.0)
+    return lb.bounds(reinforced(loaded, *fill)).upper
+
+
+def slides(friction=0.3, width=2.0, height=1.0):
+    return lb.structures.block(lb.PointContact(friction), width=width, height=height)
+
+
+def lifted():
+    model = slides()
+    return nonassociated(replace(model, dead=model.dead + uplift(model, 0.6, unit_weight=9810.0)))
+
+
+def pinned():
+    model = slides()
+    (joint,), weight = model.interfaces, model.free_blocks[0].weight
+    pin = dowel(joint, joint.centroid, diameter=0.02, capacity=0.05 * weight)
+    return nonassociated(reinforced(model, pin))
+
+
+def stripped():
+    model = facade()
+    own = strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3)
+    return nonassociated(reinforced(model, own))
+
+
+def factored():
+    return adequacy(slides(), PartialFactors(gamma_G=1.35, gamma_Q=1.5, gamma_M=2.2, gamma_phi=1.25)).factor
+
+
+def practice():
+    def case(structure, quantity, formula, value, run, quick=True):
+        return Case(GROUP, structure, quantity, formula, value, 1e-6 * abs(value), run, quick=quick)
+
+    yield case("lintel on two supports, one settles", "least reaction, N", "W (L/2 - b) / (L - b)",
+               40e3 * 1.5 / 2.5, lambda: settlement(lintel(), "right", (0, 0, -1)).nonassociated)  # fmt: skip
+    thrust = COCCHETTI_RIZZI["thrust"]
+    yield of_print(GROUP, "semicircle of least thickness, 60 voussoirs, spreads", "reaction / (gamma t d R)",
+                   replace(thrust, tolerance=3e-3), arch_thrust, quick=True)  # fmt: skip
+    yield case("facade with a floor", "non-associated", "moments about toe", rocking(),
+               lambda: nonassociated(facade()))  # fmt: skip
+    yield case("facade, tie of 8 kN at 4.5 m", "non-associated", "moments about toe", rocking(8e3, 4.5),
+               lambda: nonassociated(reinforced(facade(), rod(4.5, 8e3))))  # fmt: skip
+    yield case("facade, two ties in parallel, one with a prestress", "non-associated", "moments about toe",
+               rocking(8e3, 4.5),
+               lambda: nonassociated(reinforced(facade(), rod(4.5, 5e3), rod(4.5, 3e3, 1e3))))  # fmt: skip
+    yield case("facade, strip that debonds at 6 kN", "non-associated", "moments about toe", rocking(6e3, T),
+               stripped)  # fmt: skip
+    yield case("block that slides, dowel", "non-associated", "mu + F / W", 0.35, pinned)
+    yield case("block 0.2 m x 1.0 m rocks", "displacement of no resistance, m", "h sin(atan(b / h))",
+               math.sin(math.atan(0.2)), rocked, quick=False)  # fmt: skip
+    weights, ways = np.array([OWN, FLOOR]), np.array([H / 2, H])
+    mass = (weights @ ways) ** 2 / (G * weights @ ways**2)
+    e = G * mass / weights.sum()
+    d0 = H * math.sin(math.atan(rocking())) * (weights @ ways**2) / (H * weights @ ways)
+    a0 = rocking() * G / (e * 1.35)
+    for symbol, value in {"e*": e, "a0*": a0, "d0*": d0}.items():
+        yield case("facade, verification, FC 1.35", symbol, "Circolare 7/2019, C8.7.1.2", value,
+                   lambda symbol=symbol: verified()[symbol], quick=False)  # fmt: skip
+    yield case("facade, verification, FC 1.35", "linear check, ratio", "a0* q / (a_g S)",
+               a0 * 2.0 / (0.25 * G * 1.2), lambda: verified().checks[0].ratio, quick=False)  # fmt: skip
+    yield case("block that slides, partial factors", "adequacy factor", "mu gamma_G / (gamma_phi gamma_Q)",
+               0.3 * 1.35 / 1.25 / 1.5, factored)  # fmt: skip
+    yield case("overhang of a beam, axle at its end", "load factor x lever, m", "W (3 - 2) / P", 4.0, tipped)
+    yield case("prism of 45 degrees slides into fill", "non-associated", "mu + K_p gamma z A / W", 0.4,
+               wedge_in_fill)  # fmt: skip
+    bond = lb.OrdunaLourenco(0.6, cohesion=2e6, tensile_strength=2e6)
+    for name, value, settings in (
+        ("arch of two bonded rings", 18.92700621, {"rings": 2, "ring_joint": bond}),
+        ("arch of two dry rings", 7.614910554, {"rings": 2}),
+        ("two arches on a pier of 0.5 m x 1.5 m", 16.93364950,
+         {"spans": 2, "pier_width": 0.5, "pier_height": 1.5}),
+    ):  # fmt: skip
+        source = "another program, tests/practice/planar_bridge.py"
+        yield case(name, "associated, kN", source, value, lambda settings=settings: bridge(**settings))
+    yield of_print(GROUP, "Prestwood bridge, bare ring, 40 voussoirs", "associated, kN",
+                   PRESTWOOD["bare ring"], lambda: prestwood(filled=False), quick=True)  # fmt: skip
+    yield of_print(GROUP, "Prestwood bridge, fill, 40 voussoirs", "associated, kN", PRESTWOOD["with fill"],
+                   prestwood, quick=True)  # fmt: skip
+    yield case("block that slides, uplift", "non-associated", "mu (1 - p A / W)",
+               0.3 * (1 - 9810.0 * 0.6 * 2.0 / 40e3), lifted)  # fmt: skip
+    force = OWN * (0.3 * H - T) / 2 / 4.5
+    yield case("wall, least ties for load factor .3", "sum of forces, N", "W (a H - t) / (2 z)", force,
+               lambda: least_ties(facade(0.0), [rod(2.0, 1e5), rod(4.5, 1e5)], 0.3).total)  # fmt: skip
+    mass = OWN * (0.12 * H - T) / 2 / (T - 0.12 * 0.5)
+    places = [("wall", (0, 0, 4.0)), ("wall", (-T / 2, 0, 0.5))]
+    yield case("wall, least masses for load factor .12", "sum of weights, N", "W (a H - t) / 2 (x - a z)",
+               mass, lambda: least_masses(facade(0.0), places, 0.12).total)  # fmt: skip
