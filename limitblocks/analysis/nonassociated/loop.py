@@ -137,11 +137,27 @@ def nonassociated(
             state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
         else:
             scale = load_scale(problem, enclosing.associated)
-            state, how = first_to_solve(flow, x0, scale, means or MEANS, tolerance, record)
+            state, how = first_to_solve(
+                flow,
+                x0,
+                scale,
+                means or MEANS,
+                tolerance,
+                record,
+                lambda at: _near(flow, at, tolerance, limit),
+            )
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
+
+
+def _near(flow: Flow, state: State, tolerance: float, limit: float | None) -> bool:
+    """Whether a state is exact for a model within `limit`; False where there is none."""
+    if limit is None:
+        return False
+    nearest, error = settled(flow, state, tolerance, limit)
+    return within(error, mcp_residuals(flow, nearest), tolerance, limit)
 
 
 @np.errstate(all="ignore")  # a state that ran away is no solution
