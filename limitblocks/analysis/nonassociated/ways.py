@@ -80,7 +80,9 @@ def _ways(
         state, (info,) = follow(
             smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
         )
-        return polish(flow, state), f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
+        if info.interrupted:
+            return state, f"{info.how}, {INTERRUPTED}"
+        return polish(flow, state), info.how
 
     yield tracked(means[0], x0)
     if len(means) == 1:
