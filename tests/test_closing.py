@@ -51,3 +51,25 @@ def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.nonassociated(corner())
     assert caught.value.result.status is lb.results.Status.INTERRUPTED
+
+
+def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch):
+    """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-2."""
+    whole, ends = ways.closed, []
+
+    def rough(flow, nearest, state, tolerance):
+        found, rounds = whole(flow, nearest, state, tolerance)
+        mixed = [b + 1e-6 * (a - b) for a, b in zip(parts(state), parts(found), strict=True)]
+        ends.append(lb.problem.State(*mixed))
+        return ends[-1], rounds
+
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "closed", rough)
+    found = lb.nonassociated(corner(), backward_error=1e-2)
+    assert len(ends) == 1
+    assert found.status is lb.results.Status.NEARBY
+    assert found.backward_error.value <= 1e-2
+
+
+def parts(state):
+    return state.load_factor, state.x, state.u, state.y

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
@@ -137,13 +138,22 @@ def nonassociated(
             if way is Method.FIXED_POINT:
                 return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
             scale = load_scale(at.problem, enclosing.associated)
-            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record)
+            near = partial(_near, at, tolerance, limit)
+            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record, near)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
+
+
+def _near(flow: Flow, tolerance: float, limit: float | None, state: State) -> bool:
+    """Whether a state is exact for a model within `limit`; False where there is none."""
+    if limit is None:
+        return False
+    nearest, error = settled(flow, state, tolerance, limit)
+    return within(error, mcp_residuals(flow, nearest), tolerance, limit)
 
 
 @np.errstate(all="ignore")  # a state that ran away is no solution

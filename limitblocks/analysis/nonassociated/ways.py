@@ -38,8 +38,12 @@ def first_to_solve(
     means: Sequence[Means],
     tolerance: float,
     record: Callable[[Iteration], None],
+    enough: Callable[[State], bool] = lambda _: False,
 ) -> tuple[State, str]:
-    """The state to which one way after the other leads, and which it was: the load path comes first."""
+    """The state to which one way after the other leads, and which it was: the load path comes first.
+
+    Of a large model a state that is near `enough` ends the search as well.
+    """
     met: list[tuple[State, str]] = []
     large = len(flow.problem.blocks) > LARGE and flow.dissipative and len(means) > 1
     ways = (
@@ -51,7 +55,7 @@ def first_to_solve(
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
-        if how.endswith(INTERRUPTED):
+        if how.endswith(INTERRUPTED) or (large and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
