@@ -105,7 +105,7 @@ def picture(folder, wedges, found):
     import matplotlib.pyplot as plt
 
     plt.style.use("limitblocks.plots.paper")
-    figure, axes = plt.subplots(1, len(wedges), figsize=(7, 1.3), sharey=True)
+    figure, axes = plt.subplots(1, len(wedges), figsize=(7, 1.6), sharey=True)
     for axis, (w, model) in zip(axes, wedges.items(), strict=True):
         for block in model.blocks:
             section = block.vertices[:4, [0, 2]]

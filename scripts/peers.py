@@ -95,7 +95,7 @@ def peer(program, solver):
     return time.process_time() - start, stats.num_iters if stats else None, status
 
 
-def measured(name, joint, size, out):
+def measured(name, joint, size, methods, out):
     """Rows of one model: `bounds` once, and every form by every solver that takes it."""
     model = STRUCTURES[name](joint, size)
     start = time.process_time()
@@ -108,7 +108,7 @@ def measured(name, joint, size, out):
              "bounds": total, "proven": found.proven, "width": found.proof.width,
              "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}  # fmt: skip
     for form, program in candidates(problem):
-        runs = {f"CLARABEL {method}": bare(program, method) for method in METHODS}
+        runs = {f"CLARABEL {method}": bare(program, method) for method in methods}
         if not problem.cones.second_order:
             runs |= {solver: peer(program, solver) for solver in PEERS if solver in cp.installed_solvers()}
         for solver, (raw, iterations, status) in runs.items():
@@ -168,7 +168,7 @@ def compared(before, after):
     return table
 
 
-def run(sizes, joints, structures, file, console):
+def run(sizes, joints, structures, methods, file, console):
     """Measure, print, and write the rows to `file` as JSON."""
     rows = []
     for solver in PEERS:
@@ -177,7 +177,7 @@ def run(sizes, joints, structures, file, console):
     for name in structures:
         for joint in joints:
             for size in sizes:
-                measured(name, joint, size, rows)
+                measured(name, joint, size, methods, rows)
     console.print(*tables(rows))
     if file:
         with open(file, "w", encoding="utf-8") as stream:

@@ -23,6 +23,20 @@ WRITERS = {
     "report.html": lambda path: lb.report(MODEL, lb.bounds(MODEL)).save(path, overwrite=True),
     "blocks.obj": lambda path: lb.files.write_blocks(MODEL.blocks, path, overwrite=True),
     "table.csv": lambda path: studies.directions(MODEL, 1).write_csv(path, overwrite=True),
+    **{
+        f"mesh{suffix}": lambda path: lb.files.write_blocks(MODEL, path, overwrite=True)
+        for suffix in (".stl", ".ply", ".glb", ".dxf", ".3dm", ".json")
+    },
+    **{
+        f"forces{suffix}": lambda path: lb.files.write_forces(MODEL, path, lb.bounds(MODEL), overwrite=True)
+        for suffix in (".3dm", ".json", ".glb")
+    },
+    **{
+        f"page{suffix}": lambda path: lb.report(MODEL, lb.bounds(MODEL)).save(path, overwrite=True)
+        for suffix in (".md", ".json", ".pdf")
+    },
+    "field.vtu": lambda path: lb.files.write_vtu(MODEL, path, None, overwrite=True),
+    "motion.glb": lambda path: lb.files.write_animation(MODEL, path, lb.bounds(MODEL), overwrite=True),
 }
 
 
@@ -40,7 +54,7 @@ def test_a_full_disk_leaves_the_old_file(tmp_path, monkeypatch, name):
             WRITERS[name](path)
     assert path.read_bytes() == OLD
     assert os.listdir(tmp_path) == [name]
-    WRITERS[name](path)
+    WRITERS[name](path)  # no writer goes another way
     assert path.read_bytes() != OLD
 
 

@@ -12,16 +12,16 @@ from functools import cached_property
 
 import numpy as np
 
-from limitblocks.analysis.certified import certified
-from limitblocks.analysis.forms import Stresses, form_of
+from limitblocks.analysis.certified import CLOSE, certified
+from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
+from limitblocks.analysis.limit_state import limit_state
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
-    DIRECT,
-    PLANAR,
     ROUNDS,
     jamming_program,
     kinematic_program,
@@ -41,13 +41,14 @@ from limitblocks.evidence.residuals import (
     static_residuals,
 )
 from limitblocks.model import Model
-from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State, power_of_two
+from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
 TOLERANCE = 1e-6  # largest residual, gap and worth of a pair of bounds
 UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
 )
+PER_BLOCK = 1e-10  # width of an interval that a polish of many blocks costs more than it betters
 Tell = Callable[[str], None]
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
@@ -132,28 +133,23 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
 def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof] | None:
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
-    dead = carried(problem)
+    plane = in_plane(problem)
+    programs = Programs(form_of(scaled(problem))) if plane is None else None
+    dead = carried(problem, programs)
     if dead is None:
         return None
     tell("load factor")
-    plane = in_plane(problem)
-    form, solver = (form_of(scaled(problem)), DIRECT) if plane is None else (_planar(plane.problem), PLANAR)
-    state = form.limit_state(solved(form.limit(), solver))
-    if not all(np.isfinite(part).all() for part in (state.load_factor, state.x, state.u, state.y)):
+    found = limit_state(problem, programs, plane)
+    if found is None:
         return None
     tell("proof")
-    state, name = form.problem.in_problem(state), solver.name
-    if plane is not None:
-        state, name = plane.lifted(state), f"{name} in the plane"
-    state, proof = certified(problem, state, dead, patience=form.patience if plane is None else 1)
+    state, name = found
+    patience = 1 if programs is None else programs.form.patience
+    close = max(CLOSE, min(PER_BLOCK * len(problem.blocks), tolerance / 10.0))
+    state, proof = certified(problem, state, dead, close=close, patience=patience, programs=programs)
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     return (dead, pair, proof) if good else None
-
-
-def _planar(problem: LimitProblem) -> Stresses:
-    """The static program with rates near one, not over the number of blocks: they lose fewer digits."""
-    return Stresses(scaled(problem, float(power_of_two(1.0 / len(problem.blocks)))))
 
 
 def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof]:

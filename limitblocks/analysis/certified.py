@@ -6,11 +6,12 @@ stresses with those of the dead loads of largest margin, a mechanism with one th
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
+from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
@@ -21,23 +22,28 @@ from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-CLOSE = 1e-8  # width of an interval that needs no polish
+CLOSE = 1e-8  # width of an interval that needs no polish of states from elsewhere
 MOST = 0.1  # of the strictly admissible state
 ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
 MORE = 4.0
 LEAST = 1e-15
-EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is opened
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
-POLISHED = 1e-12  # residual of a state whose bounds no further polish brings closer than CLOSE
+POLISHED = 1e-12  # residual of a state that no further polish betters
 
 
 def certified(
-    problem: LimitProblem, state: State, dead: Array, *, patience: int | None = None
+    problem: LimitProblem,
+    state: State,
+    dead: Array,
+    *,
+    close: float = CLOSE,
+    patience: int | None = None,
+    programs: Programs | None = None,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
 
-    Where they leave more than CLOSE between them, those of the polished state are taken if closer. A side
+    Where they leave more than `close` between them, those of the polished state are taken if closer. A side
     for which no proof succeeds comes back as it was, and the proof says so.
 
     Parameters
@@ -48,19 +54,24 @@ def certified(
         A pair of bounds, dimensionless.
     dead : Array, shape (s,)
         Stresses strictly within yield that carry the dead loads, dimensionless.
+    close : float
+        Width of an interval that needs no polish.
     patience : int, optional
-        Of a polish that comes first. Left out: the state is polished, thoroughly, where it must be.
+        Of the polish; in a plane it comes first. Left out: it is thorough.
+    programs : Programs, optional
+        Of the whole problem, compiled already.
     """
     own = own_units(problem, state)
     given, plane = own.dimensionless(problem.in_si(state)), in_plane(problem)
-    repair = Repair(scaled(own)) if plane is None else planar_repair(own, plane)
+    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
-        if patience is not None:
+        polished = plane is not None and patience is not None
+        if polished:
             given = _polished(problem, own, given, patience)
         found, proof = mixture.proven(given)
-        if patience is None and not proof.width <= CLOSE:
-            closer, better = mixture.proven(_polished(problem, own, given))
+        if not (polished or proof.width <= close):
+            closer, better = mixture.proven(_polished(problem, own, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
 
@@ -73,6 +84,7 @@ class _Mixture:
     own: LimitProblem
     repair: Repair | PlanarRepair
     dead: Array
+    opened: list[tuple[Array, Array]] = field(default_factory=list)  # the mechanism, once it is found
 
     def proven(self, state: State) -> tuple[State, Proof]:
         """Both sides proven with the least part of strict states; as they were where none does."""
@@ -122,9 +134,11 @@ class _Mixture:
         most = float(lack.max(initial=0.0))
         if not most < np.inf:
             return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
-        amount = np.zeros(p.F.shape[0])
-        amount[p.cones.heads] = np.maximum(lack / most, EVERYWHERE) if most > 0.0 else 1.0
-        u, y = self.repair.opened(amount)
+        if not self.opened:
+            amount, least = np.zeros(p.F.shape[0]), self.repair.everywhere
+            amount[p.cones.heads] = np.maximum(lack / most, least) if most > 0.0 else 1.0
+            self.opened.append(self.repair.opened(amount))
+        u, y = self.opened[0]
         room = p.cones.margin(y)
         return float((lack / room).max(initial=0.0)) if room.min() > 0.0 else np.inf, u, y
 

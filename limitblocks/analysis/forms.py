@@ -7,7 +7,7 @@ stresses: for them the static program is the smallest. Figures: docs/solvers.md.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -28,6 +28,8 @@ class Stresses:
 
     problem: Scaled
     patience: ClassVar[int] = 4  # of the polish: duals follow the flow rule as far as the solver has it
+    # stresses are free, pivots may vanish: Clarabel's own replacement of those alone disturbs least
+    equations: ClassVar[Mapping[str, object]] = {"static_regularization_constant": 1e-14}
 
     def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set."""
@@ -73,6 +75,11 @@ class Rates:
     dropped: Indices  # rows that the head of a cone among them implies
     head: Indices  # of that cone, shape (dropped,)
     patience: ClassVar[int] = 1  # where one step fails, as on facades, the others do
+    # B has full rank: what Clarabel adds to the pivots, 1e-8 by default, only stalls facades
+    equations: ClassVar[Mapping[str, object]] = {
+        "static_regularization_constant": 1e-11,
+        "iterative_refinement_enable": False,
+    }
 
     @cached_property
     def entry(self) -> tuple[Indices, Array]:
@@ -106,7 +113,7 @@ class Rates:
     def opening(self, amount: Array) -> Program:
         """The mechanism that opens every joint by at least `amount` (R,) at the least power. Variable: u."""
         u = cp.Variable(self.B.shape[1])
-        opened = in_cone(self.B @ u - self._enough(amount), self.cones)
+        opened = in_cone(self.B @ u - self.enough(amount), self.cones)
         return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), opened), (u,))
 
     def limit_state(self, solution: Solution) -> State:
@@ -139,7 +146,7 @@ class Rates:
             y[self.dropped] = half / self.leverage
         return y
 
-    def _enough(self, amount: Array) -> Array:
+    def enough(self, amount: Array) -> Array:
         """What the kept rows need so that they and the dropped rows have `amount`: half is theirs."""
         enough = amount.copy()
         np.maximum.at(enough, self.head, amount[self.dropped] * self.leverage)

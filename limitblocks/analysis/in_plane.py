@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from limitblocks.analysis.known import known
 from limitblocks.problem import LimitProblem
-from limitblocks.problem.plane import Planar, mirror_of, reduced
+from limitblocks.problem.plane import Choice, Planar, mirror_of, reduced
 
 
-def in_plane(problem: LimitProblem, *, every_row: bool = False) -> Planar | None:
+def in_plane(problem: LimitProblem, choice: Choice = Choice.FEW) -> Planar | None:
     """Return the problem reduced to the plane parallel to which everything acts; None where there is none.
 
     Parameters
     ----------
     problem : LimitProblem
         The whole problem.
-    every_row : bool
-        Keep rows that others imply: for margins, and for multipliers of every row.
+    choice : Choice
+        FEW rows serve the associated flow, FLOWING ones any, EVERY one margins.
     """
     mirror = known(problem, "mirror", lambda: mirror_of(problem))
     if mirror is None:
         return None
-    return known(problem, ("plane", every_row), lambda: reduced(problem, mirror, every_row=every_row))
+    return known(problem, ("plane", choice), lambda: reduced(problem, mirror, choice))

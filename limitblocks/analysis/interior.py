@@ -8,28 +8,42 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.known import known
-from limitblocks.analysis.programs import ROUGH, solved
+from limitblocks.analysis.programs import NEARLY, ROUGH
 from limitblocks.analysis.scales import balanced, scaled
 from limitblocks.arrays import Array, read_only
 from limitblocks.problem import LimitProblem
 
 
-def carried(problem: LimitProblem) -> Array | None:
-    """Return stresses strictly within yield that carry the dead loads, (s,); None where none were found."""
-    return known(problem, "stresses within yield", lambda: _carried(problem))
+def carried(problem: LimitProblem, programs: Programs | None = None) -> Array | None:
+    """Return stresses strictly within yield that carry the dead loads, (s,); None where none were found.
+
+    Parameters
+    ----------
+    problem : LimitProblem
+        The whole problem.
+    programs : Programs, optional
+        Of the whole problem, compiled already.
+    """
+    return known(problem, "stresses within yield", lambda: _carried(problem, programs))
 
 
-def _carried(problem: LimitProblem) -> Array | None:
+def _carried(problem: LimitProblem, programs: Programs | None) -> Array | None:
     plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
-    form = form_of(scaled(problem if plane is None else plane.problem))
-    p = form.problem
-    x = form.stresses(solved(form.carrying(), ROUGH))
-    if not np.isfinite(x).all():
-        return None
-    x = p.stress * balanced(p, p.dead, x)
-    x = x if plane is None else np.asarray(plane.stresses @ x)
-    inside = problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0
-    return read_only(x) if inside else None
+    if programs is None or plane is not None:
+        programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
+    p = programs.form.problem
+    for solver in (ROUGH, NEARLY):  # from 10,000 blocks the first stops too early
+        x = programs.stresses(solver)
+        if not np.isfinite(x).all():
+            return None
+        x = p.stress * balanced(p, p.dead, x)
+        x = x if plane is None else np.asarray(plane.stresses @ x)
+        with np.errstate(over="ignore", invalid="ignore"):  # friction 1e-300: nothing is within
+            inside = problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0
+        if inside:
+            return read_only(x)
+    return None

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.forms import form_of
-from limitblocks.analysis.programs import NEARLY, solved, solvers
+from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.forms import Stresses, form_of
+from limitblocks.analysis.programs import NEARLY, ROUGH, Solver, solvers
 from limitblocks.analysis.scales import Projection, Scaled, compatible, compatible_with, scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
@@ -25,6 +27,10 @@ class Repair:
     """Repairs in the whole problem, given in units of its own."""
 
     p: Scaled
+    problem: LimitProblem | None = None
+    programs: Programs | None = None  # of that problem, compiled already
+    quick: bool = True  # a mechanism that opens all joints about alike is found in few iterations
+    everywhere: ClassVar[float] = 0.1  # of the joint that lacks most: the least that a joint is opened
 
     @cached_property
     def projection(self) -> Projection:
@@ -42,7 +48,23 @@ class Repair:
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,)."""
-        return opening(self.p, amount * self.p.row / self.p.load_factor)
+        found = self._at_once(amount)
+        if found is not None:
+            return found
+        return opening(self.p, amount * self.p.row / self.p.load_factor, (ROUGH,) if self.quick else ())
+
+    def _at_once(self, amount: Array) -> tuple[Array, Array] | None:
+        """The same by the programs at hand; None where they open not every joint."""
+        if self.problem is None or self.programs is None or isinstance(self.programs.form, Stresses):
+            return None
+        own, q, nothing = self.p.problem, self.programs.form.problem, np.zeros(len(self.p.stress))
+        given = self.problem.dimensionless(own.in_si(State(0.0, nothing, np.zeros(len(own.dead)), amount)))
+        there, heads = given.y * q.row / q.load_factor, q.cones.heads
+        there[heads] = np.maximum(there[heads] / there.max(), self.everywhere)  # units differ
+        u, y = self.programs.mechanism(there, ROUGH)
+        found = own.dimensionless(self.problem.in_si(q.in_problem(State(0.0, nothing, u, y))))
+        y = following(self.p, found.u, found.y)
+        return (found.u, y) if own.cones.margin(y).min() > 0.0 else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +74,7 @@ class PlanarRepair:
     whole: LimitProblem
     plane: Planar
     flat: Repair
+    everywhere: ClassVar[float] = 1e-2
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -107,7 +130,7 @@ class PlanarRepair:
 def planar_repair(whole: LimitProblem, plane: Planar) -> PlanarRepair:
     """Return the repairs in the plane, in units of the whole problem."""
     measured = plane.measured(whole)
-    return PlanarRepair(whole, measured, Repair(scaled(measured.problem)))
+    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), quick=False))
 
 
 def following(p: Scaled, u: Array, y: Array) -> Array:
@@ -118,15 +141,15 @@ def following(p: Scaled, u: Array, y: Array) -> Array:
     return np.asarray(compatible(p, rates, multipliers) * p.load_factor / p.row)
 
 
-def opening(p: Scaled, amount: Array) -> tuple[Array, Array]:
+def opening(p: Scaled, amount: Array, first: tuple[Solver, ...] = ()) -> tuple[Array, Array]:
     """Rates and multipliers of a mechanism that opens the joints by about `amount` (R,) at the least power.
 
     Not finite where there is none, exactly where the structure can be wedged: where C^T x = 0 with F x in K,
     F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
     """
-    form = form_of(p)
-    for solver in (NEARLY, solvers(bool(p.cones.second_order))[0]):
-        u, y = form.mechanism(solved(form.opening(amount), solver), amount)
+    programs = Programs(form_of(p))
+    for solver in (*first, NEARLY, solvers(bool(p.cones.second_order))[0]):
+        u, y = programs.mechanism(amount, solver)
         state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
         y = following(p, state.u, state.y)
         if p.cones.margin(y).min() > 0.0:  # not where it is NaN

@@ -35,6 +35,7 @@ from limitblocks.evidence.stability_result import (
 )
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
+from limitblocks.problem.plane import Choice
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
 WEDGED = 1e4  # mean of the rows in their units: a self-stress without bounds leaves no digits to the loads
@@ -178,7 +179,7 @@ def _dead_load_state(problem: LimitProblem) -> Array:
 
 def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin found in the plane, judged in the whole problem, and then of the whole."""
-    plane = in_plane(problem, every_row=True)
+    plane = in_plane(problem, Choice.EVERY)
     if plane is not None:
         for own, _ in _states(plane.problem, load_factor):
             x = plane.stresses @ own

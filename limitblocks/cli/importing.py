@@ -12,7 +12,17 @@ import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.joints import DEFAULT, JointName, MaybeFriction, Slip, Strength, make_joint
-from limitblocks.cli.options import BlocksFile, Force, Live, MaterialsFile, Supports, Units, UnitWeights, Up
+from limitblocks.cli.options import (
+    BlocksFile,
+    Force,
+    Live,
+    MaterialsFile,
+    Supports,
+    TwistedFaces,
+    Units,
+    UnitWeights,
+    Up,
+)
 from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
@@ -41,15 +51,6 @@ Angle = Annotated[
 Heal = Annotated[
     bool,
     typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
-]
-TwistedFaces = Annotated[
-    str | None,
-    typer.Option(
-        "--twisted",
-        metavar="HOW",
-        help="Faces whose corners lie in no plane: triangulate, fit or refuse [default: triangles within the "
-        "accuracy of FILE, else refused].",
-    ),
 ]
 SkipBad = Annotated[
     bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")

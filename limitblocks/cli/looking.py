@@ -4,26 +4,33 @@ from __future__ import annotations
 
 import json
 import shlex
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import typer
 
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import AsJson, BlocksFile, Units, Up
+from limitblocks.cli.options import AsJson, BlocksFile, TwistedFaces, Units, Up
 
 if TYPE_CHECKING:
+    from limitblocks.geometry.twisted import Twisted
     from limitblocks.io.look import Look, SeenBlock
 
 _MOST_ROWS = 24
 
 
-def look(file: BlocksFile, units: Units = None, up: Up = None, as_json: AsJson = False) -> None:
+def look(
+    file: BlocksFile,
+    units: Units = None,
+    up: Up = None,
+    twisted: TwistedFaces = None,
+    as_json: AsJson = False,
+) -> None:
     """Print what is in a file of any format: blocks, layers, units, likely supports, what is wrong."""
     with clean_errors():
         from limitblocks.io.look import look as looked
         from limitblocks.reports.terminal import print_table, print_warnings
 
-        seen = looked(file, units=units, up=up)
+        seen = looked(file, units=units, up=up, twisted=cast("Twisted | None", twisted))
         if as_json:
             typer.echo(json.dumps(seen.to_dict()))
             return
@@ -37,7 +44,7 @@ def look(file: BlocksFile, units: Units = None, up: Up = None, as_json: AsJson =
         for note in seen.notes:
             typer.echo(f"note: {note}")
         print_warnings(seen.warnings)
-        typer.echo(f"\nNext: {_next(seen, units, up)}")
+        typer.echo(f"\nNext: {_next(seen, units, up, twisted)}")
 
 
 def _rows(seen: Look) -> list[tuple[str, str]]:
@@ -77,7 +84,7 @@ def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
     return block.name, *words, size, f"{block.volume:.3g}", f"{block.bottom:.4g}", f"{block.top:.4g}"
 
 
-def _next(seen: Look, units: str | None, up: str | None) -> str:
+def _next(seen: Look, units: str | None, up: str | None, twisted: str | None) -> str:
     """Return the command that makes a model of the file, with numbers to be put right by the user."""
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
@@ -85,6 +92,8 @@ def _next(seen: Look, units: str | None, up: str | None) -> str:
     for option, given, known in (("--units", units, seen.units), ("--up", up, seen.up)):
         stated, _, source = known.partition(", ")
         words += [option, stated.lower()] if given or source.startswith("guessed") else []
+    words += ["--twisted", twisted] if twisted else []
+    words += ["--skip-bad"] if seen.faults else []
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)
         words += [part for one in chosen for part in ("--supports", one)]

@@ -117,3 +117,12 @@ Demand = Annotated[
     typer.Option(help="Load factor that is needed; the report compares it.", min=0.0, show_default=False),
 ]
 Version = Annotated[bool, typer.Option("--version", help="Print the version and leave.")]
+TwistedFaces = Annotated[
+    str | None,
+    typer.Option(
+        "--twisted",
+        metavar="HOW",
+        help="Faces whose corners lie in no plane: triangulate, fit or refuse [default: triangles within the "
+        "accuracy of FILE, else refused].",
+    ),
+]

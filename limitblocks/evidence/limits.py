@@ -63,8 +63,8 @@ class Limits:
         normal = np.zeros(p.F.shape[1])
         normal[p.resultants[2::6].indices] = 1.0
         keep = sparse.diags_array(1.0 * (~drops & (self.sign != 0.0)))
-        lifting = sparse.csr_array(keep @ p.F @ sparse.diags_array(normal))
-        return sparse.csr_array(sparse.diags_array(1.0 * (drops & (self.sign != 0.0))) @ dropped + lifting)
+        rubbing = sparse.diags_array(1.0 * (drops & (self.sign != 0.0))) @ dropped
+        return sparse.csr_array((rubbing + keep @ p.F) @ sparse.diags_array(normal))
 
     @cached_property
     def constant(self) -> Array:

@@ -12,12 +12,15 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
+from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.places import places
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
 ACROSS = 0.01  # of a change along the ray of a cone: as large a change across it, which turns the flow
+READILY = 10.0  # loads and rates are known better than friction by this
+SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 ROUNDS = 4  # of stilling what would have to flow in another direction
 
 
@@ -26,8 +29,9 @@ class Nearby(NamedTuple):
 
     `flow` is the changed problem with its flow, `state` the exact state, `mechanism` the given state with the
     exact mechanism. `limits` (degree,) is the relative change of strength of each linear row and cone,
-    `turned` (places,) the tangent of the angle by which the flow at a place turns, `loads` (n,) the change of
-    the loads of a block over what acts on it.
+    `turned` (places,) the tangent of the angle by which the flow at a place turns, `give` (places,) the rates
+    `imposed` (s,) on it over the largest rate, `loads` (n,) the change of the loads of a block over what acts
+    on it.
     """
 
     flow: Flow
@@ -35,12 +39,15 @@ class Nearby(NamedTuple):
     mechanism: State
     limits: Array
     turned: Array
+    give: Array
     loads: Array
+    imposed: Array
 
     @property
     def change(self) -> float:
         """The largest change of the model."""
-        return max(float(np.abs(part).max(initial=0.0)) for part in (self.limits, self.turned, self.loads))
+        parts = (self.limits, self.turned, self.give, self.loads)
+        return max(float(np.abs(part).max(initial=0.0)) for part in parts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,12 +80,37 @@ class Given:
     @cached_property
     def force(self) -> Array:
         """Force at each place over what acts on the lesser block; infinite where rows need it, (places,)."""
-        p, (members, stresses) = self.flow.problem, self.places
-        force = np.zeros(max(members.max(initial=0), stresses.max()) + 1)
-        acting = Measure(p, self.state).interface[p.stress_interface]
-        np.maximum.at(force, stresses, np.abs(self.state.x) / acting)
-        force[members[p.cones.margin(p.g) != 0.0]] = np.inf  # without a force these rows do not yield
+        p, force = self.flow.problem, self.largest(self.state.x)
+        force[self.places[0][p.cones.margin(p.g) != 0.0]] = np.inf  # without a force these rows do not yield
         return force
+
+    @cached_property
+    def acting(self) -> Array:
+        """What acts on the lesser block of the interface of each stress, (s,)."""
+        return Measure(self.flow.problem, self.state).interface[self.flow.problem.stress_interface]
+
+    def largest(self, x: Array) -> Array:
+        """Largest size of stresses (s,) over what acts on the lesser block, (places,)."""
+        members, stresses = self.places
+        sizes = np.zeros(max(members.max(initial=0), stresses.max()) + 1)
+        np.maximum.at(sizes, stresses, np.abs(x) / self.acting)
+        return sizes
+
+    @cached_property
+    def off(self) -> Array:
+        """Least change of strength, or of forces by what acts, that takes each row to yield, (degree,)."""
+        p, s = self.flow.problem, self.flow.problem.F @ self.state.x + self.flow.problem.g
+        lever = np.bincount(p.cones.member, weights=abs(p.F) @ self.acting, minlength=p.cones.degree)
+        apart = np.abs(p.cones.margin(s)) / np.where(lever > 0.0, lever, np.inf)
+        return np.asarray(np.minimum(np.minimum(np.abs(self.change), self.force[self.places[0]]), apart))
+
+    def give(self, off: Array, u: Array) -> Array:
+        """Rates (s,) at each place over the largest rate of a block, (places,)."""
+        p, (members, stresses) = self.flow.problem, self.places
+        largest = np.abs(u / np.repeat(p.units.block_force, 6)).max()
+        give = np.zeros(max(members.max(initial=0), stresses.max()) + 1)
+        np.maximum.at(give, stresses, np.abs(off) / p.units.interface_force[p.stress_interface] / largest)
+        return give
 
     def ways(self, level: float) -> sparse.csr_array:
         """Columns (R, R) along which multipliers change: of a cone its ray, and less readily across it.
@@ -101,18 +133,51 @@ class Given:
         return p.cones.matrix(np.ones(p.cones.linear), blocks)
 
 
-def nearby(given: Given, level: float) -> Nearby | None:
-    """Return a problem of which the state is exact, changed by about `level`; None if none is found.
+class _Choice(NamedTuple):
+    """Rates and multipliers of the changed problem, which rows flow, and whether joints may give beside."""
 
-    What is within `level` of yield, or carries no more than that, may flow; all else is still.
+    u: Array
+    y: Array
+    flows: Flags
+    giving: bool
+
+
+def nearby(given: Given, level: float) -> tuple[Nearby, ...]:
+    """Return problems of which the state may be exact, changed by about `level`.
+
+    What is within `level` of yield, or carries no more than that, may flow; all else is still. The first has
+    the nearest mechanism that is exact, the second the rates as they are, with joints that give the rest.
     """
-    p, members = given.flow.problem, given.places[0]
-    near = np.minimum(np.abs(given.change), given.force[members]) <= level
+    p = given.flow.problem
+    near = given.off <= level
     if (~near & (given.change > 0.0)).any():
-        return None
-    ways, best = given.ways(level), None
+        return ()
     held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
-    u, y = given.state.u, _aligned(p, given.G, held, given.state.y)
+    y = _aligned(p, given.G, held, given.state.y)
+    still = _giving(given, near, y)
+    if still is not None and still.change <= level / 3.0:  # no nearer one is worth its time
+        return (still,)
+    return tuple(one for one in (still, _moved(given, level, near, y)) if one)
+
+
+def _giving(given: Given, near: Flags, y: Array) -> Nearby | None:
+    """The problem with the rates as they are; that of a row is dropped if this costs less than yield."""
+    p, u = given.flow.problem, given.state.u
+    work = float(p.live @ u)
+    if not work > 0.0:
+        return None
+    rates = by_member(p, given.G, y)
+    units = sparse.diags_array(1.0 / p.units.interface_force[p.stress_interface])
+    largest = np.abs(u / np.repeat(p.units.block_force, 6)).max()
+    size = abs(rates @ units).max(axis=1).toarray().ravel() / largest
+    kept = (near & (given.off <= size))[p.cones.member]
+    return _changed(given, u / work, np.where(kept, y, 0.0) / work, giving=True)
+
+
+def _moved(given: Given, level: float, near: Flags, y: Array) -> Nearby | None:
+    """The problem with the nearest mechanism in which only what is `near` flows; None if none is found."""
+    p, members = given.flow.problem, given.places[0]
+    ways, best, u = given.ways(level), None, given.state.u
     for _ in range(ROUNDS):
         mechanism = nearest_mechanism(p, given.G, u, y, near, ways)
         if mechanism is None:
@@ -129,42 +194,58 @@ def nearby(given: Given, level: float) -> Nearby | None:
     return best
 
 
-def _changed(given: Given, u: Array, y: Array) -> Nearby:
+def _changed(given: Given, u: Array, y: Array, giving: bool = False) -> Nearby:
     """The problem of which stresses and mechanism are exact, where the flow of `y` is that of u."""
-    flow, state, members = given.flow, given.state, given.places[0]
+    flow, state = given.flow, given.state
     p = flow.problem
     rates = np.sqrt(by_member(p, given.G, y).power(2).sum(axis=1))
     flows = rates > NOISE * np.abs(p.C @ u).max(initial=0.0)
-    y = np.where(flows[p.cones.member], y, 0.0)
-    change = np.where(flows | (given.change > 0.0), given.change, 0.0)
-    needed = np.zeros(len(given.force))
-    np.maximum.at(needed, members, np.abs(change))
-    dropped = needed > given.force
-    *_, turned = _flowing(given, u, y, change, dropped)
-    dropped |= turned > given.force
-    scaled, exact, G, turned = _flowing(given, u, y, change, dropped)
+    choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), flows, giving)
+    x = _cheapest(given, choice)
+    scaled, exact, turned, change = _flowing(given, x, choice)
     dead = p.C.T @ exact.x - state.load_factor * p.live
     # dilatancy and what turns about the centre of pressure are in G and pivot already
-    problem = replace(scaled, G=G, dead=dead, pivot=flow.pivot, friction=np.ones(len(p.friction)))
+    problem = replace(scaled, G=turned.G, dead=dead, pivot=flow.pivot, friction=np.ones(len(p.friction)))
     return Nearby(
         Flow(problem, 0.0, flow.turning, flow.softening),
         exact,
-        State(state.load_factor, state.x, u, y),
-        np.where(dropped[members], 0.0, change),
-        turned,
+        State(state.load_factor, state.x, u, choice.y),
+        change,
+        turned.angle,
+        turned.give,
         np.abs(dead - p.dead).reshape(-1, 6).max(axis=1) / Measure(p, state).loaded,
+        turned.imposed,
     )
 
 
-def _flowing(
-    given: Given, u: Array, y: Array, change: Array, dropped: Flags
-) -> tuple[LimitProblem, State, sparse.csr_array, Array]:
-    """Problem of changed limits, state without the forces dropped, G, and the angles by which it turns."""
+def _cheapest(given: Given, choice: _Choice) -> Array:
+    """Stresses (s,), place by place as they are, moved to where what flows yields, or none at all.
+
+    Each costs the largest change of limits, flow and loads of the place that it asks for; loads, which are
+    known better than friction, change only where that costs READILY less and the place carries little.
+    """
     members, stresses = given.places
-    x = np.where(dropped[stresses], 0.0, given.state.x)
-    scaled = given.limits.scaled(np.where(dropped[members], 0.0, change))
-    exact = State(given.state.load_factor, x, u, _aligned(scaled, given.G, x, y))
-    return scaled, exact, *_turned(given, exact, y)
+    moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
+    choices = np.array([given.state.x, moved, np.zeros_like(moved)])
+    costs = []
+    for x in choices:
+        _, _, turned, change = _flowing(given, x, choice)
+        by = given.largest(x - given.state.x)
+        slight = (by == 0.0) | (given.force <= SLIGHT)
+        cost = np.maximum(turned.cost, np.where(slight, READILY * by, np.inf))
+        np.maximum.at(cost, members, np.abs(change))
+        costs.append(cost)
+    return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])
+
+
+def _flowing(given: Given, x: Array, choice: _Choice) -> tuple[LimitProblem, State, _Turned, Array]:
+    """Problem of limits changed for stresses x, state, flow, and the changes of limits."""
+    change = given.limits.changes(x)
+    change = np.where(choice.flows | (change > 0.0), change, 0.0)
+    scaled = given.limits.scaled(np.where(np.isfinite(change), change, 0.0))
+    y = _aligned(scaled, given.G, x, choice.y)
+    exact = State(given.state.load_factor, x, choice.u, y)
+    return scaled, exact, _turned(given, exact, choice), change
 
 
 def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_array:
@@ -191,27 +272,50 @@ def _aligned(p: LimitProblem, G: sparse.csr_array, x: Array, y: Array) -> Array:
     return np.asarray(np.where(np.concatenate(fixed), part, 1.0)[p.cones.member] * ray)
 
 
-def _turned(given: Given, exact: State, asked: Array) -> tuple[sparse.csr_array, Array]:
-    """G of twists about the centroid with G^T y = -C u wherever y flows, and its angle at places (places,).
+class _Turned(NamedTuple):
+    """Changed flow G, rates imposed on joints, and their sizes place by place: tangent of an angle, part."""
 
-    Place by place the least change of G: y e^T / (y . y), with e = C u + G^T y.
+    G: sparse.csr_array
+    imposed: Array
+    angle: Array
+    give: Array
+
+    @property
+    def cost(self) -> Array:
+        """What they count."""
+        return np.maximum(self.angle, READILY * self.give)
+
+
+def _turned(given: Given, exact: State, choice: _Choice) -> _Turned:
+    """G of twists about the centroid with G^T y = -C u, but for the rates that are imposed on joints.
+
+    Where y flows the least change of G of the place, y e^T / (y . y) with e = C u + G^T y, and its angle;
+    where joints may give and that costs READILY less, or where nothing flows, e is imposed.
     """
     flow, p, y = given.flow, given.flow.problem, exact.y
     rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
     rates = p.C @ exact.u
-    meant = np.bincount(rows, weights=np.abs(asked), minlength=count) > 0.0
-    off = np.where(meant[columns], rates + flow.matrix(exact.x).T @ y, 0.0)
-    square = np.bincount(rows, weights=y * y, minlength=count)
-    share = y / np.where(square > 0.0, square, 1.0)[rows]
-    R, s = p.F.shape
-    Y = sparse.coo_array((share, (np.arange(R), rows)), shape=(R, count)).tocsr()
-    E = sparse.coo_array((off, (columns, np.arange(s))), shape=(count, s)).tocsr()
-    centroid = Flow(p, flow.dilatancy, Turning.CENTROID).matrix(exact.x)
+    off = rates + flow.matrix(exact.x).T @ y
+    meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
     lever = _levers(p)
     by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
-    tangent = np.where(by_angle > 0.0, np.inf, 0.0)
-    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
-    return sparse.csr_array(centroid - Y @ E), tangent
+    angle = np.where(by_angle > 0.0, np.inf, 0.0)
+    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=angle, where=whole > 0.0)
+    give = given.give(off, exact.u)
+    giving = (READILY * give < angle) | ~meant if choice.giving else np.zeros(count, dtype=bool)
+    square = np.bincount(rows, weights=y * y, minlength=count)
+    share = y / np.where(square > 0.0, square, 1.0)[rows]
+    turned = np.where((meant & ~giving)[columns], off, 0.0)
+    R, s = p.F.shape
+    Y = sparse.coo_array((share, (np.arange(R), rows)), shape=(R, count)).tocsr()
+    E = sparse.coo_array((turned, (columns, np.arange(s))), shape=(count, s)).tocsr()
+    centroid = Flow(p, flow.dilatancy, Turning.CENTROID).matrix(exact.x)
+    return _Turned(
+        sparse.csr_array(centroid - Y @ E),
+        np.where(giving[columns], off, 0.0),
+        np.where(meant & ~giving, angle, 0.0),
+        np.where(giving, give, 0.0),
+    )
 
 
 def _levers(p: LimitProblem) -> Array:

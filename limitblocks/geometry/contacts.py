@@ -16,6 +16,8 @@ _SHOWN = 8
 _DEFAULT = Tolerances()
 #: Accuracy, in block lengths, that is roundoff.
 _EXACT = 1e-7
+#: Share of the smaller block in an overlap beyond which it is within the other.
+_TWICE = 0.9
 
 
 @dataclass(frozen=True, repr=False)
@@ -69,6 +71,8 @@ class Contacts(Shown):
             raise GeometryError(*self.faults)
 
     def _remedy(self, overlap: Overlap) -> str:
+        if overlap.share > _TWICE:
+            return ": one is within the other, or drawn twice; delete one"
         if overlap.tolerance < self.tolerances.gap * self.length:
             return ", half the thickness of the thinner one; draw them apart, or as one"
         gap = self._gap_for(overlap)

@@ -46,6 +46,8 @@ class Overlap:
         Common volume, m3; nan when it cannot be told.
     tolerance : float
         Depth that would be tolerated, m.
+    share : float
+        Common volume over that of the smaller block; nan when it cannot be told.
     """
 
     block_i: str
@@ -53,6 +55,7 @@ class Overlap:
     depth: float
     volume: float
     tolerance: float
+    share: float = float("nan")
 
     def __str__(self) -> str:
         return (

@@ -67,7 +67,8 @@ def find_overlaps(
         else:
             depth, volume = _thickness(solid(i) ^ solid(j), limit)
         if depth > limit:
-            overlaps.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit))
+            share = volume / min(blocks[i].volume, blocks[j].volume)
+            overlaps.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit, share))
     return tuple(overlaps)
 
 

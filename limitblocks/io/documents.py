@@ -39,7 +39,13 @@ _ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]
 class Document(BaseModel):
     """Part of a model file: no unknown keys, no conversion of types, finite numbers."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, use_attribute_docstrings=True)
+    model_config = ConfigDict(
+        extra="forbid",
+        strict=True,
+        allow_inf_nan=False,
+        use_attribute_docstrings=True,
+        protected_namespaces=(),  # of `model_`, which model_digest begins with
+    )
 
 
 class Box(Document):

@@ -13,9 +13,11 @@ import numpy as np
 from limitblocks.analysis.magnitudes import of_size
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import contents_of, is_model_file
 from limitblocks.io.imported import blocks_of
+from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.placed import UNITS, Contents, Frame, frame
 from limitblocks.io.supports import LikelySupports, likely_supports
@@ -123,14 +125,16 @@ class Look:
         return f"{self.file}: {len(self.blocks)} blocks{bad}, {size} m"
 
 
-def look(file: str | Path, *, units: str | None = None, up: str | None = None) -> Look:
+def look(
+    file: str | Path, *, units: str | None = None, up: str | None = None, twisted: Twisted | None = None
+) -> Look:
     """Return what is in `file`, of any format in docs/files.md, before anything else is known.
 
     Parameters
     ----------
     file : str or Path
         The suffix of its name says the format.
-    units, up : str, optional
+    units, up, twisted : str, optional
         As for :func:`limitblocks.read`.
 
     Raises
@@ -142,15 +146,17 @@ def look(file: str | Path, *, units: str | None = None, up: str | None = None) -
     """
     path = Path(file)
     if is_model_file(path):
-        if units or up:
-            raise ModelError(f"{path}: a model file says units and axes itself; leave units and up out")
+        if units or up or twisted:
+            raise ModelError(f"{path}: a model file says units, axes and faces itself; leave these out")
         model = model_file.read(path)
         own = "m, as limitblocks reads model files", "Z, as in every model file"
         return _look(path, "limitblocks model", model.blocks, *own, marked=tuple(model.supports))
     with faults.named(path):
         contents = contents_of(path)
         where = frame(contents, units, up)
-        made = blocks_of(contents, where)
+        made = blocks_of(contents, where, twisted)
+        if not made.blocks and made.wrong:
+            raise refused(made.wrong, 0, made.twisted)
         return _look(
             path,
             _FORMATS[path.suffix.lower()],
@@ -177,7 +183,7 @@ def _look(
     notes: tuple[str, ...] = (),
 ) -> Look:
     if not blocks:
-        raise ModelError(*(wrong or ("holds no solid; expected at least one block",)))
+        raise ModelError("holds no solid; expected at least one block")
     corners = np.concatenate([block.vertices for block in blocks])
     contacts = find_contacts(blocks, None)
     return Look(

@@ -208,7 +208,7 @@ def _residuals(data: Mapping[str, Any], details: Mapping[str, Any]) -> Residuals
 def _backward_error(data: Mapping[str, Any]) -> BackwardError:
     where = data.get("at", {})
     parts = {
-        name: Residual(name, _number(data[name], inf), said, str(where.get(name, "")))
+        name: Residual(name, _number(data.get(name, 0.0), inf), said, str(where.get(name, "")))
         for name, said in MEANINGS.items()
     }
     places = tuple((str(name), _number(change, inf)) for name, change in data["places"])

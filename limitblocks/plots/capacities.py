@@ -63,8 +63,8 @@ def settlement(curve: SettlementCurve, ax: Any = None) -> Any:
     ax.plot(x[across], curve.reactions[across] / 1e3, "o", markerfacecolor="white", color=VERMILION)
     if curve.falls is not None:
         ax.axvline(curve.falls, color=VERMILION, linewidth=1.0)
-        ax.annotate("falls", (curve.falls, curve.reactions.max() / 1e3), (-4, 0), textcoords="offset points",
-                    ha="right", va="top", color=VERMILION)  # fmt: skip
+        ax.annotate("falls", (curve.falls, curve.reactions.min() / 1e3), (-4, 0), textcoords="offset points",
+                    ha="right", va="bottom", color=VERMILION)  # fmt: skip
     ax.set_xlabel(f"settlement of {curve.support} along {triple(curve.direction.tolist())} (m)")
     ax.set_ylabel("reaction (kN)")
     plain(ax)

@@ -23,6 +23,11 @@ FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
 TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
+SECANT, HALVING = (
+    0.98,
+    0.5,
+)  # of a step that went beyond the zero: the most of the next one, and of those after
+JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
@@ -97,25 +102,43 @@ def _curve(
     while True:
         yield point
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
-        if abs(point.load_factor) <= (NEARLY if still else ZERO) * scale:
-            return
+        if point.load_factor <= (NEARLY if still else ZERO) * scale:
+            return  # below it where it jumps through zero
         if point.displacement >= largest * (1.0 - 1e-12):
             yield f"the displacement {largest:g} m is reached"
             return
         step = min(_next_step(assembly, control, (before, point), steps), largest - point.displacement)
-        for trial in range(TRIALS):
-            try:
-                found = _advanced(assembly, control, point, step / 2.0**trial, scale)
-                break
-            except SolveError as error:
-                why = f"no checked answer beyond {point.displacement:.6g} m: {error}"
-        else:
-            yield why
-            return
-        if still or found is None:
-            yield f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
+        found = _ahead(assembly, control, point, step, scale)
+        if isinstance(found, str) or still:
+            yield found if isinstance(found, str) else _stopped(point)
             return
         before, (assembly, control, point) = point, found
+
+
+def _ahead(
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+) -> tuple[Assembly, Control, CapacityPoint] | str:
+    """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
+    failures, most = 0, SECANT
+    while True:
+        try:
+            found = _advanced(assembly, control, point, step, scale)
+        except SolveError as error:
+            failures += 1
+            if failures == TRIALS:
+                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
+            step /= 2.0
+            continue
+        if found is None:
+            return _stopped(point)
+        way, left = found[2].displacement - point.displacement, found[2].load_factor
+        if left >= -ZERO * scale or way <= JUMP * assembly.size:
+            return found
+        step, most = way * min(most, point.load_factor / (point.load_factor - left)), HALVING
+
+
+def _stopped(point: CapacityPoint) -> str:
+    return f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
 
 
 def _next_step(
@@ -130,8 +153,6 @@ def _next_step(
     if not slope > 0.0:  # it may rise at first
         return GROWTH * last_step
     ahead = point.load_factor / slope
-    if point.load_factor < 0.0:  # beyond the zero: back by the secant
-        return ahead
     whole = (point.displacement + ahead) / steps
     return ahead if ahead <= 1.5 * whole or ahead <= last_step else whole
 

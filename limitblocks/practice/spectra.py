@@ -131,7 +131,7 @@ class Floor:
     def peaks(self, ground: Spectrum) -> Sequence[float]:
         """Return the largest acceleration of the floor in each mode, m/s2.
 
-        It is S_e(T_k, xi_k) |gamma_k psi_k| sqrt(1 + .0004 xi_k^2), xi_k in %, Eq. [C7.2.7].
+        It is ``S_e(T_k, xi_k) |gamma_k psi_k| sqrt(1 + .0004 xi_k^2)``, xi_k in %, Eq. [C7.2.7].
         """
         return [
             ground.acceleration(mode.period, mode.damping)

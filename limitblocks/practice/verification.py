@@ -129,7 +129,7 @@ def _oscillator(
                  float(P @ y), "N", "[C8.7.1.1]"),
         Quantity("e*", "participating share of the mass", "(sum P dx)^2 / (sum P  sum P dx^2)", e, "",
                  "[C8.7.1.5]"),
-        Quantity("M*", "participating mass", "e* sum P / g", mass, "kg", "Circolare 617/2009, C8A.4.2.2"),
+        Quantity("M*", "participating mass", "e* sum P / g", mass, "kg", "Circolare 617/2009 (not seen)"),
         Quantity("FC", "confidence factor", GIVEN, confidence, "", "C8.5.4, C8.7.1.2.1.3"),
         Quantity("a0*", "acceleration that sets it off", "alpha0 g / (e* FC)", a0, "m/s2", "[C8.7.1.8]"),
     ], a0, e  # fmt: skip

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.evidence.sensitivity_result import Influence, LoadPosition, Sensitivities
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.reports.document import Part, Table
 from limitblocks.reports.section import Section
 
 MOST = 10  # data listed
+NOISE = 1e-9  # of the load factor: a change that is none
 MEANING = (
     "How much the associated load factor changes with the data of the model, by the derivatives at the "
     "collapse found, without solving again. They hold for small changes: a larger one may bring another "
@@ -19,7 +23,7 @@ ONE_SIDED = "the mechanism is not unique: derivatives by weights and loads may h
 
 def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
     """Return the section of the sensitivities of a load factor."""
-    governing = found.governing(MOST)
+    governing = _governing(found)
     first = governing[0] if governing else None
     sides = "all stress states agree" if found.agreed.all() else "some may hold in one direction only"
     return Section(
@@ -31,8 +35,8 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
         else "no friction or unit weight changes the load factor",
         values=(
             ("Load factor", f"{found.load_factor:#.7g}", "static load factor, associated flow"),
-            ("Friction, all together", f"{found.of_interfaces.sum():+.4g}", "per unit of relative change"),
-            ("Unit weights, all together", f"{found.of_blocks.sum():+.4g}", "per unit of relative change"),
+            ("Friction, all together", _sum(found.of_interfaces), "per unit of relative change"),
+            ("Unit weights, all together", _sum(found.of_blocks), "per unit of relative change"),
             ("Derivatives by friction", "two-sided" if found.agreed.all() else "in part one-sided", sides),
         ),
         checks=(),
@@ -43,7 +47,7 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
 
 
 def _tables(found: Sensitivities) -> tuple[Part, ...]:
-    rows = [(one.kind, one.name, f"{one.elasticity:+.4g}") for one in found.governing(MOST)]
+    rows = [(one.kind, one.name, f"{one.elasticity:+.4g}") for one in _governing(found)]
     heads = ("Datum", "Of", "Change of the load factor")
     caption = "Data that govern: change of the load factor per unit of relative change, the largest first"
     governing = Table.of(caption, heads, rows, right=(2,))
@@ -51,6 +55,15 @@ def _tables(found: Sensitivities) -> tuple[Part, ...]:
         return (governing,)
     places = [(_load(one), one.block, triple(one.gradient.tolist())) for one in found.positions]
     return governing, Table.of("Points of loads", ("Load", "On", "Change per m along X, Y, Z"), places)
+
+
+def _governing(found: Sensitivities) -> list[Influence]:
+    """The data that matter, without the rounding errors of those that do not."""
+    return [one for one in found.governing(MOST) if abs(one.elasticity) > NOISE * abs(found.load_factor)]
+
+
+def _sum(values: Array) -> str:
+    return f"{values.sum():+.4g}" if np.abs(values).max(initial=0.0) > NOISE else "0"
 
 
 def _load(one: LoadPosition) -> str:

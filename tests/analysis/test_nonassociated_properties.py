@@ -171,7 +171,7 @@ def test_not_converged_carries_the_best_result(reference, analysis):
 def test_further_means_are_tried_in_turn(reference, monkeypatch):
     model, _ = reference
     means = (Means(Barrier(), 0, 1), Means(Barrier(0.1, 2.0), 1, 300))
-    assert lb.nonassociated(model, means=means).how == "increments of the load path"
+    assert lb.nonassociated(model, means=means).how.startswith("increments of the load path")
     monkeypatch.setattr(ways, "_increments", lambda flow, x0, *_: (unmoved(flow.problem, 0.0, x0), "nothing"))
     found = lb.nonassociated(model, means=means)
     assert found.converged

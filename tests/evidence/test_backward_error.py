@@ -14,7 +14,7 @@ from limitblocks.evidence.nearby import Given
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, turning_of
 
-PARTS = ("limits", "flow", "loads", "mechanism")
+PARTS = ("limits", "flow", "give", "loads", "mechanism")
 
 
 def flow_of(model, claim):
@@ -102,12 +102,32 @@ def test_a_load_out_of_balance():
     assert error.value == error.loads.value == pytest.approx(0.01 * MU / (1 + 1.01 * MU), rel=1e-6)
 
 
-def test_it_grows_with_the_change_in_proportion():
+def test_it_grows_with_the_change():
+    """In proportion but for which way is the cheapest."""
     model, claim = true("wall")
     p, state = model.problem, state_of(model, claim)
     values = [backward_error(Flow(p), shaken(p, state, size)).value for size in (1e-8, 1e-7, 1e-6)]
-    assert values[1] / values[0] == pytest.approx(10.0, rel=0.1)
-    assert values[2] / values[1] == pytest.approx(10.0, rel=0.1)
+    assert 3.0 < values[1] / values[0] < 100.0
+    assert 3.0 < values[2] / values[1] < 100.0
+
+
+def test_blocks_at_rest_that_drift_are_no_other_model():
+    """Rates of 1e-7 of the largest where nothing flows: joints that give by as much make them exact."""
+    model, claim = true("points")
+    p, state = model.problem, state_of(model, claim)
+    drift = 1e-7 * np.random.default_rng(0).uniform(-1.0, 1.0, len(state.u)) * np.abs(state.u).max()
+    error = backward_error(Flow(p), replace(state, u=state.u + drift))
+    assert 1e-9 < error.value <= 1e-6
+
+
+def test_a_joint_that_carries_next_to_nothing_counts_by_what_it_carries():
+    """Forces of 1e-9 of what acts on joints that open: a change of loads by as much."""
+    model, claim = true("points")
+    p, state = model.problem, state_of(model, claim)
+    idle = np.abs(state.x) < 1e-12
+    x = state.x + 1e-9 * idle * np.random.default_rng(0).uniform(-1.0, 1.0, len(state.x))
+    assert idle.any()
+    assert backward_error(Flow(p), replace(state, x=x)).value <= 1e-7
 
 
 def shaken(problem, state, size):
@@ -140,7 +160,7 @@ def test_a_structure_of_slightly_other_frictions():
         np.argsort(q.row_interface, kind="stable")
     ]
     error = error_of(model, replace(found, generalised_stresses=x, flow_multipliers=y))
-    assert 1e-6 < error.limits.value <= np.abs(1.0 / shares - 1.0).max() * 1.1
+    assert 1e-7 < error.model <= np.abs(1.0 / shares - 1.0).max() * 1.1
     assert error.value <= 1.1e-4
 
 
@@ -199,8 +219,8 @@ GROSS = {
     "load factor of the heavy cube for the light stone": ("loads", 0.1),
     "stresses halved": ("loads", 0.3),
     "rates scaled alone": ("mechanism", 0.009),
-    "mirrored mechanism": (None, 0.9),
-    "rises as it slides, sliding, circle": ("mechanism", 0.2),
+    "mirrored mechanism": (None, 0.7),
+    "rises as it slides, sliding, circle": (None, 0.2),
     "slides into a stone that leans on a wall, 1": (None, np.inf),
 }
 

@@ -190,7 +190,7 @@ def falsified(pair, model):
     most = int(np.abs(y).argmax())
     pressed = int(np.abs(x).argmax())
     nudged = x.copy()
-    nudged[pressed] *= 1.0 + 1e-4
+    nudged[pressed] *= 1.0 + 1e-2
     less = y.copy()
     less[most] *= -1.0
     width = pair.upper - pair.lower

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from limitblocks.errors import GeometryError
-from limitblocks.geometry import Block, find_interfaces
+from limitblocks.geometry import Block, find_contacts, find_interfaces
 
 box = Block.box
 UNIT = (1.0, 1.0, 1.0)
@@ -84,3 +84,11 @@ def test_tetrahedra_point_to_face():
     with pytest.raises(GeometryError, match=message("ground", "tip", depth**3 / 6, depth)):
         find_interfaces([ground, tip], None)
     assert find_interfaces([ground, tip.moved(np.eye(3), (0, 0, depth))], None) == ()
+
+
+@pytest.mark.parametrize(("at", "said"), [(0.0, True), (0.05, True), (0.2, False)])
+def test_a_block_drawn_twice_is_said(at, said):
+    blocks = [Block.box("a", (1, 1, 1), (0, 0, 0)), Block.box("a 2", (1, 1, 1), (at, 0, 0))]
+    (overlap,) = find_contacts(blocks, None).overlaps
+    assert overlap.share == pytest.approx(1.0 - at)
+    assert ("drawn twice; delete one" in find_contacts(blocks, None).faults[0]) is said

@@ -1,5 +1,7 @@
 """One bad block does not refuse the others: twisted faces, open shells, what was left out."""
 
+import re
+
 import numpy as np
 import pytest
 from typer.testing import CliRunner
@@ -135,3 +137,14 @@ def test_from_the_shell(tmp_path):
     assert done.exit_code == 0, done.stderr
     assert "note: left out: block 'open'" in done.stderr
     assert "divided into triangles" in done.stderr
+
+
+def test_look_tells_the_remedy_where_all_faces_are_twisted_and_takes_it(tmp_path):
+    file = obj(tmp_path / "a.obj", [box(f"b{k}", (3 * k, 0, 0.5), lift=0.1) for k in range(3)])
+    with pytest.raises(lb.ModelError) as raised:
+        lb.files.look(file)
+    assert "3 of 3 blocks are bad, by twisted faces; --twisted triangulate" in raised.value.problems[0]
+    done = CliRunner().invoke(app, ["look", str(file), "--twisted", "triangulate"], env={"COLUMNS": "200"})
+    assert done.exit_code == 0, done.output
+    assert re.search(r"Blocks +3\b", done.output)
+    assert f"Next: limitblocks import {file} --twisted triangulate" in done.output

@@ -115,6 +115,20 @@ def test_hinges_of_an_arch_stay_together():
     assert volumes[0] == pytest.approx(volumes[1], rel=1e-12)
 
 
+def test_a_facade_of_37_blocks_out_of_its_plane():
+    """The first point is the answer without dilatancy, each point has its own; no gap is pressed."""
+    door = [(1.2, 0.0, 0.8, 1.2)]
+    facade = lb.structures.facade(JOINTS[0], length=3.2, courses=5, return_length=1.6, openings=door)
+    assert len(facade.free_blocks) == 37
+    curve = capacity_curve(facade, steps=3, largest=0.05)
+    assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(facade).load_factor, rel=1e-8)
+    assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
+    assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
+    assert (np.diff(curve.load_factors) < 1e-7).all()
+    assert curve.load_factors[-1] < 0.9 * curve.load_factors[0]
+    assert curve.points[1].changes
+
+
 def test_gap_left_by_a_coarse_step_is_seen_and_closed():
     """Negative control: first-order motion opens or overlaps the corners that it holds; closing mends it."""
     arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=9)

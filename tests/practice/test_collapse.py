@@ -80,12 +80,12 @@ def test_arch_spreads_until_its_thrust_leaves_the_springing(without_dilatancy):
         assert (cut > -1e-9).all()
         assert (cut < 1 + 1e-9).all()
     curve = settlement_to_collapse(
-        ring, "right support", SPREAD, step=0.1, accuracy=4e-3, without_dilatancy=without_dilatancy
+        ring, "right support", SPREAD, step=0.1, accuracy=1e-2, without_dilatancy=without_dilatancy
     )
     expected = [three_hinged(voussoirs, thickness, d, hinge)[0] * weight for d in curve.displacements]
     assert curve.reactions == pytest.approx(expected, rel=1e-6)
     assert curve.stands_to <= fourth <= curve.falls
-    assert curve.falls - curve.stands_to <= 8e-3
+    assert curve.falls - curve.stands_to <= 2e-2
     assert curve.ended.startswith("the structure falls between")
     assert all(point.found.bounds.proven and not point.across for point in curve.points)
     assert len(curve.points[1].changes) == 3
@@ -114,10 +114,10 @@ def test_two_stones_that_lean_on_one_another():
         return np.arctan(friction) - turn(spread) / 2 - np.arctan(2 * thrust(spread) / weight)
 
     slides = brentq(left, 0.0, 2 * (np.hypot(*arm) - arm[0]) - 1e-9)
-    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.3, accuracy=2e-3)
+    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.3, accuracy=1e-2)
     assert curve.reactions == pytest.approx([thrust(d) for d in curve.displacements], rel=1e-6)
     assert curve.stands_to <= slides <= curve.falls
-    assert curve.falls - curve.stands_to <= 4e-3
+    assert curve.falls - curve.stands_to <= 2e-2
 
 
 def test_it_ends_where_it_is_told_to():

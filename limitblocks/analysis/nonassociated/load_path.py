@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import end, finished, small_barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
@@ -27,7 +28,8 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem.plane import Choice
 
 AGREE = 1e-6  # relative difference of two load factors that agree
 
@@ -95,8 +97,6 @@ def load_path(
     compliance = _compliance(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
-    x0 = start_stresses(model, problem, weights, start)
-    scale = load_scale(problem, enclosing.associated)
     history: list[Iteration] = []
 
     def record(iteration: Iteration) -> None:
@@ -104,26 +104,73 @@ def load_path(
         if progress is not None:
             progress(iteration)
 
+    def load(at: Flow, x0: Array, own: Array) -> _Loaded:
+        scale = load_scale(at.problem, enclosing.associated)
+        judge = None if at is flow else planar
+        return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, judge)
+
+    planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
+    found = (
+        None if planar is None else _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+    )
+    if found is None:
+        found = load(flow, start_stresses(model, problem, weights, start), weights)
+    record(end(flow, found.last))
+    collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
+    told_by = Told(softness * _unit(model, problem), snaps)
+    steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
+    tracked = found.tracked()
+    return LoadPath(steps, collapse, folds, trace, tracked, _remarks(collapse.load_factor, tracked))
+
+
+class _Loaded(NamedTuple):
+    """Stresses at the start, increments, the last state, how they were found, and the tracked path's end."""
+
+    x0: Array
+    pushes: tuple[Pushed, ...]
+    last: State
+    how: str
+    tracked: Callable[[], float]
+
+
+def _loaded(
+    flow: Flow,
+    x0: Array,
+    weights: Array,
+    tolerance: float,
+    settings: Settings,
+    scale: float,
+    record: Callable[[Iteration], None],
+    planar: InPlane | None,
+) -> _Loaded:
+    """Push from x0 to collapse, or to where the user stops it."""
     met: list[Pushed] = []
 
     def push(one: Pushed) -> None:
         while met and met[-1].start is one.start:  # taken back and pushed once more, farther
             met.pop()
         met.append(one)
-        record(_iteration(problem, one))
+        record(_iteration(flow.problem, one))
 
     how = "increments of the load path"
+    share = 1.0 if planar is None else planar.share
     try:
-        pushes, last = pushed(flow, x0, weights, tolerance, settings or Settings(), scale, push)
+        pushes, last = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
     except KeyboardInterrupt:
         if not met:
             raise
         pushes, last, how = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}"
-    record(end(flow, last))
-    collapse = finished(model, last, enclosing, tuple(history), flow, how, tolerance, throw)
-    steps, folds, trace = told(model, flow, x0, pushes, last, Told(softness * _unit(model, problem), snaps))
-    tracked = small_barrier(flow, x0, scale, tolerance)
-    return LoadPath(steps, collapse, folds, trace, tracked, _remarks(collapse.load_factor, tracked))
+    return _Loaded(x0, pushes, last, how, lambda: small_barrier(flow, x0, scale, tolerance, planar))
+
+
+def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
+    """A load path of the plane as one of the whole problem; None where that does not accept it."""
+    interrupted = found.how.endswith(INTERRUPTED)
+    last = planar.plane.lifted(found.last) if interrupted else planar.accepted(found.last, tolerance)
+    pushes = tuple(planar.pushed(one) for one in found.pushes)
+    if last is None or not admissible(pushes):
+        return None
+    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how), found.tracked)
 
 
 def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:

@@ -64,6 +64,7 @@ def pushed(
     settings: Settings,
     scale: float,
     progress: Progress | None = None,
+    share: Array | float = 1.0,
 ) -> tuple[tuple[Pushed, ...], State]:
     """Push from the stresses `x0` until the structure collapses.
 
@@ -83,6 +84,8 @@ def pushed(
         Load factor that increments are measured by, dimensionless.
     progress : callable, optional
         Called with each increment.
+    share : Array, shape (R,)
+        Of the barrier, in each row.
 
     Returns
     -------
@@ -96,6 +99,7 @@ def pushed(
         Barrier(settings.barrier, floor=0.0),
         0,
         scale / len(flow.problem.blocks),
+        share,
     )
     first = rho = float(path.elastic[0] / weights[0]) / len(flow.problem.blocks) / settings.first
     pushes: list[Pushed] = []

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
+from limitblocks.analysis.nonassociated.in_the_plane import InPlane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
@@ -22,7 +24,6 @@ from limitblocks.analysis.nonassociated.start import (
     own_units,
     refuse_jammed,
     refuse_unlimited,
-    start_stresses,
 )
 from limitblocks.analysis.nonassociated.ways import first_to_solve, left_over
 from limitblocks.analysis.stability import dead_load_state
@@ -132,23 +133,40 @@ def nonassociated(
         state, how = proven, "statics alone"
     else:
         first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
-        x0 = start_stresses(model, problem, problem.compliance, first)
-        if way is Method.FIXED_POINT:
-            state, how = outer_loop(flow, x0, tolerance, lambda *at: record(_round(flow, *at)))
-        else:
-            scale = load_scale(problem, enclosing.associated)
-            state, how = first_to_solve(flow, x0, scale, means or MEANS, tolerance, record)
+
+        def solve(at: Flow, x0: Array) -> tuple[State, str]:
+            if way is Method.FIXED_POINT:
+                return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
+            scale = load_scale(at.problem, enclosing.associated)
+            near = partial(_near, at, tolerance, limit)
+            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record, near)
+
+        state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))
     return finished(
         model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
     )
 
 
+def _near(flow: Flow, tolerance: float, limit: float | None, state: State) -> bool:
+    """Whether a state is exact for a model within `limit`; False where there is none."""
+    if limit is None:
+        return False
+    nearest, error = settled(flow, state, tolerance, limit)
+    return within(error, mcp_residuals(flow, nearest), tolerance, limit)
+
+
 @np.errstate(all="ignore")  # a state that ran away is no solution
-def small_barrier(flow: Flow, x0: Array, scale: float, tolerance: float) -> float:
-    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`."""
+def small_barrier(
+    flow: Flow, x0: Array, scale: float, tolerance: float, planar: InPlane | None = None
+) -> float:
+    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`.
+
+    What is found in a plane is judged in the whole problem.
+    """
     state, _ = first_to_solve(flow, x0, scale, MEANS[:1], tolerance, lambda _: None)
     solved = mcp_residuals(flow, state).worst.value <= tolerance
+    solved &= planar is None or planar.accepted(state, tolerance) is not None
     return state.load_factor / flow.problem.units.live if solved else np.nan
 
 

@@ -131,8 +131,11 @@ class Layout:
         return parts
 
     @cached_property
-    def _pattern(self) -> tuple[Any, Indices, Indices, Indices, Indices]:
-        """Ordered pattern of [[-K, live], [live^T, 0]], places of K's parts and live in it, the ordering."""
+    def _pattern(self) -> tuple[Any, Indices, Indices, Indices, Indices, Indices]:
+        """Ordered pattern of [[-K, live], [live^T, 0]], places of K's parts and live in it, the ordering.
+
+        And those on the diagonal of rates that move nothing, out of the plane of a planar problem.
+        """
         n, d = self.problem.C.shape[1], self.rates.shape[1]
         shape = (self.interfaces, d, d)
         i = np.broadcast_to(self.rates[:, :, None], shape).ravel()
@@ -147,7 +150,9 @@ class Layout:
         pattern = sparse.csc_array(
             (np.ones(len(places)), (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1)
         )
-        return pattern, inside, at[: len(inside)], at[len(inside) + n + 1 :], order
+        still = np.setdiff1d(np.arange(n), self.problem.C.indices[self.problem.C.data != 0.0])
+        border = at[len(inside) + n + 1 :]
+        return pattern, inside, at[: len(inside)], border, at[len(inside) + still], order
 
     def _ordering(self, row: Indices, column: Indices) -> Indices:
         """Where each unknown goes so that factors stay sparse, found once for all points of a path."""
@@ -158,10 +163,11 @@ class Layout:
 
     def factors(self, parts: Array) -> Any:
         """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
-        pattern, inside, at, border, _ = self._pattern
+        pattern, inside, at, border, idle, _ = self._pattern
         data = -np.bincount(at, weights=parts.ravel()[inside], minlength=pattern.nnz)
         live = self.problem.live[self.problem.live != 0.0]
         data[border] = np.concatenate([live, live])
+        data[idle] = -1.0
         matrix = sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
         return diagonal_factors(matrix, "NATURAL")
 

@@ -23,7 +23,15 @@ INSIDE = 0.1  # least distance of the first slacks from the boundary
 ITERATIONS = 60
 
 
-def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int, power: float = 1.0) -> Path:
+def path_from(
+    flow: Flow,
+    x0: Array,
+    weights: Array,
+    barrier: Barrier,
+    seed: int,
+    power: float = 1.0,
+    share: Array | float = 1.0,
+) -> Path:
     """Return the path from stresses x0; rho0 makes it start with a load factor of `power` on elastic joints.
 
     Parameters
@@ -40,6 +48,8 @@ def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int
         Of the weights of the products, all one for seed 0: another seed is another path.
     power : float
         Unit of the barrier's size and of the first load factor, dimensionless.
+    share : Array, shape (R,)
+        Of the barrier, in each row: of rows that stand for several more than one.
     """
     p, layout = flow.problem, Layout(flow)
     stiffness = layout.padding.copy()
@@ -52,7 +62,7 @@ def path_from(flow: Flow, x0: Array, weights: Array, barrier: Barrier, seed: int
     logarithms = np.zeros(p.cones.degree)
     if seed:
         logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
-    products = np.exp(logarithms)[p.cones.member] * p.cones.identity
+    products = share * np.exp(logarithms)[p.cones.member] * p.cones.identity
     return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0), power)
 
 

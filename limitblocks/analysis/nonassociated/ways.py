@@ -7,8 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.closing import closed
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
+    LARGE_MEANS,
     MEDIUM,
     SOFTENING,
     TURNED_MEANS,
@@ -18,12 +21,13 @@ from limitblocks.analysis.nonassociated.means import (
 )
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.polish import polish
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
+LARGE = 100  # blocks: beyond it increments take more than 40 times as long as bounds
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
@@ -34,14 +38,24 @@ def first_to_solve(
     means: Sequence[Means],
     tolerance: float,
     record: Callable[[Iteration], None],
+    enough: Callable[[State], bool] = lambda _: False,
 ) -> tuple[State, str]:
-    """The state to which one way after the other leads, and which it was: the load path comes first."""
+    """The state to which one way after the other leads, and which it was: the load path comes first.
+
+    Of a large model a state that is near `enough` ends the search as well.
+    """
     met: list[tuple[State, str]] = []
-    for state, how in _ways(flow, x0, scale, means, tolerance, record):
+    large = len(flow.problem.blocks) > LARGE and flow.dissipative and len(means) > 1
+    ways = (
+        _large_ways(flow, x0, scale, tolerance, record)
+        if large
+        else _ways(flow, x0, scale, means, tolerance, record)
+    )
+    for state, how in ways:
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
-        if how.endswith(INTERRUPTED):
+        if how.endswith(INTERRUPTED) or (large and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
@@ -66,7 +80,9 @@ def _ways(
         state, (info,) = follow(
             smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
         )
-        return polish(flow, state), f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
+        if info.interrupted:
+            return state, f"{info.how}, {INTERRUPTED}"
+        return polish(flow, state), info.how
 
     yield tracked(means[0], x0)
     if len(means) == 1:
@@ -86,6 +102,39 @@ def _ways(
     for one in means[1:]:
         if one not in small:
             yield tracked(one, x0)
+
+
+def _large_ways(
+    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
+) -> Iterator[tuple[State, str]]:
+    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
+    problem, weights = flow.problem, flow.problem.compliance
+    smooth, nearest = replace(flow, softening=SOFTENING), NearestStresses(problem, weights)
+    for one in LARGE_MEANS:
+        state, (info,) = follow(
+            smooth,
+            x0,
+            weights,
+            means=[one],
+            power=scale / len(problem.blocks),
+            progress=lambda at: record(_point(problem, at)),
+        )
+        how = f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
+        if info.interrupted or defect(flow, state) <= tolerance:
+            yield state, how
+        else:
+            yield _in_rounds(flow, nearest, state, how, tolerance)
+
+
+def _in_rounds(
+    flow: Flow, nearest: NearestStresses, state: State, how: str, tolerance: float
+) -> tuple[State, str]:
+    """The end of a path closed by rounds, and how; the path's own where the user stops it."""
+    try:
+        best, rounds = closed(flow, nearest, state, tolerance)
+    except KeyboardInterrupt:
+        return state, f"{how}, {INTERRUPTED}"
+    return best, f"{how}, {rounds} rounds of the fixed point"
 
 
 def _increments(

@@ -2,5 +2,6 @@
 
 from limitblocks.problem.plane.mirror import Mirror, mirror_of
 from limitblocks.problem.plane.reduction import Planar, reduced
+from limitblocks.problem.plane.rows import Choice
 
-__all__ = ["Mirror", "Planar", "mirror_of", "reduced"]
+__all__ = ["Choice", "Mirror", "Planar", "mirror_of", "reduced"]

@@ -19,7 +19,7 @@ from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, State
 from limitblocks.problem.plane.alike import EXACT
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
-from limitblocks.problem.plane.rows import PlaneRows, plane_rows
+from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
 NOTHING = 1e-13  # of the largest entry of a row: rounding of what vanishes by symmetry
@@ -77,13 +77,36 @@ class Planar:
         problem = self.problem.measured(whole.units.block_force)
         return replace(self, problem=problem, live=whole.units.live / problem.units.live)
 
+    def barrier_of(self, cones: Cones) -> Array:
+        """Return how many logarithms of the cone K of the whole problem each reduced row stands for, (R',).
+
+        Rows merged in their mean stand for as many as they are. A cone of which z keeps one direction is two
+        rows, t + z > 0 and t - z > 0, and log(t^2 - z^2) / 2 the sum of half their logarithms.
+        """
+        heads = abs(self.multipliers)[cones.heads]
+        count = np.asarray((heads > 0.0).sum(axis=0)).ravel().astype(float)
+        conic = np.asarray((heads[cones.linear :] > 0.0).sum(axis=0)).ravel() > 0
+        line = np.arange(len(count)) < self.problem.cones.linear
+        return np.where(conic & line, count / 2.0, count)
+
+    def compliance_of(self, weights: Array) -> Array | None:
+        """Return the compliance of reduced stresses from that of all, (s,); None where it is not symmetric.
+
+        Only then elastic strains of symmetric stresses are symmetric, too.
+        """
+        S = self.stresses
+        own = np.asarray(S.multiply(S).T @ weights)
+        squares = np.asarray(S.multiply(S).sum(axis=0)).ravel()
+        off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / squares)
+        return None if abs(off).max() > EXACT * weights.max() else own
+
     def stresses_of(self, x: Array) -> Array:
         """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
         squares = np.asarray(self.stresses.multiply(self.stresses).sum(axis=0)).ravel()
         return np.asarray(self.stresses.T @ x / squares)
 
 
-def reduced(problem: LimitProblem, mirror: Mirror, *, every_row: bool = False) -> Planar:
+def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) -> Planar:
     """Return the problem reduced to the plane of its mirror.
 
     Parameters
@@ -92,10 +115,10 @@ def reduced(problem: LimitProblem, mirror: Mirror, *, every_row: bool = False) -
         The whole problem.
     mirror : Mirror
         Its mirror plane.
-    every_row : bool
-        Keep rows that others imply: for margins, and for multipliers of every row.
+    choice : Choice
+        FEW rows serve the associated flow, FLOWING ones any, EVERY one margins.
     """
-    stresses, rows = _stresses_and_rows(problem, mirror, every_row)
+    stresses, rows = _stresses_and_rows(problem, mirror, choice)
     rates = _rates(problem, mirror)
     source, weights, cones = rows
     units = problem.units.row
@@ -140,7 +163,7 @@ def _rates(problem: LimitProblem, mirror: Mirror) -> sparse.csr_array:
 
 
 def _stresses_and_rows(
-    problem: LimitProblem, mirror: Mirror, every_row: bool
+    problem: LimitProblem, mirror: Mirror, choice: Choice
 ) -> tuple[sparse.csr_array, tuple[Indices, sparse.csr_array, Cones]]:
     """Columns that the mirror leaves as they are; rows: the one each comes from, weights, and their cone."""
     triplets, parts, width = [], [], 0
@@ -159,17 +182,17 @@ def _stresses_and_rows(
                 old = kind.places.columns[there][:, :, None]
                 keep = (X != 0.0) & also[:, None, None]
                 triplets.append([np.broadcast_to(v, X.shape)[keep] for v in (X, old, new)])
-            parts += _rows_of(kind, own, X, every_row)
+            parts += _rows_of(kind, own, X, choice)
     data, old, new = (np.concatenate(part) for part in zip(*triplets, strict=True))
     stresses = sparse.coo_array((data, (old, new)), shape=(problem.C.shape[0], width)).tocsr()
     return sparse.csr_array(stresses), _joined(parts, len(problem.g))
 
 
-def _rows_of(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> list[PlaneRows]:
+def _rows_of(kind: Mirrored, own: Indices, X: Array, choice: Choice) -> list[PlaneRows]:
     """Rows of the places `own` and of their images, on the stresses of the basis X (K, c, d)."""
     twice = kind.image[own] != own
     some = [its for its in (~twice, twice) if its.any()]
-    return [part for its in some for part in plane_rows(kind, own[its], X[its], every_row)]
+    return [part for its in some for part in plane_rows(kind, own[its], X[its], choice)]
 
 
 def symmetric(turn: Array) -> Array:

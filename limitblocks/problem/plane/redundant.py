@@ -7,7 +7,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 
 ROUNDING = 1e-10  # of rows of unit length
 DECIMALS = 9  # rows that agree to these are judged once
@@ -15,11 +15,13 @@ DECIMALS = 9  # rows that agree to these are judged once
 Flags = npt.NDArray[np.bool_]
 
 
-def redundant(rows: Array, present: Flags) -> Flags:
+def redundant(rows: Array, present: Flags, flow: Array | None = None) -> Flags:
     """Return which rows a.(x, 1) >= 0 (K, L, d + 1) of each set follow from two others of it, (K, L).
 
     A row follows where it is a sum of two with factors >= 0, one of which may be the constant 1 >= 0. In the
-    plane rows act on (V, N) or on (N, M): two are enough. `present` (K, L) tells which rows there are.
+    plane rows act on (V, N) or on (N, M): two are enough. `present` (K, L) tells which rows there are. With
+    `flow` (K, L, d) a row must also flow as a sum of what must be at yield if it is: opening does not follow
+    from sliding to both sides, twisting without a twist does from hinging.
     """
     order = np.argsort(~present, axis=1, kind="stable")[:, : int(present.sum(axis=1).max(initial=0))]
     own = np.take_along_axis(rows, order[..., None], axis=1)
@@ -27,16 +29,26 @@ def redundant(rows: Array, present: Flags) -> Flags:
     size = np.linalg.norm(own, axis=2, keepdims=True)
     own = np.where(there[..., None], own / np.where(size > 0.0, size, 1.0), 0.0)
     K, D = len(own), own.shape[2]
-    kinds = np.round(np.concatenate([own.reshape(K, -1), there], axis=1), DECIMALS) + 0.0
+    moves = (
+        np.zeros((*own.shape[:2], 0)) if flow is None else np.take_along_axis(flow, order[..., None], axis=1)
+    )
+    moves = np.where(there[..., None], moves, 0.0)
+    kinds = np.concatenate([own.reshape(K, -1), moves.reshape(K, -1), there], axis=1)
+    kinds = np.round(kinds, DECIMALS) + 0.0
     _, first, kind = np.unique(kinds, axis=0, return_index=True, return_inverse=True)
     constant = np.broadcast_to(np.eye(D)[-1], (len(first), 1, D))
-    follows = _follows(np.concatenate([own[first], constant], axis=1), there[first])[kind.ravel()]
+    still = np.zeros((len(first), 1, moves.shape[2]))
+    follows = _follows(
+        np.concatenate([own[first], constant], axis=1),
+        there[first],
+        np.concatenate([moves[first], still], axis=1),
+    )[kind.ravel()]
     flags = np.zeros_like(present)
     np.put_along_axis(flags, order, follows, axis=1)
     return flags
 
 
-def _follows(rows: Array, present: Flags) -> Flags:
+def _follows(rows: Array, present: Flags, flow: Array) -> Flags:
     """The same of rows of unit length, the last of which is the constant; one row after the other."""
     K, L = present.shape
     left = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1)
@@ -53,6 +65,30 @@ def _follows(rows: Array, present: Flags) -> Flags:
         sums = by_i[..., None] * rows[:, i] + by_j[..., None] * rows[:, j]
         off = np.abs(sums - rows[:, c, None]).max(axis=2)
         implied = usable & (np.minimum(by_i, by_j) >= -ROUNDING) & (off <= ROUNDING)
+        if flow.shape[2]:
+            implied &= _flows(flow, c, np.where(by_i > ROUNDING, i, L), np.where(by_j > ROUNDING, j, L))
         follows[:, c] = left[:, c] & implied.any(axis=1)
         left[:, c] &= ~follows[:, c]
     return follows
+
+
+def _flows(flow: Array, c: int, i: Indices, j: Indices) -> Flags:
+    """Whether the flow (K, L + 1, d) of row c is a sum, factors >= 0, of that of rows i, j (K, pairs)."""
+    place = np.arange(len(flow))[:, None]
+    a, b, own = flow[place, i], flow[place, j], flow[:, c, None]
+    aa, ab, bb = (np.einsum("kpd,kpd->kp", v, w) for v, w in ((a, a), (a, b), (b, b)))
+    ca, cb = (np.einsum("kpd,kpd->kp", v, np.broadcast_to(own, v.shape)) for v in (a, b))
+    det = aa * bb - ab**2
+    both = det > ROUNDING * np.maximum(aa * bb, ROUNDING)
+    zero = np.zeros_like(aa)
+    sums = [
+        (zero, zero),
+        (np.maximum(ca, 0.0) / np.where(aa > 0.0, aa, 1.0), zero),
+        (zero, np.maximum(cb, 0.0) / np.where(bb > 0.0, bb, 1.0)),
+        tuple(
+            np.where(both, np.maximum(part, 0.0) / np.where(both, det, 1.0), 0.0)
+            for part in (ca * bb - cb * ab, cb * aa - ca * ab)
+        ),
+    ]
+    off = [np.abs(s[..., None] * a + t[..., None] * b - own).max(axis=2) for s, t in sums]
+    return np.asarray(np.min(off, axis=0) <= ROUNDING)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from enum import Enum
 from functools import cached_property
 
 import numpy as np
@@ -22,6 +23,14 @@ from limitblocks.problem.plane.redundant import redundant
 
 Flags = npt.NDArray[np.bool_]
 CHUNK = 1000  # classes of places at a time: keeps the arrays small
+
+
+class Choice(Enum):
+    """Which rows are kept: those that two others do not imply, nor their flow where FLOWING, or every one."""
+
+    FEW = "few"
+    FLOWING = "flowing"
+    EVERY = "every"
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,12 +52,13 @@ class PlaneRows:
 class _Sets:
     """Rows of K places, or of K pairs of a place and its image, on the basis of their symmetric stresses.
 
-    `values` (K, r, d + 1) are F x' + g over the largest;
+    `values` (K, r, d + 1) are F x' + g over the largest of the set, `flow` (K, r, d) is G in this unit;
     `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and `Mirrored`, the first
     `linear` of them linear rows.
     """
 
     values: Array
+    flow: Array
     members: tuple[slice, ...]
     linear: tuple[bool, ...]
     partner: Indices
@@ -66,17 +76,17 @@ class _Sets:
         return np.asarray((own + np.eye(r)[self.start[self.partner]]) / 2.0)
 
 
-def plane_rows(kind: Mirrored, own: Indices, X: Array, every_row: bool) -> Iterator[PlaneRows]:
+def plane_rows(kind: Mirrored, own: Indices, X: Array, choice: Choice) -> Iterator[PlaneRows]:
     """Rows of the places `own` (K,) and of their images on the stresses of the bases X (K, c, d).
 
-    Without `every_row` rows that two others imply are left out. Places with the same numbers are judged once.
+    Places with the same numbers are judged once.
     """
     first, of_place = classes(np.stack([kind.sort[own], kind.sort[kind.image[own]]], axis=1))
     members = np.split(np.argsort(of_place, kind="stable"), np.cumsum(np.bincount(of_place))[:-1])
     places = np.concatenate([kind.places.rows[there] for there in _pair(kind, own)], axis=1)
     for at in range(0, len(first), CHUNK):
         chunk = slice(at, at + CHUNK)
-        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), every_row):
+        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), choice):
             yield _everywhere(places, rows, members[chunk])
 
 
@@ -86,7 +96,7 @@ def _pair(kind: Mirrored, own: Indices) -> list[Indices]:
     return [own] if (image == own).all() else [own, image]
 
 
-def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
+def _rows(sets: _Sets, choice: Choice) -> Iterator[_Rows]:
     """Rows of each set: cones of two directions and more, and lines."""
     lines = [sets.heads[:, np.array(sets.linear)]]
     valid = [np.ones(lines[0].shape[:2], dtype=bool)]
@@ -95,15 +105,17 @@ def _rows(sets: _Sets, every_row: bool) -> Iterator[_Rows]:
         lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
         valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
         yield from _kept(cones)
-    yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), every_row)
+    yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), choice)
 
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
     p, there = kind.places, _pair(kind, own)
     values = np.concatenate([np.concatenate([p.F[k] @ X, p.g[k][..., None]], axis=2) for k in there], axis=1)
+    size = np.abs(values).max(axis=(1, 2), keepdims=True)
     r, count = p.rows.shape[1], len(p.members)
     return _Sets(
-        values=values / np.abs(values).max(axis=(1, 2), keepdims=True),
+        values=values / size,
+        flow=np.concatenate([p.G[k] @ X for k in there], axis=1) / size,
         members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
         linear=tuple(k < p.linear for k in range(count)) * len(there),
         partner=np.concatenate([kind.partner[k] + j * count for j, k in enumerate(there)], axis=1),
@@ -170,13 +182,15 @@ def _kept(cones: _Cones) -> Iterator[_Rows]:
         yield _Rows(rank + 1, k, weight, cones.start[which][:, None] + np.arange(rank + 1))
 
 
-def _lines(sets: _Sets, weight: Array, valid: Flags, every_row: bool) -> _Rows:
-    """Linear rows, those that coincide merged in their mean."""
-    values = np.where(valid[..., None], weight @ sets.values, np.inf)
-    stands, share = _same(values)
+def _lines(sets: _Sets, weight: Array, valid: Flags, choice: Choice) -> _Rows:
+    """Linear rows, those that coincide, and flow alike where this counts, merged in their mean."""
+    lines = weight @ sets.values
+    flow = weight @ sets.flow if choice is Choice.FLOWING else None
+    alike = lines if flow is None else np.concatenate([lines, flow], axis=2)
+    stands, share = _same(np.where(valid[..., None], alike, np.inf))
     valid = valid & (stands == np.arange(valid.shape[1]))
-    if not every_row:
-        valid &= ~redundant(np.where(valid[..., None], values, 0.0), valid)
+    if choice is not Choice.EVERY:
+        valid &= ~redundant(np.where(valid[..., None], lines, 0.0), valid, flow)
     k, which = np.nonzero(valid)
     mean = np.einsum("klm,kmr->klr", share, weight)[k, which][:, None]
     return _Rows(1, k, mean, np.abs(mean[:, 0]).argmax(axis=1)[:, None])

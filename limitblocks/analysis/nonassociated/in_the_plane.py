@@ -1,0 +1,131 @@
+"""Paths in the plane of a planar problem: followed there, lifted back, and judged in the whole problem.
+
+Symmetric stresses and rates of the plane solve the equations of a path in the whole problem, too, if its
+compliance is symmetric: docs/planar.md has the proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from limitblocks.analysis.in_plane import in_plane
+from limitblocks.analysis.interior import carried
+from limitblocks.analysis.known import known
+from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.increment import Increment
+from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
+from limitblocks.analysis.nonassociated.path_equations import Point
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.nonassociated.start import Start, start_stresses
+from limitblocks.analysis.stability import dead_load_state
+from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.model import Model
+from limitblocks.problem import Flow, State
+from limitblocks.problem.plane import Choice, Planar
+
+SYMMETRIC = 1e-9  # of the largest stress: a start farther from its mirror image is not that of a planar path
+
+
+@dataclass(frozen=True, eq=False)
+class InPlane:
+    """The flow rule `whole` in its plane, the stresses a path starts from, and their compliance."""
+
+    whole: Flow
+    plane: Planar
+    flow: Flow
+    x0: Array
+    weights: Array
+
+    def accepted(self, state: State, tolerance: float) -> State | None:
+        """Return a state of the plane as one of the whole problem; None where that is no solution."""
+        lifted = self.plane.lifted(state)
+        with np.errstate(all="ignore"):  # a state that ran away is none
+            return lifted if mcp_residuals(self.whole, lifted).worst.value <= tolerance else None
+
+    def pushed(self, one: Pushed) -> Pushed:
+        """Return an increment of the plane as one of the whole problem."""
+        live, start, met = self.plane.live, self.plane.stresses @ one.start, one.increment
+        visits = tuple(
+            visit._replace(point=self._point(visit.point), rho=live * visit.rho) for visit in met.visits
+        )
+        increment = Increment(visits, self._point(met.end), live * met.rho, met.fading)
+        state = self.plane.lifted(one.state)
+        return replace(
+            one, start=start, increment=increment, state=state, residuals=mcp_residuals(self.whole, state)
+        )
+
+    @property
+    def share(self) -> Array:
+        """Of the barrier of the whole problem in each row of the plane."""
+        return self.plane.barrier_of(self.whole.problem.cones)
+
+    def _point(self, z: Point) -> Point:
+        up, p = self.plane.lifted(State(z.load_factor, z.x, z.u, z.y)), self.whole.problem
+        return Point(up.x, up.u, up.load_factor, p.F @ up.x + p.g, up.y, z.theta)
+
+
+def flow_in_plane(
+    model: Model, flow: Flow, weights: Array, start: Start | None, choice: Choice = Choice.FLOWING
+) -> InPlane | None:
+    """Return the flow rule in the plane parallel to which everything acts; None where there is none.
+
+    Nor is there one where the compliance `weights` (s,) or the stresses to start from are not symmetric. With
+    every row the path of a barrier without seed is that of the whole problem.
+    """
+    found = in_plane(model.problem, choice)
+    if found is None:
+        return None
+    plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
+    own = plane.compliance_of(weights)
+    x0 = None if own is None else _start(model, flow, plane, own, weights, start)
+    if own is None or x0 is None:
+        return None
+    return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
+
+
+def found_in_plane_or_whole(
+    model: Model,
+    flow: Flow,
+    start: Start | None,
+    tolerance: float,
+    solve: Callable[[Flow, Array], tuple[State, str]],
+) -> tuple[State, str]:
+    """Return what `solve` finds in the plane, if the whole problem accepts it; else what it finds there."""
+    weights = flow.problem.compliance
+    planar = flow_in_plane(model, flow, weights, start)
+    if planar is not None:
+        state, how = solve(planar.flow, planar.x0)
+        lifted = planar.accepted(state, tolerance)
+        if lifted is not None or how.endswith(INTERRUPTED):
+            return lifted or planar.plane.lifted(state), way_in_plane(how)
+    return solve(flow, start_stresses(model, flow.problem, weights, start))
+
+
+def _start(
+    model: Model, flow: Flow, plane: Planar, own: Array, weights: Array, start: Start | None
+) -> Array | None:
+    """Stresses of the plane to start from: given, or the least under the dead loads, which stand."""
+    if start is not None:
+        x = start_stresses(model, flow.problem, weights, start)
+        x0 = plane.stresses_of(x)
+        off = np.abs(plane.stresses @ x0 - x).max()
+        return x0 if off <= SYMMETRIC * np.abs(x).max(initial=0.0) else None
+    if carried(model.problem) is None:
+        dead_load_state(model.problem)
+    ratios = np.round(own / plane.problem.compliance, 9).tobytes()
+    return known(plane.problem, ("permanent state", ratios), lambda: permanent_state(plane.problem, own))
+
+
+def way_in_plane(how: str) -> str:
+    """Return the words of a way that was gone in the plane."""
+    end = f", {INTERRUPTED}"
+    return f"{how.removesuffix(end)}, in the plane{end * how.endswith(end)}"
+
+
+def admissible(pushes: tuple[Pushed, ...]) -> bool:
+    """Whether all increments end in equilibrium within yield."""
+    return all(max(one.residuals["equilibrium"], one.residuals["yield"]) <= ADMISSIBLE for one in pushes)

@@ -1,0 +1,120 @@
+"""The programs of one form compiled once: the answers of cvxpy's, in any order; and what a proof solves."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.analysis import certified, repair
+from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.forms import form_of
+from limitblocks.analysis.interior import carried
+from limitblocks.analysis.programs import DIRECT, NEARLY, ROUGH, solved
+from limitblocks.analysis.scales import scaled
+from limitblocks.evidence.residuals import Residuals, static_residuals
+
+JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
+
+
+def wall(joint, length=1.2, courses=4):
+    return structures.wall(joint, length=length, courses=courses, direction=(1.0, 1.0, 0.0))
+
+
+def facade(joint):
+    lengths = {"length": 6.4, "return_length": 3.2}
+    return structures.facade(joint, courses=7, openings=(), **lengths)
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_compiled_programs_have_the_answers_of_cvxpy(joint):
+    form = form_of(scaled(wall(joint).problem))
+    p, programs = form.problem, Programs(form)
+    amount = np.zeros(p.F.shape[0])
+    amount[p.cones.heads] = np.linspace(0.5, 1.0, len(p.cones.heads))
+    u, y = programs.mechanism(amount, NEARLY)
+    x = programs.stresses(NEARLY)  # after other numbers in the same solver
+    state = programs.limit_state(DIRECT)
+    expected = form.limit_state(solved(form.limit(), DIRECT))
+    assert state.load_factor == pytest.approx(expected.load_factor, rel=1e-8)
+    assert p.cones.margin(p.F @ x + p.g).min() > -1e-3
+    assert p.C.T @ x == pytest.approx(p.dead, abs=1e-2)
+    assert p.cones.margin(y - amount).min() > -1e-2
+    assert p.C @ u + p.F.T @ y == pytest.approx(0.0, abs=0.05)
+    again = programs.mechanism(amount, NEARLY)[0]
+    assert again == pytest.approx(u, abs=1e-6 * np.abs(u).max())
+
+
+def test_an_unlimited_load_has_no_state():
+    """A block between two supports that it is pushed against: no mechanism does work against the push."""
+    joint = lb.PointContact(0.6)
+    blocks = [
+        lb.Block.box("floor", (3.0, 1.0, 1.0), (0.0, 0.0, -0.5)),
+        lb.Block.box("wall", (1.0, 1.0, 1.0), (1.0, 0.0, 0.5)),
+        lb.Block.box("cube", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), 16.0),
+    ]
+    touching = lb.find_interfaces(blocks, joint)
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    model = lb.Model(blocks, ["floor", "wall"], touching, lb.self_weight(), push)
+    assert not np.isfinite(Programs(form_of(scaled(model.problem))).limit_state(DIRECT).load_factor)
+    with pytest.raises(lb.errors.UnlimitedLoad):
+        lb.bounds(model)
+
+
+def test_multipliers_of_a_facade_need_equations_that_are_hardly_regularised():
+    """With what Clarabel adds to the pivots by itself, 1e-8, they lack twenty times more of the cone."""
+    form = form_of(scaled(facade(lb.PointContact(0.6)).problem))
+    p = form.problem
+    lack = -p.cones.margin(Programs(form).limit_state(DIRECT).y).min()
+    by_default = -p.cones.margin(form.limit_state(solved(form.limit(), DIRECT)).y).min()
+    assert lack < by_default / 4.0
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_what_is_proven_closely_is_not_polished(joint, monkeypatch):
+    def polish(*_, **__):
+        raise AssertionError("polished")
+
+    monkeypatch.setattr(certified, "polish", polish)
+    model = wall(joint)
+    assert lb.bounds(model).proof.width <= 1e-8
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_one_mechanism_opens_the_joints_of_both_proofs(joint, monkeypatch):
+    asked, opened = [], repair.Repair.opened
+
+    def counted(self, amount):
+        asked.append(amount)
+        return opened(self, amount)
+
+    model = wall(joint)
+    dead = lb.bounds(model).dead_load_stresses / model.problem.stress_units
+    form = form_of(scaled(model.problem))
+    state = form.problem.in_problem(form.limit_state(solved(form.limit(), DIRECT)))
+    monkeypatch.setattr(repair.Repair, "opened", counted)
+    _, proof = certified.certified(model.problem, state, dead, close=0.0, patience=1)  # two proofs
+    assert proof.complete
+    assert len(asked) == 1
+
+
+def test_stresses_that_lie_outside_at_first_are_asked_for_again(monkeypatch):
+    """From some 10,000 blocks the loose program stops before its stresses are within yield."""
+    stresses, asked = Programs.stresses, []
+
+    def outside(self, solver):
+        asked.append(solver)
+        return stresses(self, solver) if solver is not ROUGH else -stresses(self, solver)
+
+    monkeypatch.setattr(Programs, "stresses", outside)
+    problem = wall(lb.PointContact(0.6)).problem
+    x = carried(problem)
+    assert asked == [ROUGH, NEARLY]
+    assert Residuals(static_residuals(problem, 0.0, x)).worst.value < 1e-12
+    assert problem.cones.margin(problem.F @ x + problem.g).min() > 0.0
+
+
+def test_friction_of_next_to_nothing_overflows_without_a_warning():
+    mu, h = 9.149273434195618e-293, 1.1335638064158748
+    push = (np.cos(4.981481785679262), np.sin(4.981481785679262), 0.0)
+    model = structures.column(lb.PointContact(mu), count=2, width=2.0, height=h, depth=0.7, direction=push)
+    assert lb.bounds(model).upper < 1e-6

@@ -1,0 +1,75 @@
+"""Rounds of the fixed point that close paths which wind, and the ways of large models."""
+
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import closing, ways
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
+from limitblocks.analysis.nonassociated.means import LARGE_MEANS, SOFTENING, Means, follow
+from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
+from limitblocks.analysis.polish import defect
+from limitblocks.problem import Flow
+
+
+def corner():
+    return lb.structures.corner(
+        lb.OrdunaLourenco(0.6), length=2.4, return_length=2.4, courses=4, direction=(1.0, 0.0, 0.0)
+    )
+
+
+def test_rounds_close_a_path_that_was_stopped():
+    """The state is off by the compliance left, by more than Newton's method can mend."""
+    model = corner()
+    problem = own_units(model, bracket(model))
+    flow = Flow(problem, softening=SOFTENING)
+    x0, scale = start_stresses(model, problem, problem.compliance, None), bracket(model).associated
+    first = LARGE_MEANS[0]
+    stopped = Means(first.barrier, first.seed, 60)
+    power = load_scale(problem, scale) / len(problem.blocks)
+    state, _ = follow(flow, x0, problem.compliance, means=[stopped], power=power)
+    assert defect(flow, state) > 1e-3
+    found, rounds = closing.closed(flow, NearestStresses(problem, problem.compliance), state, 1e-8)
+    assert defect(flow, found) <= 1e-8
+    assert rounds < closing.ROUNDS
+
+
+def test_a_large_model_is_solved_by_a_short_path_and_rounds(monkeypatch):
+    monkeypatch.setattr(ways, "LARGE", 10)
+    model = corner()
+    found = lb.nonassociated(model)
+    assert found.how.endswith("rounds of the fixed point")
+    assert lb.check_mcp(model, found).passed
+    assert found.frictionless <= found.load_factor <= found.associated * (1 + 1e-6)
+
+
+def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "closed", pressed)
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(corner())
+    assert caught.value.result.status is lb.results.Status.INTERRUPTED
+
+
+def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch):
+    """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-2."""
+    whole, ends = ways.closed, []
+
+    def rough(flow, nearest, state, tolerance):
+        found, rounds = whole(flow, nearest, state, tolerance)
+        mixed = [b + 1e-6 * (a - b) for a, b in zip(parts(state), parts(found), strict=True)]
+        ends.append(lb.problem.State(*mixed))
+        return ends[-1], rounds
+
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "closed", rough)
+    found = lb.nonassociated(corner(), backward_error=1e-2)
+    assert len(ends) == 1
+    assert found.status is lb.results.Status.NEARBY
+    assert found.backward_error.value <= 1e-2
+
+
+def parts(state):
+    return state.load_factor, state.x, state.u, state.y
