@@ -33,11 +33,13 @@ MEANS = (
     Means(Barrier(30.0, 2.0), 2, 600),
 )
 # Of models of some hundred blocks: the path with a small barrier bends at each row that starts to yield; it
-# is followed as far as pays, and rounds of the fixed point close it. Facades need that of a larger barrier.
+# is followed as far as pays, and rounds of the fixed point close it. Facades need that of a larger barrier; that of
+# 160 blocks pushed along the diagonal is closed by the last one alone.
 LARGE_MEANS = (
     Means(Barrier(), 1, 100),
     Means(Barrier(30.0, 2.0), 2, 600),
     Means(Barrier(3.0, 2.0), 1, 600),
+    Means(Barrier(0.2, 2.0), 2, 800),
 )
 # With a flow that can give power, from the solution that twists about the centroid: a solution that gives
 # power at an interface is none, and another seed leads to another one.
