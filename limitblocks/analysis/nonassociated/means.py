@@ -33,8 +33,8 @@ MEANS = (
     Means(Barrier(30.0, 2.0), 2, 600),
 )
 # Of models of some hundred blocks: the path with a small barrier bends at each row that starts to yield; it
-# is followed as far as pays, and rounds of the fixed point close it. Facades need that of a larger barrier; that of
-# 160 blocks pushed along the diagonal is closed by the last one alone.
+# is followed as far as pays, and rounds of the fixed point close it. Facades need that of a larger barrier;
+# one of 160 blocks pushed along the diagonal is closed by the last path alone.
 LARGE_MEANS = (
     Means(Barrier(), 1, 100),
     Means(Barrier(30.0, 2.0), 2, 600),
