@@ -120,7 +120,7 @@ def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Itera
             return
         if not all(np.isfinite(part).all() for part in (now.load_factor, now.x, now.u, now.y)):
             return
-        iterate = _admissible(p.cones, now)
+        iterate = admissible(p.cones, now)
         worst = defect(flow, iterate)
         failed = failed + 1 if worst >= least else 0
         least = min(least, worst)
@@ -219,8 +219,8 @@ def _complementarity(
     return rows, conditions[rows], by_stress, by_multiplier
 
 
-def _admissible(cones: Cones, state: State) -> State:
-    """The state with multipliers that left K by rounding put back."""
+def admissible(cones: Cones, state: State) -> State:
+    """Return the state with multipliers that left K by rounding put back."""
     y = state.y.copy()
     y[: cones.linear] = np.maximum(y[: cones.linear], 0.0)
     for index in cones.groups:

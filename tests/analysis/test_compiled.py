@@ -111,3 +111,10 @@ def test_stresses_that_lie_outside_at_first_are_asked_for_again(monkeypatch):
     assert asked == [ROUGH, NEARLY]
     assert Residuals(static_residuals(problem, 0.0, x)).worst.value < 1e-12
     assert problem.cones.margin(problem.F @ x + problem.g).min() > 0.0
+
+
+def test_friction_of_next_to_nothing_overflows_without_a_warning():
+    mu, h = 9.149273434195618e-293, 1.1335638064158748
+    push = (np.cos(4.981481785679262), np.sin(4.981481785679262), 0.0)
+    model = structures.column(lb.PointContact(mu), count=2, width=2.0, height=h, depth=0.7, direction=push)
+    assert lb.bounds(model).upper < 1e-6

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis.nonassociated import path as paths
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.polish import Kind, classified, defect, polish
@@ -27,7 +28,10 @@ def noisy(state, size):
 
 @pytest.mark.parametrize("joint", JOINTS, ids=repr)
 @pytest.mark.parametrize("flow", FLOWS)
-def test_a_rough_state_is_polished_to_rounding(joint, flow):
+def test_a_rough_state_is_polished_to_rounding(joint, flow, monkeypatch):
+    # pivots may end where slack and multiplier of a row are both zero; the polish needs one that is not
+    monkeypatch.setattr(paths, "pivoted", lambda flow, state: state)
+    monkeypatch.setattr(paths, "TRIED", 1e-3)
     problem = lb.structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)).problem
     rule = Flow(problem, **FLOWS[flow])
     solution, path = track(rule, permanent_state(problem, problem.compliance), problem.compliance)

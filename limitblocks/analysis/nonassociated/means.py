@@ -11,6 +11,8 @@ from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
+MEDIUM = 0.2  # size of a barrier up to which paths are tried before the increments
+
 
 class Means(NamedTuple):
     """A path to try: its barrier, the seed of its weights, and the factorisations it may take."""
@@ -21,11 +23,12 @@ class Means(NamedTuple):
 
 
 # The small barrier is the load path. Where it winds the compliance fades before the barrier (power 2), which
-# cuts most folds; increments come next; then the barrier is larger, which leads to another solution, mostly
-# at a higher load factor.
+# cuts most folds; then the barrier is ten times as large, and facades of 160 blocks arrive; increments come
+# next; then the barrier is larger still, which leads to another solution, mostly at a higher load factor.
 MEANS = (
     Means(Barrier(), 1, 300),
     Means(Barrier(0.02, 2.0), 1, 300),
+    Means(Barrier(0.2, 2.0), 2, 800),
     Means(Barrier(3.0, 2.0), 1, 600),
     Means(Barrier(30.0, 2.0), 2, 600),
 )

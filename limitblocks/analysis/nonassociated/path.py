@@ -28,10 +28,11 @@ from limitblocks.analysis.nonassociated.path_equations import (
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
-from limitblocks.analysis.nonassociated.path_start import centred, path_from, settled
-from limitblocks.analysis.polish import defect, polish
+from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.pivot import pivoted
+from limitblocks.analysis.polish import PATIENCE, defect, polish
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
@@ -39,9 +40,9 @@ CUT = 0.35  # of the length after a failure
 PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
-TRIED, AGAIN, LAST = 1e-3, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
+TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
+DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
-CLOSE = 1e-4  # residual from which on the polish takes steps of least norm, half of the time at 500 blocks
 BUDGET = 600  # factorisations
 
 
@@ -230,13 +231,9 @@ class Walk:
         if z.theta < LAST:
             raise Lost("no solution at the end")
         self.tried = AGAIN * z.theta
-        far = defect(self.path.flow, self.state) > CLOSE
-        self._keep(polish(self.path.flow, self.state, patience=2 if far else None))
-        here = mcp_residuals(self.path.flow, self.state)
-        if self.left > TOLERANCE >= here["complementarity"]:  # only compliance is left
-            for point in settled(self.path, z):
-                self.factorisations += 1
-                self._keep(state_of(point))
+        self._keep(polish(self.path.flow, self.state, patience=PATIENCE))
+        if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
+            self._keep(pivoted(self.path.flow, self.state))
         return self.left < TOLERANCE
 
     def _keep(self, state: State) -> None:

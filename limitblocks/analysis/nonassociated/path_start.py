@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
-
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
@@ -24,7 +21,6 @@ from limitblocks.problem.barrier import quotient
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary
 ITERATIONS = 60
-ROUNDS = 4  # of the proximal point method at the end
 
 
 def path_from(
@@ -83,18 +79,3 @@ def centred(path: Path) -> tuple[Point | None, int]:
         (d,) = Newton(path, z).solve(left.negative())
         z = moved(path, z, 1.0, d)
     return None, ITERATIONS
-
-
-def settled(path: Path, z: Point) -> Iterator[Point]:
-    """Yield what rounds of the proximal point method make of a point: its flow without compliance.
-
-    Each starts from the stresses of the one before, so that the compliance left has no share in the flow.
-    """
-    for _ in range(ROUNDS):
-        path = replace(path, x0=z.x, carried=np.zeros_like(z.x))
-        try:
-            (d,) = Newton(path, z).solve(residuals(path, z).negative())
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):
-            return
-        z = moved(path, z, 1.0, d)
-        yield z

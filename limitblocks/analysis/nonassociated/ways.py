@@ -12,13 +12,13 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
+    MEDIUM,
     SOFTENING,
     TURNED_MEANS,
     TURNED_SOFTENING,
     Means,
     follow,
 )
-from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import defect, polish
@@ -95,7 +95,7 @@ def _ways(
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"from the solution that twists about the centroid, {how}"
-    small = [one for one in means[1:] if one.barrier.size <= Barrier().size]
+    small = [one for one in means[1:] if one.barrier.size <= MEDIUM]
     for one in small:
         yield tracked(one, x0)
     yield _increments(flow, x0, scale, tolerance, record)

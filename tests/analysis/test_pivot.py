@@ -1,0 +1,69 @@
+"""The closing step: complementary pivots close what the polish alone leaves open, and harm nothing."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis import pivot
+from limitblocks.analysis.nonassociated import path
+from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.pivot import pivoted
+from limitblocks.analysis.polish import defect
+from limitblocks.problem import Flow, State, Turning
+
+CRUSHING = lb.OrdunaLourenco(0.6, compressive_strength=3e5)
+VAULT = lb.structures.barrel_vault(
+    CRUSHING, radius=1.5, thickness=0.4, length=1.8, courses=7, stones=3, direction=(1.0, 1.0, 0.0)
+)
+ONE_PATH = [lb.settings.Means(Barrier(0.02, 2.0), seed=1, budget=130)]  # without pivots it takes 172
+
+
+@pytest.mark.parametrize("pivots", [True, False])
+def test_a_path_is_closed_before_it_is_plain_what_yields(pivots, monkeypatch):
+    if not pivots:
+        monkeypatch.setattr(path, "pivoted", lambda flow, state: state)
+    result = lb.nonassociated(VAULT, means=ONE_PATH, confirm=False, throw=False)
+    assert result.converged is pivots
+    assert lb.check_mcp(VAULT, result).passed is pivots
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), CRUSHING, lb.PointContact(0.6)], ids=repr)
+@pytest.mark.parametrize("about", Turning)
+@pytest.mark.parametrize("dilatancy", [0.0, 0.2])
+def test_a_state_off_a_solution_is_taken_to_one(joint, about, dilatancy):
+    problem = lb.structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)).problem
+    flow = Flow(problem, dilatancy, about)
+    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    random = np.random.default_rng(0)
+    off = (v + 1e-5 * random.uniform(-1.0, 1.0, v.shape) for v in (solution.x, solution.u, solution.y))
+    rough = State(solution.load_factor + 1e-5, *off)
+    assert defect(flow, rough) > 1e-6
+    assert defect(flow, pivoted(flow, rough)) <= 1e-8
+
+
+def test_a_block_that_slides_and_tips_at_once():
+    """Friction 0.5 and half a width over half a height 0.5: both yield, one of them at rest."""
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=2.0).problem
+    flow = Flow(problem)
+    x0 = permanent_state(problem, problem.compliance)
+    early, _ = track(flow, x0, problem.compliance, budget=12)
+    found = pivoted(flow, early)
+    assert defect(flow, found) <= 1e-8
+    assert abs(found.load_factor / problem.units.live - 0.5) < 1e-8
+
+
+def test_what_it_cannot_better_it_returns():
+    problem = lb.structures.wall(CRUSHING, length=0.8, courses=3).problem
+    flow, random = Flow(problem), np.random.default_rng(1)
+    far = State(1.0, *(random.normal(size=n) for n in (*problem.C.shape, problem.cones.height)))
+    assert defect(flow, pivoted(flow, far)) <= defect(flow, far)
+
+
+def test_nothing_is_done_where_too_many_rows_are_open(monkeypatch):
+    problem = lb.structures.wall(CRUSHING, length=0.8, courses=3).problem
+    flow = Flow(problem)
+    early, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance, budget=12)
+    monkeypatch.setattr(pivot, "LARGEST", 0)
+    assert pivoted(flow, early) is early
