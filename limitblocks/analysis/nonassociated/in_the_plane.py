@@ -24,7 +24,7 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State
+from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar
 
 SYMMETRIC = 1e-9  # of the largest stress: a start farther from its mirror image is not that of a planar path
@@ -81,7 +81,7 @@ def flow_in_plane(
         return None
     plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
     own = plane.compliance_of(weights)
-    x0 = None if own is None else _start(model, flow, plane, own, weights, start)
+    x0 = None if own is None else _start(model, flow.problem, plane, own, weights, start)
     if own is None or x0 is None:
         return None
     return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
@@ -106,18 +106,20 @@ def found_in_plane_or_whole(
 
 
 def _start(
-    model: Model, flow: Flow, plane: Planar, own: Array, weights: Array, start: Start | None
+    model: Model, problem: LimitProblem, plane: Planar, own: Array, weights: Array, start: Start | None
 ) -> Array | None:
     """Stresses of the plane to start from: given, or the least under the dead loads, which stand."""
     if start is not None:
-        x = start_stresses(model, flow.problem, weights, start)
+        x = start_stresses(model, problem, weights, start)
         x0 = plane.stresses_of(x)
         off = np.abs(plane.stresses @ x0 - x).max()
         return x0 if off <= SYMMETRIC * np.abs(x).max(initial=0.0) else None
     if carried(model.problem) is None:
         dead_load_state(model.problem)
     ratios = np.round(own / plane.problem.compliance, 9).tobytes()
-    return known(plane.problem, ("permanent state", ratios), lambda: permanent_state(plane.problem, own))
+    return known(
+        problem, ("permanent state in the plane", ratios), lambda: permanent_state(plane.problem, own)
+    )
 
 
 def way_in_plane(how: str) -> str:
