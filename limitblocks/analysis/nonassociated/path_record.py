@@ -9,17 +9,22 @@ from typing import NamedTuple
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
-LARGE = "large barrier"
+LARGE, ROUNDS = "large barrier", "rounds of the fixed point"
 
 
 def off_load_path(how: str) -> tuple[str, ...]:
-    """What a reader should know of an answer that a large barrier led to."""
-    if LARGE not in how:
-        return ()
-    return (
-        "a large barrier led to this solution: it is not that of the load path, and most of them are higher; "
-        "load_factor_range shows others",
-    )
+    """What a reader should know of an answer that a large barrier or rounds led to."""
+    if LARGE in how:
+        return (
+            "a large barrier led to this solution: it is not that of the load path, and most of them are "
+            "higher; load_factor_range shows others",
+        )
+    if ROUNDS in how:
+        return (
+            "rounds of the fixed point led to this solution from a path that did not end: it need not be "
+            "that of the load path; load_factor_range shows others",
+        )
+    return ()
 
 
 class Progress(NamedTuple):

@@ -19,7 +19,7 @@ from limitblocks.analysis.nonassociated.means import (
     Means,
     follow,
 )
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, ROUNDS, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
@@ -134,7 +134,7 @@ def _in_rounds(
         best, rounds = closed(flow, nearest, state, tolerance)
     except KeyboardInterrupt:
         return state, f"{how}, {INTERRUPTED}"
-    return best, f"{how}, {rounds} rounds of the fixed point"
+    return best, f"{how}, {rounds} {ROUNDS}"
 
 
 def _increments(

@@ -39,6 +39,7 @@ def test_a_large_model_is_solved_by_a_short_path_and_rounds(monkeypatch):
     found = lb.nonassociated(model)
     assert found.how.endswith("rounds of the fixed point")
     assert lb.check_mcp(model, found).passed
+    assert any("need not be that of the load path" in remark for remark in found.remarks)
     assert found.frictionless <= found.load_factor <= found.associated * (1 + 1e-6)
 
 
