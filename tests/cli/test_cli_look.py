@@ -162,7 +162,7 @@ def test_look_at_a_model_file(tmp_path):
     assert "limitblocks model" in said
     assert f"Next: limitblocks info {tmp_path / 'portal.json'}" in said
     refused = run("look", tmp_path / "portal.json", "--units", "mm", code=2).stderr
-    assert "a model file says units and axes itself" in refused
+    assert "a model file says units, axes and faces itself" in refused
 
 
 def test_joints_drawn_open_name_distance_and_gap(tmp_path):
