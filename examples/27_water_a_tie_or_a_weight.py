@@ -68,7 +68,8 @@ def wet(level):
 def picture(folder, carried):
     import matplotlib.pyplot as plt
 
-    figure, axis = plt.subplots(figsize=(6, 4), layout="constrained")
+    plt.style.use("limitblocks.plots.paper")
+    figure, axis = plt.subplots(figsize=(3.5, 2.6))
     axis.plot(LEVELS, carried, "o", label="computed")
     z = np.linspace(0, 4, 50)
     axis.plot(z, min(MU, B / H) * (1 - WATER * z * B / W), "k--", linewidth=1, label="(b / h) (1 - U / W)")
@@ -76,7 +77,7 @@ def picture(folder, carried):
     axis.set(xlabel="water over the base, m", ylabel="load factor", ylim=(0, None))
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
-    figure.savefig(folder / "27_water_a_tie_or_a_weight.png", dpi=120)
+    figure.savefig(folder / "27_water_a_tie_or_a_weight.png")
     plt.close(figure)
 
 

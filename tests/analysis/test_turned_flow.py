@@ -7,7 +7,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
-from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING, follow
+from limitblocks.analysis.nonassociated.means import TURNED_MEANS, TURNED_SOFTENING, follow
 from limitblocks.analysis.nonassociated.start import (
     bracket,
     load_scale,
@@ -85,19 +85,18 @@ def corner():
     return model, lb.nonassociated(model)
 
 
-@pytest.mark.parametrize(("softening", "solved"), [(TURNED_SOFTENING, True), (SOFTENING, False)])
-def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner, softening, solved):
+def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner):
     model, about_centroid = corner
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, 0.0, Turning.PRESSURE)
     x0 = start_stresses(model, problem, problem.compliance, about_centroid)
     state, _ = follow(
-        replace(flow, softening=softening),
+        replace(flow, softening=TURNED_SOFTENING),
         x0,
         problem.compliance,
         means=[TURNED_MEANS[6]],
         power=load_scale(problem, enclosing.associated) / len(problem.blocks),
     )
     worst = mcp_residuals(flow, polish(flow, state)).worst.value
-    assert (worst <= TOLERANCE) == solved
+    assert worst <= TOLERANCE

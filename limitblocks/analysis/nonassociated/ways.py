@@ -27,7 +27,7 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
-LARGE = 100  # blocks: beyond it increments take more than 40 times as long as bounds
+LARGE = 100  # blocks in space: beyond it increments take more than 40 times as long as bounds
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
@@ -45,7 +45,8 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    large = len(flow.problem.blocks) > LARGE and flow.dissipative and len(means) > 1
+    rates, blocks = flow.problem.C.shape[1], len(flow.problem.blocks)
+    large = rates > 3 * blocks > 3 * LARGE and flow.dissipative and len(means) > 1
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
