@@ -19,6 +19,7 @@ from limitblocks.analysis.nonassociated.means import (
     Means,
     follow,
 )
+from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, ROUNDS, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import defect, polish
@@ -45,8 +46,7 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    rates, blocks = flow.problem.C.shape[1], len(flow.problem.blocks)
-    large = rates > 3 * blocks > 3 * LARGE and flow.dissipative and len(means) > 1
+    large = len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative and len(means) > 1
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -96,13 +96,19 @@ def _ways(
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"from the solution that twists about the centroid, {how}"
-    small = [one for one in means[1:] if one.barrier.size <= MEDIUM]
+    most = MEDIUM if _in_space(flow) else Barrier().size  # in a plane increments cost little
+    small = [one for one in means[1:] if one.barrier.size <= most]
     for one in small:
         yield tracked(one, x0)
     yield _increments(flow, x0, scale, tolerance, record)
     for one in means[1:]:
         if one not in small:
             yield tracked(one, x0)
+
+
+def _in_space(flow: Flow) -> bool:
+    """Whether blocks have more rates that move joints than the three of a plane."""
+    return len(np.unique(flow.problem.C.indices)) > 3 * len(flow.problem.blocks)
 
 
 def _large_ways(
