@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
@@ -18,6 +19,8 @@ from limitblocks.model import Model
 SHOWN, TURN = 0.08, 0.25
 #: Of the largest displacement rate: a block that moves less counts as standing still.
 STILL = 1e-3
+#: Of the size of the structure: places as near as that differ by rounding.
+STANDS = 1e-12
 
 
 class Motion(NamedTuple):
@@ -61,6 +64,33 @@ def motion(model: Model, result: Any) -> Motion:
         )
     factor = magnification(model.blocks, states)
     return Motion(factor * states, factor)
+
+
+def places(model: Model, result: Any) -> Array:
+    """Return the displacements (k, n, 6) through which the blocks pass in a curve, at their true size.
+
+    Parameters
+    ----------
+    model : Model
+    result : CapacityCurve or SettlementCurve
+        Its points have the displaced model. Translations are those of the centroids, m; rotations are the
+        vectors of finite ones, rad.
+
+    Raises
+    ------
+    ModelError
+        The result belongs to another model.
+    """
+    refuse_other(model, result)
+    states = np.zeros((len(result.points), len(model.blocks), 6))
+    for state, point in zip(states, result.points, strict=True):
+        for moved, rest, block in zip(state, model.blocks, point.model.blocks, strict=True):
+            arms = block.vertices - block.centroid, rest.vertices - rest.centroid
+            moved[:3] = block.centroid - rest.centroid
+            moved[3:] = Rotation.align_vectors(*arms)[0].as_rotvec()
+    points = np.concatenate([block.vertices for block in model.blocks])
+    still = np.abs(states).max(axis=(0, 2)) <= STANDS * np.ptp(points, axis=0).max()
+    return np.where(still[:, None], 0.0, states)
 
 
 def displaced(block: Block, moved: Array) -> Array:

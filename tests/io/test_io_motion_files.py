@@ -13,6 +13,7 @@ from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.practice import capacity_curve
 
 JOINT = lb.OrdunaLourenco(0.6)
 ARCH = lb.structures.arch(JOINT, radius=5.0, thickness=0.8, voussoirs=7, embrace=2.8)
@@ -108,6 +109,32 @@ def test_load_path_is_a_collection_of_states(path, tmp_path):
     assert not moved[0].any()
     assert moved[1] == pytest.approx(moved[2] / 2.0)  # one factor for all
     assert meshes[1].field_data["load_factor"][0] == pytest.approx(BOUNDS.lower / 2.0)
+
+
+def test_animation_of_a_capacity_curve_has_its_true_places(tmp_path):
+    """A block that rocks: the corner above its toe goes d = h sin(angle), the centroid on a circle."""
+    b, h = 0.2, 1.0
+    model = lb.structures.block(lb.PointContact(0.6), width=b, height=h)
+    corner = max(model.free_blocks[0].vertices.tolist(), key=lambda at: at[0] + at[2])
+    curve = capacity_curve(model, control=("block 1", corner), steps=3)
+    document, arrays = read_glb(lb.files.write_animation(model, tmp_path / "curve.glb", curve))
+    (animation,) = document["animations"]
+    names = [node.get("name") for node in document["nodes"]]
+    found = {}
+    for channel in animation["channels"]:
+        sampler = animation["samplers"][channel["sampler"]]
+        assert names[channel["target"]["node"]] == "block 1"
+        found[channel["target"]["path"]] = arrays[sampler["output"]]
+    angles = np.arcsin(np.concatenate([[0.0], curve.displacements]) / h)
+    turns = 2 * np.arccos(np.clip(np.abs(found["rotation"][:, 3]), 0, 1))
+    assert turns == pytest.approx(angles, abs=1e-3)  # single precision
+    start = np.arctan2(h / 2, -b / 2) - angles  # of the centroid, seen from the toe
+    arm = np.hypot(b, h) / 2
+    x, y = found["translation"][:, 0], found["translation"][:, 1]
+    assert x - x[0] == pytest.approx(arm * (np.cos(start) - np.cos(start[0])), abs=1e-6)
+    assert y - y[0] == pytest.approx(arm * (np.sin(start) - np.sin(start[0])), abs=1e-6)
+    with pytest.raises(lb.errors.ModelError, match="belongs to model"):
+        lb.files.write_animation(ARCH, tmp_path / "other.glb", curve)
 
 
 def test_animation_turns_blocks_about_their_centroids(path, tmp_path):

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
-from limitblocks.drawing.motion import motion
+from limitblocks.drawing.motion import motion, places
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.io.colours import linear_of
@@ -35,14 +35,14 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
 
     A mechanism grows from nothing in two seconds; a load path passes through its steps in them. Motion
     is scaled as in :func:`limitblocks.files.write_vtu`, and the rotations are true ones, not their linear
-    part.
+    part. Capacity curves and settlements until collapse pass through their points at true size.
 
     Parameters
     ----------
     model : Model
     file : str or Path
         Name of a file that ends in .glb.
-    result : LoadPath, or any result with `displacement_rates` (n, 6)
+    result : LoadPath, CapacityCurve, SettlementCurve, or any result with `displacement_rates` (n, 6)
     overwrite : bool
         Replace the file if it exists.
 
@@ -58,7 +58,7 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     path = Path(file)
     if path.suffix.lower() != ".glb":
         raise ModelError(f"{path}: suffix {path.suffix!r} is not that of an animation; expected .glb")
-    states = motion(model, result).states
+    states = places(model, result) if hasattr(result, "points") else motion(model, result).states
     supports = set(model.supports)
     layers = labels(model.blocks, supports)
     still = np.zeros_like(states[:1])
