@@ -12,7 +12,7 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.programs import Program, Solution, Solver, in_cone, solved, solvers
-from limitblocks.arrays import Array
+from limitblocks.arrays import Indices
 from limitblocks.evidence.residuals import TOLERANCE, Residuals, static_residuals
 from limitblocks.problem import LimitProblem
 
@@ -51,17 +51,17 @@ def _best(p: LimitProblem, most: float | None) -> tuple[float, str]:
     return np.nan, UNSOLVED
 
 
-def _unsheared(p: LimitProblem) -> Array:
-    """Which stresses do no work on what flows otherwise than normal to yield, shape (s,)."""
+def _unsheared(p: LimitProblem) -> Indices:
+    """Stresses that do no work on what flows otherwise than normal to yield."""
     turned = np.bincount(p.cones.member, weights=abs(p.F - p.G).sum(axis=1)) > 0.0
-    return np.asarray(abs(p.G)[turned[p.cones.member]].sum(axis=0) == 0.0)
+    return np.flatnonzero(abs(p.G)[turned[p.cones.member]].sum(axis=0) == 0.0)
 
 
 def _solved(p: LimitProblem, most: float | None, solver: Solver) -> Solution:
     """Load factor and stresses of the program."""
     kept = _unsheared(p)
     C, F = p.C[kept], p.F[:, kept]
-    load_factor, x = cp.Variable(), cp.Variable(int(kept.sum()))
+    load_factor, x = cp.Variable(), cp.Variable(len(kept))
     rows, cones = F @ x + p.g, p.cones
     tails = np.setdiff1d(np.arange(cones.height), cones.heads)
     straight = not (F[tails].nnz or p.g[tails].any())  # all cones are left without a tail
