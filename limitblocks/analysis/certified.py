@@ -59,14 +59,14 @@ def certified(
     patience : int, optional
         Of the polish; in a plane it comes first. Left out: it is thorough.
     programs : Programs, optional
-        Of the whole problem, compiled already.
+        Compiled already: of the problem reduced by its mirror, if it has one.
     """
     own = own_units(problem, state)
     given, plane = own.dimensionless(problem.in_si(state)), in_plane(problem)
-    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane)
+    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane, programs)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
-        polished = plane is not None and patience is not None
+        polished = plane is not None and plane.flat and patience is not None
         if polished:
             given = _polished(problem, own, given, patience)
         found, proof = mixture.proven(given)
