@@ -47,6 +47,9 @@ Modes = Annotated[
         "--mode", help="T,GAMMA,PSI,XI of a mode of the building at the height of the mechanism; repeat it."
     ),
 ]
+ElasticPeriod = Annotated[
+    float, typer.Option(help="T_0 of an element free to vibrate, such as a parapet, s; 0 if it is not.")
+]
 
 
 def settle(
@@ -96,6 +99,7 @@ def verify(
     collapse: Collapse = "",
     damage: Damage = "",
     modes: Modes = None,
+    elastic_period: ElasticPeriod = 0.0,
     filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -108,6 +112,7 @@ def verify(
         site = Spectrum(ground * G, soil, amplification, corner)
         demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
         demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
+        demands |= {"elastic_period": elastic_period}
         curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
         beside.extend((solved, curve) if curve else (solved,))

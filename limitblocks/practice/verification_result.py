@@ -9,10 +9,10 @@ from limitblocks.practice.moving_masses import MovingMass
 from limitblocks.shown import Result
 
 CLAIMED = (
-    "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12] and [C7.2.5] to "
-    "[C7.2.8] were checked against a transcription of the official text, not against the Gazzetta itself; "
-    "M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 (ties or other links "
-    "that break, beams that slip off) and C8.7.1.2.1.9 (time histories)."
+    "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12], [C7.2.5] to "
+    "[C7.2.10] and [3.2.10] were checked against a transcription of the official text, not against the "
+    "Gazzetta itself; M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 "
+    "(ties or other links that break, beams that slip off) and C8.7.1.2.1.9 (time histories)."
 )
 
 

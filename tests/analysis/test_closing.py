@@ -6,6 +6,7 @@ import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.means import LARGE_MEANS, SOFTENING, Means, follow
+from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow
@@ -41,6 +42,12 @@ def test_a_large_model_is_solved_by_a_short_path_and_rounds(monkeypatch):
     assert lb.check_mcp(model, found).passed
     assert any("need not be that of the load path" in remark for remark in found.remarks)
     assert found.frictionless <= found.load_factor <= found.associated * (1 + 1e-6)
+
+
+def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
+    monkeypatch.setattr(ways, "LARGE", 10)
+    own = [Means(Barrier(0.5, 2.0), 3, 300), Means(Barrier(0.5, 2.0), 4, 300)]
+    assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
 def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):

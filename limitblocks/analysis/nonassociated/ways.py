@@ -12,6 +12,7 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
+    MEANS,
     MEDIUM,
     SOFTENING,
     TURNED_MEANS,
@@ -46,7 +47,7 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    large = len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative and len(means) > 1
+    large = means is MEANS and len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -73,17 +74,10 @@ def _ways(
     record: Callable[[Iteration], None],
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of one way after the other, and which way it was."""
-    problem, weights = flow.problem, flow.problem.compliance
-    power = scale / len(problem.blocks)
 
     def tracked(one: Means, x: Array, softening: float = SOFTENING) -> tuple[State, str]:
-        smooth = replace(flow, softening=softening)
-        state, (info,) = follow(
-            smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
-        )
-        if info.interrupted:
-            return state, f"{info.how}, {INTERRUPTED}"
-        return polish(flow, state), info.how
+        state, how = _tracked(flow, x, scale, one, record, softening)
+        return state if how.endswith(INTERRUPTED) else polish(flow, state), how
 
     yield tracked(means[0], x0)
     if len(means) == 1:
@@ -115,22 +109,34 @@ def _large_ways(
     flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
-    problem, weights = flow.problem, flow.problem.compliance
-    smooth, nearest = replace(flow, softening=SOFTENING), NearestStresses(problem, weights)
+    nearest = NearestStresses(flow.problem, flow.problem.compliance)
     for one in LARGE_MEANS:
-        state, (info,) = follow(
-            smooth,
-            x0,
-            weights,
-            means=[one],
-            power=scale / len(problem.blocks),
-            progress=lambda at: record(_point(problem, at)),
-        )
-        how = f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
-        if info.interrupted or defect(flow, state) <= tolerance:
+        state, how = _tracked(flow, x0, scale, one, record)
+        if how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance:
             yield state, how
         else:
             yield _in_rounds(flow, nearest, state, how, tolerance)
+
+
+def _tracked(
+    flow: Flow,
+    x: Array,
+    scale: float,
+    one: Means,
+    record: Callable[[Iteration], None],
+    softening: float = SOFTENING,
+) -> tuple[State, str]:
+    """The end of one path from stresses x, and which path it was."""
+    problem = flow.problem
+    state, (info,) = follow(
+        replace(flow, softening=softening),
+        x,
+        problem.compliance,
+        means=[one],
+        power=scale / len(problem.blocks),
+        progress=lambda at: record(_point(problem, at)),
+    )
+    return state, f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
 
 
 def _in_rounds(
