@@ -162,9 +162,10 @@ def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arr
 
 def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
     """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
-    state, proof = certified(pair.problem, pair.state, dead)
-    if proof.width <= tolerance:
-        return replace(pair, state=state), proof
+    for whole in (False, True) if in_plane(pair.problem) else (True,):
+        state, proof = certified(pair.problem, pair.state, dead, whole=whole)
+        if proof.width <= tolerance:
+            return replace(pair, state=state), proof
     if proof.complete:
         wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
         proof = Proof(-np.inf, np.inf, wide, wide)

@@ -66,6 +66,6 @@ def _across_resultants(problem: LimitProblem) -> Array:
 def _images(at: Array, normal: Array) -> Indices | None:
     """The block (n,) at the mirror image of each centroid; None where one has no such block."""
     mirrored = at - 2.0 * np.outer(at @ normal, normal)
-    off, image = cKDTree(at).query(mirrored)
+    off, image = (np.asarray(part) for part in cKDTree(at).query(mirrored))
     exact = off.max() <= MATCHED * np.abs(at).max() and (image[image] == np.arange(len(at))).all()
     return np.asarray(image, dtype=np.int64) if exact else None

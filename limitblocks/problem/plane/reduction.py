@@ -91,10 +91,12 @@ def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
     still, paired = image == blocks, image != blocks
     parts = [(block, blocks[still], column[still]), (np.eye(6), blocks[paired], column[paired])]
     parts.append((mirror.rates, image[paired], column[paired]))
-    shape = (n, len(blocks))
-    return sparse.csr_array(
-        sum(sparse.kron(sparse.coo_array((np.ones(len(i)), (i, j)), shape), own) for own, i, j in parts)
-    )
+    u = sparse.csr_array((6 * n, 6 * len(blocks)))
+    for own, i, j in parts:
+        u = sparse.csr_array(
+            u + sparse.kron(sparse.coo_array((np.ones(len(i)), (i, j)), (n, len(blocks))), own)
+        )
+    return u
 
 
 def _ends(ends: Indices, image: Indices, blocks: Indices) -> Indices:
