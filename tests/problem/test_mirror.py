@@ -143,6 +143,14 @@ def test_lifted_states_are_symmetric_and_say_the_same(build):
         assert all(np.allclose(*pair) for pair in ((again.x, x), (again.u, u), (again.y, y)))
 
 
+def test_faces_of_a_groove_mirror_each_other_not_themselves():
+    """Shear across the slip locks on polygons, so that the halves of a groove are no planes of their own."""
+    groove = structures.wedge(JOINTS["octagon"], half_angle=np.pi / 4)
+    assert not in_plane(groove.problem).flat
+    assert len(in_plane(groove.problem).problem.interfaces) == 1
+    assert same(lb.bounds(groove), without_mirror(lb.bounds, groove))
+
+
 def test_what_is_not_symmetric_is_not_halved():
     for name in ("points", "octagon"):
         model = facade(JOINTS[name])

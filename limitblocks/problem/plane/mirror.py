@@ -169,7 +169,7 @@ def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
     if not (image[image] == np.arange(K)).all() or not close(back @ turn, np.eye(c)[None], 1.0):
         return None
     still = (np.where(kind.ends >= 0, blocks[kind.ends], -1) == kind.ends).all(axis=1)
-    own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT)
+    own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT) & _plane_of_its_own(kind, turn, rates)
     values = numbers(kind, None)
     first, sort = classes(values / size_of(values), turn)
     partner = _partners(kind, image, turn, own, first, sort)
@@ -177,6 +177,13 @@ def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
         own = np.zeros_like(own)  # not by planes of their own, but as pairs
         partner = _partners(kind, image, turn, own, first, sort)
     return None if partner is None else Mirrored(kind, image, turn, own, partner, sort)
+
+
+def _plane_of_its_own(kind: Place, turn: Array, rates: Array) -> Flags:
+    """Whether the turn leaves the strains of a place by symmetric rates of its blocks as they are."""
+    strain = kind.strain @ (np.eye(6) + rates)
+    off = np.abs(turn[:, None] @ strain - strain).max(axis=(1, 2, 3))
+    return np.asarray(off <= EXACT * np.abs(strain).max(axis=(1, 2, 3)))
 
 
 def _partners(
