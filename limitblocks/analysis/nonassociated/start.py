@@ -70,7 +70,7 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     limit_load = enclosing.bounds
     if limit_load is None:
         return model.problem
-    state = _state_of(model, model.problem, limit_load)
+    state = state_of(model, model.problem, limit_load)
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
 
 
@@ -88,10 +88,11 @@ def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None
     """A result as a state of the flow rule, polished: with associated flow bounds are a solution."""
     if not isinstance(given, Nonassociated | Bounds) or given.digest != model.digest:
         return None
-    return polish(flow, _state_of(model, flow.problem, given))
+    return polish(flow, state_of(model, flow.problem, given))
 
 
-def _state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
+def state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
+    """Return a result as a dimensionless state."""
     supports = set(model.supports)
     places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     rates = result.displacement_rates[places].ravel()
