@@ -2,10 +2,10 @@
 
 Newton's method of :mod:`limitblocks.analysis.polish` reads off the state which rows yield. Where slack and
 multiplier of some are of like size the guess is wrong, and it may change for ever. Here Eqs (54)-(59) are
-linearised at the state (Josephy 1979; Robinson 1980): rows that are plain keep s = 0 or y = 0, all else is
-eliminated, and the rest is a linear complementarity problem, s = q + M y, small and dense
-(:mod:`limitblocks.analysis.complementarity`). Rows that this violates join it. Stresses of rigid parts are
-not unique, so that a proximal term delta (z - z_k) is added, which fades from step to step.
+linearised at the state (Josephy 1979; Robinson 1980), and rows keep s = 0 or y = 0, whichever is less. Those
+that this violates are not plain: all else is eliminated, and they are a linear complementarity problem,
+s = q + M y, small and dense (:mod:`limitblocks.analysis.complementarity`), which what it violates joins.
+Stresses of rigid parts are not unique, so that a proximal term delta (z - z_k) is added.
 """
 
 from __future__ import annotations
@@ -25,9 +25,8 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
-PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 1e-6)  # delta of the steps
-LIKE = 0.1  # quotient of slack and multiplier from which on it is not plain which is zero
-NEGATIVE = 1e-3  # of the larger one of a pair: below, it is not plain either
+PROXIMAL = 1e-4  # delta
+STEPS = 6
 LARGEST = 400  # pairs that are not plain
 WIDENED = 6  # times that rows join in a step
 VIOLATED = 1e-9  # of the largest slack
@@ -50,10 +49,10 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
         Residual that is small enough.
     """
     now, best, least = state, state, defect(flow, state)
-    for delta in PROXIMAL:
+    for _ in range(STEPS):
         if least <= until:
             break
-        found = _step(flow, now, delta)
+        found = _step(flow, now)
         if found is None:
             break
         now = found
@@ -63,10 +62,10 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
     return best
 
 
-def _step(flow: Flow, now: State, delta: float) -> State | None:
+def _step(flow: Flow, now: State) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
-    linear = _Linearised(flow, now, delta)
-    unsure, found = linear.unsure, None
+    linear, found = _Linearised(flow, now), None
+    unsure = np.zeros(len(linear.pairs.slack), dtype=bool)
     for _ in range(WIDENED):
         if np.count_nonzero(unsure) > LARGEST:
             return None
@@ -93,7 +92,6 @@ class _Linearised:
 
     flow: Flow
     now: State
-    delta: float
 
     @cached_property
     def sigma(self) -> float:
@@ -107,13 +105,6 @@ class _Linearised:
         p = self.flow.problem
         return pairs(p.cones, p.F @ self.now.x + p.g, self.sigma * self.now.y)
 
-    @cached_property
-    def unsure(self) -> Mask:
-        """Pairs of which it is not plain which is zero."""
-        a, b = self.pairs.slack, self.pairs.multiplier
-        large, small = np.maximum(np.abs(a), np.abs(b)), np.minimum(np.abs(a), np.abs(b))
-        return np.asarray((small > LIKE * large) | (np.minimum(a, b) < -NEGATIVE * large))
-
     def solved(self, unsure: Mask) -> _Solved | None:
         """The end of the step with these pairs open, and the others as they are."""
         p, pair, k = self.flow.problem, self.pairs, int(np.count_nonzero(unsure))
@@ -123,8 +114,8 @@ class _Linearised:
         n, m = p.C.shape
         F = sparse.csr_array(pair.rows[unsure] @ p.F)
         q = F @ ends[:n, k] + pair.rows[unsure] @ p.g
-        M = F @ ends[:n, :k] + self.delta * np.eye(k)
-        q = q - self.delta * np.maximum(pair.multiplier[unsure], 0.0)
+        M = F @ ends[:n, :k] + PROXIMAL * np.eye(k)
+        q = q - PROXIMAL * np.maximum(pair.multiplier[unsure], 0.0)
         if not np.isfinite(M).all():
             return None
         found = complementary(q, M, np.maximum(signed[unsure], 0.0), np.maximum(-signed[unsure], 0.0))
@@ -141,7 +132,7 @@ class _Linearised:
 
     def _ends(self, tight: Mask, held: sparse.csr_array, unsure: sparse.csr_array) -> Array:
         """(x, sigma u, load factor, multipliers of what is held) by unit multipliers (k), and without any."""
-        p, now, delta, sigma = self.flow.problem, self.now, self.delta, self.sigma
+        p, now, sigma = self.flow.problem, self.now, self.sigma
         G, live = self.flow.matrix(now.x), sparse.csr_array(p.live[:, None])
         n = p.C.shape[0]
         turn = None if self.flow.constant else self.flow.derivative(now.x, sigma * now.y)
@@ -153,7 +144,7 @@ class _Linearised:
             [sparse.csr_array(held @ p.F), None, None, sparse.diags_array(kappa)],
         ]
         J = sparse.block_array(blocks, format="csc")
-        J = sparse.csc_array(J + delta * sparse.eye_array(J.shape[0]))
+        J = sparse.csc_array(J + PROXIMAL * sparse.eye_array(J.shape[0]))
         multipliers = np.concatenate([self.pairs.multiplier[tight], self.pairs.across @ (sigma * now.y)])
         before = np.concatenate([now.x, sigma * now.u, [now.load_factor], multipliers])
         known = np.concatenate([np.zeros(n), p.dead, [sigma], -(held @ p.g)])
@@ -161,7 +152,7 @@ class _Linearised:
             known[:n] += turn @ now.x
         units = np.zeros((len(known), unsure.shape[0]))
         units[:n] = (G.T @ unsure.T).toarray()
-        right = np.column_stack([units, known + delta * before])
+        right = np.column_stack([units, known + PROXIMAL * before])
         lu = diagonal_factors(J)
         ends = lu.solve(right)
         return np.asarray(ends + lu.solve(right - J @ ends))
