@@ -12,6 +12,7 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
+    LARGE_PLANAR_MEANS,
     MEANS,
     MEDIUM,
     SOFTENING,
@@ -30,6 +31,7 @@ from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 LARGE = 100  # blocks in space: beyond it increments take more than 40 times as long as bounds
+LARGE_IN_PLANE = 500  # there beyond it 35 times as long
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
@@ -47,7 +49,10 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    large = means is MEANS and len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative
+    blocks, in_space = len(flow.problem.blocks), _in_space(flow)
+    large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
+    if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
+        means = LARGE_PLANAR_MEANS
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -90,7 +95,8 @@ def _ways(
         for one in TURNED_MEANS:
             state, how = tracked(one, near.x, TURNED_SOFTENING)
             yield state, f"from the solution that twists about the centroid, {how}"
-    most = MEDIUM if _in_space(flow) else Barrier().size  # in a plane increments cost little
+    # in a plane increments cost little
+    most = MEDIUM if _in_space(flow) or means is LARGE_PLANAR_MEANS else Barrier().size
     small = [one for one in means[1:] if one.barrier.size <= most]
     for one in small:
         yield tracked(one, x0)
