@@ -13,7 +13,6 @@ from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
     MEANS,
-    MEDIUM,
     SOFTENING,
     TURNED_MEANS,
     TURNED_SOFTENING,
@@ -29,7 +28,8 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
-LARGE = 100  # blocks in space: beyond it increments take more than 40 times as long as bounds
+LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
+SMALL = Barrier().size
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
@@ -75,29 +75,48 @@ def _ways(
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of one way after the other, and which way it was."""
 
-    def tracked(one: Means, x: Array, softening: float = SOFTENING) -> tuple[State, str]:
-        state, how = _tracked(flow, x, scale, one, record, softening)
-        return state if how.endswith(INTERRUPTED) else polish(flow, state), how
+    def tracked(one: Means) -> tuple[State, str]:
+        return _polished(flow, *_tracked(flow, x0, scale, one, record))
 
-    yield tracked(means[0], x0)
+    first = tracked(means[0])
+    yield first
     if len(means) == 1:
         return
     if not flow.dissipative:
-        centroid = replace(flow, turning=Turning.CENTROID)
-        near, way = first_to_solve(centroid, x0, scale, means, tolerance, record)
-        if way.endswith(INTERRUPTED):
-            yield near, way
-        for one in TURNED_MEANS:
-            state, how = tracked(one, near.x, TURNED_SOFTENING)
-            yield state, f"from the solution that twists about the centroid, {how}"
-    most = MEDIUM if _in_space(flow) else Barrier().size  # in a plane increments cost little
-    small = [one for one in means[1:] if one.barrier.size <= most]
-    for one in small:
-        yield tracked(one, x0)
-    yield _increments(flow, x0, scale, tolerance, record)
+        yield from _from_centroid(flow, x0, scale, means, tolerance, record)
     for one in means[1:]:
-        if one not in small:
-            yield tracked(one, x0)
+        if one.barrier.size <= SMALL:
+            yield tracked(one)
+    if _in_space(flow):
+        yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
+    else:  # in a plane they cost little
+        yield _increments(flow, x0, scale, tolerance, record)
+    for one in means[1:]:
+        if one.barrier.size > SMALL:
+            yield tracked(one)
+
+
+def _from_centroid(
+    flow: Flow,
+    x0: Array,
+    scale: float,
+    means: Sequence[Means],
+    tolerance: float,
+    record: Callable[[Iteration], None],
+) -> Iterator[tuple[State, str]]:
+    """Polished ends of paths from the solution that twists about the centroid, and which they were."""
+    centroid = replace(flow, turning=Turning.CENTROID)
+    near, way = first_to_solve(centroid, x0, scale, means, tolerance, record)
+    if way.endswith(INTERRUPTED):
+        yield near, way
+    for one in TURNED_MEANS:
+        state, how = _polished(flow, *_tracked(flow, near.x, scale, one, record, TURNED_SOFTENING))
+        yield state, f"from the solution that twists about the centroid, {how}"
+
+
+def _polished(flow: Flow, state: State, how: str) -> tuple[State, str]:
+    """The end of a path polished, unless the user stopped it."""
+    return state if how.endswith(INTERRUPTED) else polish(flow, state), how
 
 
 def _in_space(flow: Flow) -> bool:
