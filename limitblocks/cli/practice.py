@@ -105,7 +105,10 @@ def verify(
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
-    """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails."""
+    """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails.
+
+    Where the capacity curve does not end at zero the linear checks are made alone, and it fails.
+    """
     beside: list[Any] = []
 
     def solve(structure: Model) -> Verification:
@@ -116,16 +119,19 @@ def verify(
         curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
         beside.extend((solved, curve) if curve else (solved,))
-        return verification(
-            structure, solved, site, q=behaviour, confidence=confidence, curve=curve, **demands
+        whole = curve if curve and curve.zero is not None else None
+        found = verification(
+            structure, solved, site, q=behaviour, confidence=confidence, curve=whole, **demands
         )
+        return found if whole or not curve else without_curve(found, curve.ended)
 
     with clean_errors():
         from limitblocks.practice import Spectrum, verification
         from limitblocks.practice.spectra import G
+        from limitblocks.practice.verification_result import without_curve
 
         found = answer(solve, model, as_json, output, force, filed, beside)
-    if not all(one.satisfied for one in found.checks):
+    if not all(one.satisfied for one in found.checks) or found.left_out:
         raise typer.Exit(1)
 
 

@@ -11,16 +11,11 @@ from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, elastic_period, element_acceleration, element_force
 from limitblocks.practice.settlement import Settlement, Settling, settlement, settling
 from limitblocks.practice.spectra import Floor, FloorMode, Spectrum
-from limitblocks.practice.vehicles import (
-    Deck,
-    Vehicle,
-    WorstPosition,
-    vehicle_load,
-    worst_position,
-)
+from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.practice.verification import verification
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 from limitblocks.practice.water import uplift
+from limitblocks.practice.worst_position import WorstPosition, worst_position
 
 __all__ = [
     "Adequacy",

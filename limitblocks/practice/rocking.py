@@ -124,6 +124,6 @@ class Rocking:
 
         `amplitude` is the largest rotation over alpha, 0 to less than 1. Of slender blocks, without losses.
         """
-        if not 0.0 <= amplitude < 1.0:
+        if not 0.0 <= number(amplitude, "amplitude", "") < 1.0:
             raise ModelError(f"amplitude is {amplitude!r} of the slenderness, expected 0 to less than 1")
         return 4.0 / self.frequency * float(np.arccosh(1.0 / (1.0 - amplitude)))

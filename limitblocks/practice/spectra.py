@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import brentq
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics.loads.load import number
 
 G = 9.81  # m/s2, as the code's examples take it
@@ -145,6 +145,10 @@ class Floor:
         object.__setattr__(self, "modes", tuple(self.modes))
         if not self.modes:
             raise ModelError("a floor spectrum needs at least one mode of the building")
+        for mode in self.modes:
+            refuse_kind(mode, FloorMode, "mode of the building")
+        if not 0.0 < number(self.a, "a", "") <= number(self.b, "b", ""):
+            raise ModelError(f"a is {self.a!r} and b is {self.b!r}, expected 0 < a <= b, .8 and 1.1")
 
     def peaks(self, ground: Spectrum) -> Sequence[float]:
         """Return the largest acceleration of the floor in each mode, m/s2.

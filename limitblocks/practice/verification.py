@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
@@ -21,6 +21,7 @@ from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_accel
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 
 SIMPLIFIED = "C8.7.1.2.1.7"
+MOST = 2.0 * G  # m/s2 of the ground: more is in another unit
 
 
 def verification(
@@ -83,6 +84,9 @@ def verification(
     The non-linear checks compare ground accelerations, a_g,SLV no less than that which sets it off.
     """
     collapse = collapse_of(model, result)
+    _refuse(demand, collapse_demand, damage_demand, curve, floor)
+    if np.shape(damping) != (2,):
+        raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
     q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
@@ -104,16 +108,27 @@ def verification(
             _per_control(model, scale * collapse.displacement_rates, curve, masses),
             G / (e * confidence),
         )
-        for state, spectrum, own in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
+        for state, spectrum, given_xi in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
             found += given(spectrum, state) if spectrum and state != "SLV" else []
             if spectrum:
-                xi = number(own, f"damping at {state}", "", above=0.0)
+                xi = number(given_xi, f"damping at {state}", "", above=0.0)
                 least = set_off if state == "SLV" else 0.0  # the text has it of SLV alone
                 more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
                 found += more
                 checks.append(check)
     said = remarks(model, collapse.displacement_rates, confidence)
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)
+
+
+def _refuse(demand: object, *others: object) -> None:
+    """ModelError where what is given is not of its kind, or an acceleration in another unit."""
+    kinds = (Spectrum, Spectrum, Spectrum, CapacityCurve, Floor)
+    words = ("demand", "collapse_demand", "damage_demand", "curve", "floor")
+    for own, kind, word in zip((demand, *others), kinds, words, strict=True):
+        if own is not None or word == "demand":
+            refuse_kind(own, kind, word)
+        if isinstance(own, Spectrum) and own.a_g > MOST:
+            raise ModelError(f"a_g is {own.a_g:g} m/s2, {own.a_g / G:.3g} g; expected at most 2 g: its unit?")
 
 
 def _oscillator(

@@ -210,3 +210,18 @@ def test_a_bridge_from_the_shell(tmp_path):
     for word in ("Vehicle on the deck", "worst", "passive resistance of fill"):
         assert word in said, word
     assert run("vehicle", bare, *words, "--first", 1).exit_code == 2
+
+
+def test_verify_without_a_whole_curve_has_the_linear_check_and_fails(block, monkeypatch):
+    """A curve that ends early is said; the linear check of .02 g is met; the exit code is 1."""
+    from limitblocks.cli import analyses
+    from limitblocks.practice import capacity_curve
+
+    monkeypatch.setattr(analyses, "capacity", lambda model: capacity_curve(model, steps=2, largest=0.01))
+    site = ("--a-g", 0.02, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
+    done = run("verify", block, *site, "--json")
+    assert done.exit_code == 1, done.output
+    found = json.loads(done.stdout)
+    assert [(one["name"], one["satisfied"]) for one in found["checks"]] == [("linear, SLV", True)]
+    assert "no non-linear check: the capacity curve does not end at zero" in found["remarks"][-1]
+    assert run("verify", block, *site, "--linear", "--json").exit_code == 0
