@@ -5,7 +5,7 @@ multiplier of some are of like size the guess is wrong, and it may change for ev
 linearised at the state (Josephy 1979; Robinson 1980), and rows keep s = 0 or y = 0, whichever is less. Those
 that this violates are not plain: all else is eliminated, and they are a linear complementarity problem,
 s = q + M y, small and dense (:mod:`limitblocks.analysis.complementarity`), which what it violates joins.
-Stresses of rigid parts are not unique, so that a proximal term delta (z - z_k) is added.
+Stresses of rigid parts are not unique, so that a proximal term delta (z - z_k) is added, which fades.
 """
 
 from __future__ import annotations
@@ -25,8 +25,7 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
-PROXIMAL = 1e-4  # delta
-STEPS = 6
+PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LARGEST = 400  # pairs that are not plain
 WIDENED = 6  # times that rows join in a step
 VIOLATED = 1e-9  # of the largest slack
@@ -49,10 +48,10 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
         Residual that is small enough.
     """
     now, best, least = state, state, defect(flow, state)
-    for _ in range(STEPS):
+    for delta in PROXIMAL:
         if least <= until:
             break
-        found = _step(flow, now)
+        found = _step(flow, now, delta)
         if found is None:
             break
         now = found
@@ -62,9 +61,9 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
     return best
 
 
-def _step(flow: Flow, now: State) -> State | None:
+def _step(flow: Flow, now: State, delta: float) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
-    linear, found = _Linearised(flow, now), None
+    linear, found = _Linearised(flow, now, delta), None
     unsure = np.zeros(len(linear.pairs.slack), dtype=bool)
     for _ in range(WIDENED):
         if np.count_nonzero(unsure) > LARGEST:
@@ -92,6 +91,7 @@ class _Linearised:
 
     flow: Flow
     now: State
+    delta: float
 
     @cached_property
     def sigma(self) -> float:
@@ -114,8 +114,8 @@ class _Linearised:
         n, m = p.C.shape
         F = sparse.csr_array(pair.rows[unsure] @ p.F)
         q = F @ ends[:n, k] + pair.rows[unsure] @ p.g
-        M = F @ ends[:n, :k] + PROXIMAL * np.eye(k)
-        q = q - PROXIMAL * np.maximum(pair.multiplier[unsure], 0.0)
+        M = F @ ends[:n, :k] + self.delta * np.eye(k)
+        q = q - self.delta * np.maximum(pair.multiplier[unsure], 0.0)
         if not np.isfinite(M).all():
             return None
         found = complementary(q, M, np.maximum(signed[unsure], 0.0), np.maximum(-signed[unsure], 0.0))
@@ -132,7 +132,7 @@ class _Linearised:
 
     def _ends(self, tight: Mask, held: sparse.csr_array, unsure: sparse.csr_array) -> Array:
         """(x, sigma u, load factor, multipliers of what is held) by unit multipliers (k), and without any."""
-        p, now, sigma = self.flow.problem, self.now, self.sigma
+        p, now, delta, sigma = self.flow.problem, self.now, self.delta, self.sigma
         G, live = self.flow.matrix(now.x), sparse.csr_array(p.live[:, None])
         n = p.C.shape[0]
         turn = None if self.flow.constant else self.flow.derivative(now.x, sigma * now.y)
@@ -144,7 +144,7 @@ class _Linearised:
             [sparse.csr_array(held @ p.F), None, None, sparse.diags_array(kappa)],
         ]
         J = sparse.block_array(blocks, format="csc")
-        J = sparse.csc_array(J + PROXIMAL * sparse.eye_array(J.shape[0]))
+        J = sparse.csc_array(J + delta * sparse.eye_array(J.shape[0]))
         multipliers = np.concatenate([self.pairs.multiplier[tight], self.pairs.across @ (sigma * now.y)])
         before = np.concatenate([now.x, sigma * now.u, [now.load_factor], multipliers])
         known = np.concatenate([np.zeros(n), p.dead, [sigma], -(held @ p.g)])
@@ -152,7 +152,7 @@ class _Linearised:
             known[:n] += turn @ now.x
         units = np.zeros((len(known), unsure.shape[0]))
         units[:n] = (G.T @ unsure.T).toarray()
-        right = np.column_stack([units, known + PROXIMAL * before])
+        right = np.column_stack([units, known + delta * before])
         lu = diagonal_factors(J)
         ends = lu.solve(right)
         return np.asarray(ends + lu.solve(right - J @ ends))
