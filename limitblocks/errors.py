@@ -121,6 +121,12 @@ class MissingDependency(LimitBlocksError):
     """An optional package is needed; the message names it and how to install it."""
 
 
+def refuse_kind(value: object, kind: type, word: str) -> None:
+    """Raise ModelError where `value`, named `word`, is not of a kind."""
+    if not isinstance(value, kind):
+        raise ModelError(f"{word} is a {type(value).__name__}, expected {kind.__name__}")
+
+
 def near(name: str, known: Iterable[str]) -> str:
     """Return '; did you mean ...?', or nothing where no known name is like `name`."""
     letters = {one.casefold(): one for one in known}

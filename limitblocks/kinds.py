@@ -113,7 +113,7 @@ KINDS: dict[str, Kind] = {
         section=f"{_REPORTS}.practice_sections:repair_section",
     ),
     "worst position": Kind(
-        home=f"{_PRACTICE}.vehicles:WorstPosition",
+        home=f"{_PRACTICE}.worst_position:WorstPosition",
         section=f"{_REPORTS}.practice_sections:vehicle_section",
     ),
 }

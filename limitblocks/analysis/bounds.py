@@ -19,7 +19,7 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.limit_state import limit_state
+from limitblocks.analysis.limit_state import IN_HALF, limit_state
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -134,17 +134,17 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
     plane = in_plane(problem)
-    programs = Programs(form_of(scaled(problem))) if plane is None else None
+    programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
     dead = carried(problem, programs)
     if dead is None:
         return None
     tell("load factor")
-    found = limit_state(problem, programs, plane)
+    found = limit_state(programs, plane)
     if found is None:
         return None
     tell("proof")
     state, name = found
-    patience = 1 if programs is None else programs.form.patience
+    patience = 1 if plane is not None and plane.flat else programs.form.patience
     close = max(CLOSE, min(PER_BLOCK * len(problem.blocks), tolerance / 10.0))
     state, proof = certified(problem, state, dead, close=close, patience=patience, programs=programs)
     pair = _Pair(problem, state, name)
@@ -162,9 +162,10 @@ def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arr
 
 def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
     """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
-    state, proof = certified(pair.problem, pair.state, dead)
-    if proof.width <= tolerance:
-        return replace(pair, state=state), proof
+    for whole in (False, True) if in_plane(pair.problem) else (True,):
+        state, proof = certified(pair.problem, pair.state, dead, whole=whole)
+        if proof.width <= tolerance:
+            return replace(pair, state=state), proof
     if proof.complete:
         wide = f"proven is only {proof.lower:.6g} to {proof.upper:.6g}, more than {tolerance:g} apart"
         proof = Proof(-np.inf, np.inf, wide, wide)
@@ -188,7 +189,8 @@ def _all_pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[
     plane = in_plane(problem)
     if plane is not None:
         for pair in _pairs(plane.problem, plane.stresses_of(dead), tolerance, said, explained=True):
-            yield _Pair(problem, plane.lifted(pair.state), f"{pair.solver} in the plane")
+            name = pair.solver + (" in the plane" if plane.flat else IN_HALF)
+            yield _Pair(problem, plane.lifted(pair.state), name)
     yield from _pairs(problem, dead, tolerance, said)
 
 

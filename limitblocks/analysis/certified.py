@@ -21,6 +21,7 @@ from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
 from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
+from limitblocks.problem.plane import Planar
 
 CLOSE = 1e-8  # width of an interval that needs no polish of states from elsewhere
 MOST = 0.1  # of the strictly admissible state
@@ -40,6 +41,7 @@ def certified(
     close: float = CLOSE,
     patience: int | None = None,
     programs: Programs | None = None,
+    whole: bool = False,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
 
@@ -59,19 +61,21 @@ def certified(
     patience : int, optional
         Of the polish; in a plane it comes first. Left out: it is thorough.
     programs : Programs, optional
-        Of the whole problem, compiled already.
+        Compiled already: of the problem reduced by its mirror, if it has one.
+    whole : bool
+        Whether to make no use of a mirror.
     """
     own = own_units(problem, state)
-    given, plane = own.dimensionless(problem.in_si(state)), in_plane(problem)
-    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane)
+    given, plane = own.dimensionless(problem.in_si(state)), None if whole else in_plane(problem)
+    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane, programs)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
-        polished = plane is not None and patience is not None
+        polished = plane is not None and plane.flat and patience is not None
         if polished:
-            given = _polished(problem, own, given, patience)
+            given = _polished(own, plane, given, patience)
         found, proof = mixture.proven(given)
         if not (polished or proof.width <= close):
-            closer, better = mixture.proven(_polished(problem, own, given, patience))
+            closer, better = mixture.proven(_polished(own, plane, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
 
@@ -148,9 +152,8 @@ def _lack(reach: Reach) -> Array:
     return np.asarray(np.nan_to_num(np.maximum(NEEDED * reach.need - reach.room, 0.0), nan=np.inf))
 
 
-def _polished(problem: LimitProblem, own: LimitProblem, state: State, patience: int | None = None) -> State:
-    """The state polished, in the plane if there is one."""
-    plane = in_plane(problem)
+def _polished(own: LimitProblem, plane: Planar | None, state: State, patience: int | None = None) -> State:
+    """The state polished, reduced by the mirror if there is one."""
     if plane is None:
         return polish(Flow(own, ASSOCIATED), state, until=POLISHED, patience=patience)
     plane = plane.measured(own)

@@ -1,4 +1,4 @@
-"""The plane of a limit problem, found once; and solutions of its reduced problem in the whole one."""
+"""The mirror plane of a limit problem, found once, and the problem reduced by it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from limitblocks.problem.plane import Choice, Planar, mirror_of, reduced
 
 
 def in_plane(problem: LimitProblem, choice: Choice = Choice.FEW) -> Planar | None:
-    """Return the problem reduced to the plane parallel to which everything acts; None where there is none.
+    """Return the problem reduced by its mirror plane, to it or to one half; None where there is none.
 
     Parameters
     ----------

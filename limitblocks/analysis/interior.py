@@ -26,14 +26,14 @@ def carried(problem: LimitProblem, programs: Programs | None = None) -> Array | 
     problem : LimitProblem
         The whole problem.
     programs : Programs, optional
-        Of the whole problem, compiled already.
+        Compiled already: of the problem reduced by its mirror, if it has one.
     """
     return known(problem, "stresses within yield", lambda: _carried(problem, programs))
 
 
 def _carried(problem: LimitProblem, programs: Programs | None) -> Array | None:
     plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
-    if programs is None or plane is not None:
+    if programs is None:
         programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
     p = programs.form.problem
     for solver in (ROUGH, NEARLY):  # from 10,000 blocks the first stops too early

@@ -1,4 +1,4 @@
-"""The solution that the bounds are proven from, by one accurate solve; in its plane if there is one."""
+"""The solution that the bounds are proven from, by one accurate solve; of one half if it has a mirror."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from limitblocks.analysis.scales import scaled
 from limitblocks.problem import LimitProblem, State, power_of_two
 from limitblocks.problem.plane import Planar
 
+IN_HALF = " in one half"  # of a problem with a mirror plane
 
-def limit_state(
-    problem: LimitProblem, programs: Programs | None, plane: Planar | None
-) -> tuple[State, str] | None:
-    """A solution of the whole problem, by its programs or in its plane, and who found it."""
-    if plane is None:
-        assert programs is not None  # one or the other
+
+def limit_state(programs: Programs, plane: Planar | None) -> tuple[State, str] | None:
+    """A solution of the whole problem, by its programs or those of its plane or half, and who found it."""
+    if plane is None or not plane.flat:
         state, p, name = programs.limit_state(DIRECT), programs.form.problem, DIRECT.name
+        name += IN_HALF * (plane is not None)
     else:
         form, name = _planar(plane.problem), f"{PLANAR.name} in the plane"
         state, p = form.limit_state(solved(form.limit(), PLANAR)), form.problem

@@ -1,7 +1,7 @@
 """States brought into exact equilibrium and flow, and mechanisms that open every joint: what a proof mixes.
 
-In the plane of a planar problem, if there is one: lifted they are what they would be in the whole one, whose
-proof judges them.
+Reduced by the mirror of the problem, if there is one: lifted they are what they would be in the whole one,
+whose proof judges them.
 """
 
 from __future__ import annotations
@@ -69,68 +69,72 @@ class Repair:
 
 @dataclass(frozen=True, eq=False)
 class PlanarRepair:
-    """The same in the plane of a problem, for states that it leaves as they are."""
+    """The same in the plane of a problem or in one half, for states that its mirror leaves as they are."""
 
     whole: LimitProblem
     plane: Planar
-    flat: Repair
-    everywhere: ClassVar[float] = 1e-2
+    half: Repair
+    everywhere: float = Repair.everywhere
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
         plane = self.plane
-        return np.asarray(plane.stresses @ self.flat.balanced(load_factor / plane.live, plane.stresses_of(x)))
+        return np.asarray(plane.stresses @ self.half.balanced(load_factor / plane.live, plane.stresses_of(x)))
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
         plane = self.plane
         state = plane.averaged(State(0.0, np.zeros(self.whole.C.shape[0]), u, y))
-        return np.asarray(plane.live * (plane.multipliers @ self.flat.following(state.u, state.y)))
+        return np.asarray(plane.live * (plane.multipliers @ self.half.following(state.u, state.y)))
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,).
 
-        Where one exists, one does in the plane.
+        Where one exists, a symmetric one does.
         """
         plane, problem = self.plane, self.plane.problem
         M = sparse.csc_array(abs(plane.multipliers))
         least = np.asarray(M.multiply(amount[:, None]).max(axis=0).toarray()).ravel()
         left_out = np.diff(sparse.csr_array(M).indptr) == 0
-        theirs = np.zeros(len(self.whole.interfaces))
-        np.maximum.at(theirs, self.whole.row_interface[left_out], amount[left_out])
-        least = np.maximum(least, theirs[self.interface])
-        u, y = self.flat.opened(least * problem.cones.identity)
+        theirs = np.zeros(len(problem.interfaces))
+        np.maximum.at(theirs, self.interface[left_out], amount[left_out])
+        least = np.maximum(least, theirs[problem.row_interface])
+        u, y = self.half.opened(least * problem.cones.identity)
         return plane.live * (plane.rates @ u), plane.live * self._everywhere(y, left_out.any())
 
     @cached_property
     def interface(self) -> Indices:
-        """Interface of the whole problem that each reduced row belongs to, shape (R',)."""
-        M = sparse.csc_array(self.plane.multipliers)
-        return np.asarray(self.whole.row_interface[M.indices[M.indptr[:-1]]])
+        """Interface of the reduced problem that each row of the whole one belongs to, shape (R,)."""
+        M, m = self.plane.multipliers.tocoo(), len(self.whole.interfaces)
+        reduced = np.zeros(m, dtype=np.int64)
+        reduced[self.whole.row_interface[M.row]] = self.plane.problem.row_interface[M.col]
+        return np.asarray(reduced[self.whole.row_interface])
 
     def _everywhere(self, y: Array, needed: bool) -> Array:
         """Multipliers of the whole problem, rows that were left out as implied among them.
 
         At each interface a share of one for every row replaces what reduced rows do the same with.
         """
-        plane, cones = self.plane, self.plane.problem.cones
+        plane, p = self.plane, self.plane.problem
         if not needed:
             return np.asarray(plane.multipliers @ y)
         one = self.whole.cones.identity
-        same = compatible_with(plane.problem.F, plane.stresses.T @ (self.whole.F.T @ one))
-        takes = same[cones.heads] + cones.norm(same * (1.0 - cones.identity))
-        room = np.where(takes > 0.0, cones.margin(y) / np.where(takes > 0.0, takes, 1.0), np.inf)
-        share = np.full(len(self.whole.interfaces), np.inf)
-        np.minimum.at(share, self.interface[cones.heads], room / 2.0)
+        same = compatible_with(p.F, plane.stresses.T @ (self.whole.F.T @ one))
+        takes = same[p.cones.heads] + p.cones.norm(same * (1.0 - p.cones.identity))
+        room = np.where(takes > 0.0, p.cones.margin(y) / np.where(takes > 0.0, takes, 1.0), np.inf)
+        share = np.full(len(p.interfaces), np.inf)
+        np.minimum.at(share, p.member_interface, room / 2.0)
         share = np.where(np.isfinite(share), share, 0.0)
-        kept = plane.multipliers @ (y - share[self.interface] * same)
-        return np.asarray(kept + share[self.whole.row_interface] * one)
+        kept = plane.multipliers @ (y - share[p.row_interface] * same)
+        return np.asarray(kept + share[self.interface] * one)
 
 
-def planar_repair(whole: LimitProblem, plane: Planar) -> PlanarRepair:
-    """Return the repairs in the plane, in units of the whole problem."""
+def planar_repair(whole: LimitProblem, plane: Planar, programs: Programs | None) -> PlanarRepair:
+    """Return the repairs in the plane or in one half, in units of the whole problem."""
     measured = plane.measured(whole)
-    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), quick=False))
+    if plane.flat:
+        return PlanarRepair(whole, measured, Repair(scaled(measured.problem), quick=False), 1e-2)
+    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), plane.problem, programs))
 
 
 def following(p: Scaled, u: Array, y: Array) -> Array:

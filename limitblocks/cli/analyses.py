@@ -42,7 +42,7 @@ settlement = _analysis("settle", "practice.settlement", "settlement", of_stages,
 settlement_to_collapse = _analysis("settle", "practice.collapse", "settlement_to_collapse", of_settlement)
 adequacy = _analysis("adequacy", "practice.adequacy", "adequacy", of_stages, tells=False)
 capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_points)
-vehicle = _analysis("vehicle", "practice.vehicles", "worst_position", of_places)
+vehicle = _analysis("vehicle", "practice.worst_position", "worst_position", of_places)
 
 
 def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:

@@ -47,6 +47,9 @@ Modes = Annotated[
         "--mode", help="T,GAMMA,PSI,XI of a mode of the building at the height of the mechanism; repeat it."
     ),
 ]
+ElasticPeriod = Annotated[
+    float, typer.Option(help="T_0 of an element free to vibrate, such as a parapet, s; 0 if it is not.")
+]
 
 
 def settle(
@@ -101,31 +104,39 @@ def verify(
     collapse: Collapse = "",
     damage: Damage = "",
     modes: Modes = None,
+    elastic_period: ElasticPeriod = 0.0,
     filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
 ) -> None:
-    """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails."""
+    """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails.
+
+    Where the capacity curve does not end at zero the linear checks are made alone, and it fails.
+    """
     beside: list[Any] = []
 
     def solve(structure: Model) -> Verification:
         site = Spectrum(ground * G, soil, amplification, corner)
         demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
         demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
+        demands |= {"elastic_period": elastic_period}
         curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
         beside.extend((solved, curve) if curve else (solved,))
-        return verification(
-            structure, solved, site, q=behaviour, confidence=confidence, curve=curve, **demands
+        whole = curve if curve and curve.zero is not None else None
+        found = verification(
+            structure, solved, site, q=behaviour, confidence=confidence, curve=whole, **demands
         )
+        return found if whole or not curve else without_curve(found, curve.ended)
 
     with clean_errors():
         from limitblocks.practice import Spectrum, verification
         from limitblocks.practice.spectra import G
+        from limitblocks.practice.verification_result import without_curve
 
         found = answer(solve, model, as_json, output, force, filed, beside)
-    if not all(one.satisfied for one in found.checks):
+    if not all(one.satisfied for one in found.checks) or found.left_out:
         raise typer.Exit(1)
 
 

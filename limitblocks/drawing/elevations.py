@@ -57,7 +57,7 @@ def elevations(model: Model) -> Sheet:
         groups += more[0]
         labels += more[1]
     said = ", ".join(f"{word} {length(size)}" for word, size in dimensions(model).items())
-    text = f"Front, side and plan at one scale. Blocks that can move measure {said}."
+    text = f"Blocks that can move measure {said}."
     height = below + _ABOVE + scale * up[1] + _BELOW
     return Sheet("views", "Views", text, float(height), tuple(groups), tuple(labels))
 

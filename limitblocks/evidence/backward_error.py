@@ -25,7 +25,6 @@ ROUNDING = 1e-12  # changes that no place is named for
 MEANINGS = {
     "limits": "relative change of friction, or of the distance of an edge, that takes rows to yield",
     "flow": "angle in radians by which flow turns",
-    "give": "rate at which a joint gives beside its flow, as no rigid one does, over the largest rate",
     "loads": "change of the loads of a block over what acts on it",
     "mechanism": "change of the mechanism to the nearest exact one, over its largest rate",
 }
@@ -40,9 +39,8 @@ class BackwardError:
 
     Attributes
     ----------
-    limits, flow, give, loads : Residual
-        Largest change of the strength of a row, of a direction of flow (rad), of the rate of a joint
-        beside its flow, and of the loads of a block.
+    limits, flow, loads : Residual
+        Largest change of the strength of a row, of a direction of flow (rad), and of the loads of a block.
     mechanism : Residual
         How far the mechanism of the state is from that of the exact solution, over its largest rate.
     places : tuple of (str, float)
@@ -55,7 +53,6 @@ class BackwardError:
 
     limits: Residual
     flow: Residual
-    give: Residual
     loads: Residual
     mechanism: Residual
     places: tuple[tuple[str, float], ...]
@@ -64,8 +61,8 @@ class BackwardError:
 
     @property
     def parts(self) -> tuple[Residual, ...]:
-        """The five parts."""
-        return self.limits, self.flow, self.give, self.loads, self.mechanism
+        """The four parts."""
+        return self.limits, self.flow, self.loads, self.mechanism
 
     @property
     def value(self) -> float:
@@ -99,8 +96,8 @@ def backward_error(flow: Flow, state: State) -> BackwardError:
         given = Given(flow, state)
         free = least(given) if all(np.isfinite(part).all() for part in parts) else None
         if free is None:
-            a, b, c, d, e = (Residual(*one) for one in UNKNOWN)
-            return BackwardError(a, b, c, d, e, (), np.inf, None)
+            limits, turned, loads, moved = (Residual(*one) for one in UNKNOWN)
+            return BackwardError(limits, turned, loads, moved, (), np.inf, None)
         held = least(given, held=True) if moved_by(given, free).value > free.change else None
         both = [one for one in (free, held) if one]
         near = min(both, key=lambda one: _total(given, one))
@@ -149,34 +146,32 @@ def least(given: Given, held: bool = False) -> Nearby | None:
     for level in LEVELS:
         if best is not None and best.change <= level:
             break
-        for near in nearby(given, level):
-            moved = held and moved_by(given, near).value > level
-            if not moved and (best is None or near.change < best.change) and is_exact(near):
-                best = near
+        near = nearby(given, level)
+        if near is None or (held and moved_by(given, near).value > level) or not is_exact(near):
+            continue
+        best = near if best is None or near.change < best.change else best
     return best
 
 
 def is_exact(near: Nearby) -> bool:
     """Whether the state solves Eqs (54)-(59) of the changed problem; they do not ask for dissipation."""
-    entries = mcp_residuals(near.flow, near.state, near.imposed).entries
+    entries = mcp_residuals(near.flow, near.state).entries
     return all(entry.value <= TOLERANCE for entry in entries if entry.name != "dissipation")
 
 
 def _error(given: Given, near: Nearby, free: Nearby) -> BackwardError:
     p = given.flow.problem
     names, members = np.array(p.interfaces), p.member_interface
-    turned, give = np.zeros(len(names)), np.zeros(len(names))
+    turned = np.zeros(len(names))
     np.maximum.at(turned, p.stress_interface, near.turned[given.places[1]])
-    np.maximum.at(give, p.stress_interface, near.give[given.places[1]])
     limits = np.zeros(len(names))
     np.maximum.at(limits, members, np.abs(near.limits))
-    changes = np.concatenate([np.maximum(np.maximum(limits, turned), give), near.loads])
+    changes = np.concatenate([np.maximum(limits, turned), near.loads])
     where = (*p.interfaces, *p.blocks)
     worst = [k for k in np.argsort(-changes, kind="stable")[:SHOWN].tolist() if changes[k] > ROUNDING]
     return BackwardError(
         residual("limits", limits, MEANINGS["limits"], where=p.interfaces),
         residual("flow", np.arctan(turned), MEANINGS["flow"], where=p.interfaces),
-        residual("give", give, MEANINGS["give"], where=p.interfaces),
         residual("loads", near.loads, MEANINGS["loads"], where=p.blocks),
         moved_by(given, near),
         tuple((where[k], float(changes[k])) for k in worst),

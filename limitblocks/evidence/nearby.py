@@ -18,8 +18,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.places import places
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
-ACROSS = 0.01  # of a change along the ray of a cone: as large a change across it, which turns the flow
-READILY = 10.0  # loads and rates are known better than friction by this
+READILY = 10.0  # loads are known better than friction by this
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 ROUNDS = 4  # of stilling what would have to flow in another direction
 
@@ -29,9 +28,8 @@ class Nearby(NamedTuple):
 
     `flow` is the changed problem with its flow, `state` the exact state, `mechanism` the given state with the
     exact mechanism. `limits` (degree,) is the relative change of strength of each linear row and cone,
-    `turned` (places,) the tangent of the angle by which the flow at a place turns, `give` (places,) the rates
-    `imposed` (s,) on it over the largest rate, `loads` (n,) the change of the loads of a block over what acts
-    on it.
+    `turned` (places,) the tangent of the angle by which the flow at a place turns, `loads` (n,) the change of
+    the loads of a block over what acts on it.
     """
 
     flow: Flow
@@ -39,15 +37,12 @@ class Nearby(NamedTuple):
     mechanism: State
     limits: Array
     turned: Array
-    give: Array
     loads: Array
-    imposed: Array
 
     @property
     def change(self) -> float:
         """The largest change of the model."""
-        parts = (self.limits, self.turned, self.give, self.loads)
-        return max(float(np.abs(part).max(initial=0.0)) for part in parts)
+        return max(float(np.abs(part).max(initial=0.0)) for part in (self.limits, self.turned, self.loads))
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,82 +99,30 @@ class Given:
         apart = np.abs(p.cones.margin(s)) / np.where(lever > 0.0, lever, np.inf)
         return np.asarray(np.minimum(np.minimum(np.abs(self.change), self.force[self.places[0]]), apart))
 
-    def give(self, off: Array, u: Array) -> Array:
-        """Rates (s,) at each place over the largest rate of a block, (places,)."""
-        p, (members, stresses) = self.flow.problem, self.places
-        largest = np.abs(u / np.repeat(p.units.block_force, 6)).max()
-        give = np.zeros(max(members.max(initial=0), stresses.max()) + 1)
-        np.maximum.at(give, stresses, np.abs(off) / p.units.interface_force[p.stress_interface] / largest)
-        return give
-
-    def ways(self, level: float) -> sparse.csr_array:
-        """Columns (R, R) along which multipliers change: of a cone its ray, and less readily across it.
-
-        At places whose force may be dropped, any.
-        """
-        p = self.flow.problem
-        s, free = p.F @ self.state.x + p.g, (self.force <= level)[self.places[0]]
-        blocks, first = [], p.cones.linear
-        for rows in p.cones.groups:
-            z = s[rows][:, 1:]
-            size = np.linalg.norm(z, axis=1)
-            d = z / np.where(size > 0.0, size, 1.0)[:, None]
-            way = np.zeros((*rows.shape, rows.shape[1]))
-            way[:, 0, 0], way[:, 1:, 0] = 1.0, -d
-            way[:, 1:, 1:] = ACROSS * (np.eye(d.shape[1]) - d[:, :, None] * d[:, None, :])
-            way[free[first : first + len(rows)] | (size == 0.0)] = np.eye(rows.shape[1])
-            blocks.append(way)
-            first += len(rows)
-        return p.cones.matrix(np.ones(p.cones.linear), blocks)
-
 
 class _Choice(NamedTuple):
-    """Rates and multipliers of the changed problem, which rows flow, and whether joints may give beside."""
+    """Rates and multipliers of the changed problem, and which linear rows and cones flow."""
 
     u: Array
     y: Array
     flows: Flags
-    giving: bool
 
 
-def nearby(given: Given, level: float) -> tuple[Nearby, ...]:
-    """Return problems of which the state may be exact, changed by about `level`.
+def nearby(given: Given, level: float) -> Nearby | None:
+    """Return a problem of which the state may be exact, changed by about `level`; None if none is found.
 
-    What is within `level` of yield, or carries no more than that, may flow; all else is still. The first has
-    the nearest mechanism that is exact, the second the rates as they are, with joints that give the rest.
+    What is within `level` of yield, or carries no more than that, may flow; all else is still. The mechanism
+    is the nearest one.
     """
-    p = given.flow.problem
+    p, members = given.flow.problem, given.places[0]
     near = given.off <= level
     if (~near & (given.change > 0.0)).any():
-        return ()
-    held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
-    y = _aligned(p, given.G, held, given.state.y)
-    still = _giving(given, near, y)
-    if still is not None and still.change <= level / 3.0:  # no nearer one is worth its time
-        return (still,)
-    return tuple(one for one in (still, _moved(given, level, near, y)) if one)
-
-
-def _giving(given: Given, near: Flags, y: Array) -> Nearby | None:
-    """The problem with the rates as they are; that of a row is dropped if this costs less than yield."""
-    p, u = given.flow.problem, given.state.u
-    work = float(p.live @ u)
-    if not work > 0.0:
         return None
-    rates = by_member(p, given.G, y)
-    units = sparse.diags_array(1.0 / p.units.interface_force[p.stress_interface])
-    largest = np.abs(u / np.repeat(p.units.block_force, 6)).max()
-    size = abs(rates @ units).max(axis=1).toarray().ravel() / largest
-    kept = (near & (given.off <= size))[p.cones.member]
-    return _changed(given, u / work, np.where(kept, y, 0.0) / work, giving=True)
-
-
-def _moved(given: Given, level: float, near: Flags, y: Array) -> Nearby | None:
-    """The problem with the nearest mechanism in which only what is `near` flows; None if none is found."""
-    p, members = given.flow.problem, given.places[0]
-    ways, best, u = given.ways(level), None, given.state.u
+    held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
+    u, y = given.state.u, _aligned(p, given.G, held, given.state.y)
+    best: Nearby | None = None
     for _ in range(ROUNDS):
-        mechanism = nearest_mechanism(p, given.G, u, y, near, ways)
+        mechanism = nearest_mechanism(p, given.G, u, y, near)
         if mechanism is None:
             break
         u, y = mechanism
@@ -194,27 +137,25 @@ def _moved(given: Given, level: float, near: Flags, y: Array) -> Nearby | None:
     return best
 
 
-def _changed(given: Given, u: Array, y: Array, giving: bool = False) -> Nearby:
+def _changed(given: Given, u: Array, y: Array) -> Nearby:
     """The problem of which stresses and mechanism are exact, where the flow of `y` is that of u."""
     flow, state = given.flow, given.state
     p = flow.problem
     rates = np.sqrt(by_member(p, given.G, y).power(2).sum(axis=1))
     flows = rates > NOISE * np.abs(p.C @ u).max(initial=0.0)
-    choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), flows, giving)
+    choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), flows)
     x = _cheapest(given, choice)
-    scaled, exact, turned, change = _flowing(given, x, choice)
+    scaled, exact, G, angle, change = _flowing(given, x, choice)
     dead = p.C.T @ exact.x - state.load_factor * p.live
     # dilatancy and what turns about the centre of pressure are in G and pivot already
-    problem = replace(scaled, G=turned.G, dead=dead, pivot=flow.pivot, friction=np.ones(len(p.friction)))
+    problem = replace(scaled, G=G, dead=dead, pivot=flow.pivot, friction=np.ones(len(p.friction)))
     return Nearby(
         Flow(problem, 0.0, flow.turning, flow.softening),
         exact,
         State(state.load_factor, state.x, u, choice.y),
         change,
-        turned.angle,
-        turned.give,
+        angle,
         np.abs(dead - p.dead).reshape(-1, 6).max(axis=1) / Measure(p, state).loaded,
-        turned.imposed,
     )
 
 
@@ -229,23 +170,25 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     choices = np.array([given.state.x, moved, np.zeros_like(moved)])
     costs = []
     for x in choices:
-        _, _, turned, change = _flowing(given, x, choice)
+        *_, angle, change = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
         slight = (by == 0.0) | (given.force <= SLIGHT)
-        cost = np.maximum(turned.cost, np.where(slight, READILY * by, np.inf))
+        cost = np.maximum(angle, np.where(slight, READILY * by, np.inf))
         np.maximum.at(cost, members, np.abs(change))
         costs.append(cost)
     return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])
 
 
-def _flowing(given: Given, x: Array, choice: _Choice) -> tuple[LimitProblem, State, _Turned, Array]:
-    """Problem of limits changed for stresses x, state, flow, and the changes of limits."""
+def _flowing(
+    given: Given, x: Array, choice: _Choice
+) -> tuple[LimitProblem, State, sparse.csr_array, Array, Array]:
+    """Problem of limits changed for stresses x, state, G, its angles, and the changes of limits."""
     change = given.limits.changes(x)
     change = np.where(choice.flows | (change > 0.0), change, 0.0)
     scaled = given.limits.scaled(np.where(np.isfinite(change), change, 0.0))
     y = _aligned(scaled, given.G, x, choice.y)
     exact = State(given.state.load_factor, x, choice.u, y)
-    return scaled, exact, _turned(given, exact, choice), change
+    return scaled, exact, *_turned(given, exact, choice.y), change
 
 
 def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_array:
@@ -272,50 +215,27 @@ def _aligned(p: LimitProblem, G: sparse.csr_array, x: Array, y: Array) -> Array:
     return np.asarray(np.where(np.concatenate(fixed), part, 1.0)[p.cones.member] * ray)
 
 
-class _Turned(NamedTuple):
-    """Changed flow G, rates imposed on joints, and their sizes place by place: tangent of an angle, part."""
+def _turned(given: Given, exact: State, asked: Array) -> tuple[sparse.csr_array, Array]:
+    """G of twists about the centroid with G^T y = -C u wherever y flows, and its angle at places (places,).
 
-    G: sparse.csr_array
-    imposed: Array
-    angle: Array
-    give: Array
-
-    @property
-    def cost(self) -> Array:
-        """What they count."""
-        return np.maximum(self.angle, READILY * self.give)
-
-
-def _turned(given: Given, exact: State, choice: _Choice) -> _Turned:
-    """G of twists about the centroid with G^T y = -C u, but for the rates that are imposed on joints.
-
-    Where y flows the least change of G of the place, y e^T / (y . y) with e = C u + G^T y, and its angle;
-    where joints may give and that costs READILY less, or where nothing flows, e is imposed.
+    Place by place the least change of G: y e^T / (y . y), with e = C u + G^T y.
     """
     flow, p, y = given.flow, given.flow.problem, exact.y
     rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
     rates = p.C @ exact.u
-    off = rates + flow.matrix(exact.x).T @ y
-    meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
-    lever = _levers(p)
-    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
-    angle = np.where(by_angle > 0.0, np.inf, 0.0)
-    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=angle, where=whole > 0.0)
-    give = given.give(off, exact.u)
-    giving = (READILY * give < angle) | ~meant if choice.giving else np.zeros(count, dtype=bool)
+    meant = np.bincount(rows, weights=np.abs(asked), minlength=count) > 0.0
+    off = np.where(meant[columns], rates + flow.matrix(exact.x).T @ y, 0.0)
     square = np.bincount(rows, weights=y * y, minlength=count)
     share = y / np.where(square > 0.0, square, 1.0)[rows]
-    turned = np.where((meant & ~giving)[columns], off, 0.0)
     R, s = p.F.shape
     Y = sparse.coo_array((share, (np.arange(R), rows)), shape=(R, count)).tocsr()
-    E = sparse.coo_array((turned, (columns, np.arange(s))), shape=(count, s)).tocsr()
+    E = sparse.coo_array((off, (columns, np.arange(s))), shape=(count, s)).tocsr()
     centroid = Flow(p, flow.dilatancy, Turning.CENTROID).matrix(exact.x)
-    return _Turned(
-        sparse.csr_array(centroid - Y @ E),
-        np.where(giving[columns], off, 0.0),
-        np.where(meant & ~giving, angle, 0.0),
-        np.where(giving, give, 0.0),
-    )
+    lever = _levers(p)
+    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
+    tangent = np.where(by_angle > 0.0, np.inf, 0.0)
+    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
+    return sparse.csr_array(centroid - Y @ E), tangent
 
 
 def _levers(p: LimitProblem) -> Array:

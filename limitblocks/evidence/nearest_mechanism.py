@@ -8,7 +8,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.limits import Flags
 from limitblocks.problem import LimitProblem
 
@@ -20,17 +20,12 @@ ROUNDS = 8  # steps, each without the rows whose multipliers turned negative
 
 
 def nearest_mechanism(
-    problem: LimitProblem,
-    G: sparse.csr_array,
-    u: Array,
-    y: Array,
-    flowing: Flags,
-    ways: sparse.csr_array,
+    problem: LimitProblem, G: sparse.csr_array, u: Array, y: Array, flowing: Flags
 ) -> tuple[Array, Array] | None:
     """Return u, y with C u + G^T y = 0, live . u = 1, near to those given; None if none is found.
 
-    Only the linear rows and cones `flowing` (degree,) have multipliers, which change along the columns of
-    `ways` (R, R). Changes are measured by the size of the multipliers, so that small ones keep their sign.
+    Only the linear rows and cones `flowing` (degree,) have multipliers. Changes are measured by the size of
+    the multipliers, so that small ones keep their sign.
     """
     cones, n = problem.cones, problem.C.shape[1]
     for _ in range(ROUNDS):
@@ -38,9 +33,9 @@ def nearest_mechanism(
         left = _left(problem, G, u, y)
         if left > EXACT:
             rows = np.flatnonzero(flowing[cones.member])
-            along = sparse.csr_array(ways[:, rows])
-            d = _least_change(problem, G, along, cones.norm(y)[cones.member][rows], u, y)
-            u, y = u + d[:n], y + along @ d[n:]
+            d = _least_change(problem, G, rows, u, y)
+            u, y = u + d[:n], y.copy()
+            y[rows] += d[n:]
             left = _left(problem, G, u, y)
             if not left <= SOLVED:
                 return None
@@ -57,21 +52,20 @@ def _left(problem: LimitProblem, G: sparse.csr_array, u: Array, y: Array) -> flo
     return float(max(flow, abs(problem.live @ u - 1.0)) / (np.abs(u).max() or 1.0))
 
 
-def _least_change(
-    problem: LimitProblem, G: sparse.csr_array, along: sparse.csr_array, size: Array, u: Array, y: Array
-) -> Array:
-    """Least change of u and of multipliers `along` ways, by their size, that satisfies Eqs (54), (55)."""
+def _least_change(problem: LimitProblem, G: sparse.csr_array, rows: Indices, u: Array, y: Array) -> Array:
+    """Least change of u and of the multipliers of `rows`, by their size, that satisfies Eqs (54), (55)."""
+    size = problem.cones.norm(y)[problem.cones.member][rows]
     largest = size.max(initial=0.0)
     unit = np.maximum(size / largest, LEAST_MULTIPLIER) if largest > 0.0 else np.ones(len(size))
     live = sparse.csr_array(problem.live[None, :])
-    blocks: list[list[Any]] = [[problem.C, sparse.csr_array(G.T @ along)], [live, None]]
+    blocks: list[list[Any]] = [[problem.C, sparse.csr_array(G[rows].T)], [live, None]]
     J = sparse.csr_array(sparse.block_array(blocks if len(size) else [row[:1] for row in blocks]))
     columns = sparse.diags_array(np.append(np.ones(problem.C.shape[1]), unit))
     length = np.sqrt((J @ columns).power(2).sum(axis=1))
-    rows = sparse.diags_array(1.0 / np.where(length > 0.0, length, 1.0))
+    scale = sparse.diags_array(1.0 / np.where(length > 0.0, length, 1.0))
     r = -np.append(problem.C @ u + G.T @ y, problem.live @ u - 1.0)
-    scaled = sparse.csr_array(rows @ J @ columns)
-    return np.asarray(columns @ least_solution(scaled, rows @ r, REGULAR, REFINEMENTS))
+    scaled = sparse.csr_array(scale @ J @ columns)
+    return np.asarray(columns @ least_solution(scaled, scale @ r, REGULAR, REFINEMENTS))
 
 
 def least_solution(J: sparse.csr_array, r: Array, regular: float, refinements: int) -> Array:

@@ -118,12 +118,10 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
     )
 
 
-def kinematic_residuals(
-    flow: Flow, state: State, force: Array, imposed: Array | float = 0.0
-) -> tuple[Residual, ...]:
+def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residual, ...]:
     """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
     p, measure = flow.problem, Measure(flow.problem, state)
-    strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y - imposed
+    strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
     k = p.member_interface
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads]
     return (
@@ -145,10 +143,9 @@ def kinematic_residuals(
     )
 
 
-def mcp_residuals(flow: Flow, state: State, imposed: Array | float = 0.0) -> Residuals:
+def mcp_residuals(flow: Flow, state: State) -> Residuals:
     """Recompute the residuals of Eqs (54)-(59) of a dimensionless state.
 
-    Joints on which rates (s,) are `imposed` have them beside those of their flow.
     Complementarity is judged row by row and cone by cone, as the size of the Jordan product (F x + g) o y: on
     a cone it is in proportion to the angle between the slip and the shear force. Without dissipation at every
     interface the theorems that enclose the load factor do not hold.
@@ -159,7 +156,7 @@ def mcp_residuals(flow: Flow, state: State, imposed: Array | float = 0.0) -> Res
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state, measure.pressed, imposed),
+            *kinematic_residuals(flow, state, measure.pressed),
             residual(
                 "complementarity",
                 product,

@@ -57,8 +57,8 @@ class Nonassociated(Result):
     load_factor : float
         Load factor at collapse.
     frictionless, associated : float
-        Associated load factors without friction and with it: the bracket (Drucker 1954). The first is NaN
-        where it is not claimed to be a lower end, the second infinite where the load is unlimited.
+        The bracket: the largest load factor without shear (Drucker 1954), and the associated one. The first
+        is NaN where it is not claimed to be a lower end, the second infinite where the load is unlimited.
     stress_resultants : Array, shape (m, 6)
         (V1, V2, N, M1, M2, T) of each interface, local axes, N and N m; N <= 0 in compression.
     generalised_stresses : Array, shape (s,)

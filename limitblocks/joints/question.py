@@ -54,6 +54,7 @@ class Question:
             units=Units(one, one, one, one, 1.0, np.ones(len(rows.modes))),
             blocks=("j",),
             interfaces=("i-j",),
+            centroids=np.zeros((1, 3)),
         )
 
     @cached_property

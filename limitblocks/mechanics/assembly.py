@@ -96,6 +96,7 @@ def limit_problem(
         units=units,
         blocks=tuple(block.name for block in free),
         interfaces=tuple(interface.name for interface in interfaces),
+        centroids=read_only(np.stack([block.centroid for block in free])),
     )
 
 

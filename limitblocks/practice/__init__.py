@@ -8,19 +8,14 @@ from limitblocks.practice.collapse import settlement_to_collapse
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
 from limitblocks.practice.repair import Repair, least_masses, least_ties
-from limitblocks.practice.rocking import Rocking, element_acceleration, element_force
+from limitblocks.practice.rocking import Rocking, elastic_period, element_acceleration, element_force
 from limitblocks.practice.settlement import Settlement, Settling, settlement, settling
 from limitblocks.practice.spectra import Floor, FloorMode, Spectrum
-from limitblocks.practice.vehicles import (
-    Deck,
-    Vehicle,
-    WorstPosition,
-    vehicle_load,
-    worst_position,
-)
+from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.practice.verification import verification
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 from limitblocks.practice.water import uplift
+from limitblocks.practice.worst_position import WorstPosition, worst_position
 
 __all__ = [
     "Adequacy",
@@ -49,6 +44,7 @@ __all__ = [
     "capacity_curve",
     "design_model",
     "dowel",
+    "elastic_period",
     "element_acceleration",
     "element_force",
     "least_masses",

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
-from scipy.optimize import brentq
 
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.inputs import GIVEN
-from limitblocks.practice.spectra import Floor, Spectrum
+from limitblocks.practice.spectra import Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity
 
 SHARES = {"SLV": 0.4, "SLC": 0.6}  # of d0*, C8.7.1.2.1.6
 FACTORS = {"SLV": 1.68, "SLC": 1.56}  # T = factor pi sqrt(d / a), [C8.7.1.10], [C8.7.1.11]
 EQUATIONS = {"SLV": "[C8.7.1.10]", "SLC": "[C8.7.1.11]"}
-WIDEST = 1e6  # times the ground acceleration of the site: where the one of the limit state is looked for
 
 
 def displacement_check(
@@ -23,8 +19,9 @@ def displacement_check(
     curve: CapacityCurve,
     scales: tuple[float, float],
     spectrum: Spectrum,
-    floor: Floor | None,
+    place: Place,
     damping: float,
+    set_off: float = 0.0,
 ) -> tuple[list[Quantity], Inequality]:
     """Return displacement, acceleration, period and demand at a limit state, and the check.
 
@@ -36,26 +33,27 @@ def displacement_check(
     scales : (float, float)
         Spectral displacement over that of the control point [C8.7.1.4], and acceleration over load factor,
         g / (e* FC), m/s2 [C8.7.1.3].
-    spectrum, floor, damping
+    spectrum, place, damping
         Demand.
+    set_off : float
+        Ground acceleration that sets the mechanism off, m/s2: that of the limit state is no less.
     """
     assert curve.zero is not None  # the caller has refused it
-    share, factor = SHARES[state], FACTORS[state]
+    share, factor, T_0 = SHARES[state], FACTORS[state], place.elastic_period
     d0, a0 = curve.zero * scales[0], curve.load_factors[0] * scales[1]
-    d, line = share * d0, a0 * (1.0 - share)
+    d = share * d0
     order = np.argsort(curve.displacements)  # the last steps go to and fro about the zero
     there = float(np.interp(share * curve.zero, curve.displacements[order], curve.load_factors[order]))
-    own = there * scales[1]
+    elastic = 4.0 * np.pi**2 * d / T_0**2 if T_0 else np.inf
+    line, own = min(a0 * (1.0 - share), elastic), min(there * scales[1], elastic)
     periods = [factor * np.pi * float(np.sqrt(d / a)) for a in (line, own)]
-
-    def wanted(site: Spectrum) -> float:
-        on = floor.displacement if floor else None
-        return max(on(site, T, damping) if on else site.displacement(T, damping) for T in periods)
-
-    demand = wanted(spectrum)
-    low, high = spectrum.a_g / WIDEST, spectrum.a_g * WIDEST
-    most = brentq(lambda a_g: wanted(replace(spectrum, a_g=a_g)) - d, low, high, rtol=1e-12)
-    said, source = ("S_eZ(T) (T / 2 pi)^2", "[C8.7.1.12]") if floor else ("S_De(T)", "NTC 2018 [3.2.8]")
+    demand = place.displacement(spectrum, periods, damping)
+    most = ground_acceleration(spectrum, lambda site: place.displacement(site, periods, damping), d)
+    said, source = (
+        ("S_eZ(T) (T / 2 pi)^2", "[C8.7.1.12]") if place.floor else ("S_De(T)", "NTC 2018 [3.2.10]")
+    )
+    until, branch = (", at most 4 pi^2 d / T_0^2", "[C8.7.1.3], [C8.7.1.6]") if T_0 else ("", "[C8.7.1.3]")
+    compared = Inequality(f"non-linear, {state}", max(most, set_off), spectrum.a_g, "m/s2", "C8.7.1.2.1.8")
     first = [
         Quantity("d0*", "spectral displacement of no resistance",
                  "d_C0 sum P dx^2 / (delta_C sum P dx)", d0, "m", "[C8.7.1.4]"),
@@ -64,16 +62,18 @@ def displacement_check(
         *(first if state == "SLV" else []),
         Quantity(f"d*_{state}", f"displacement at {state}", f"{share:g} d0*", d, "m", "C8.7.1.2.1.6"),
         Quantity(f"a*_{state}", f"acceleration at {state}, straight line from a0* to d0*",
-                 f"a0* (1 - {share:g})", line, "m/s2", "C8.7.1.2.1.3"),
+                 f"a0* (1 - {share:g}){until}", line, "m/s2", "C8.7.1.2.1.3"),
         Quantity(f"T_{state}", f"secant period at {state}, straight line", f"{factor:g} pi sqrt(d* / a*)",
                  periods[0], "s", EQUATIONS[state]),
-        Quantity(f"a*_{state},c", f"acceleration at {state}, capacity curve", "alpha(d_C) g / (e* FC)", own,
-                 "m/s2", "[C8.7.1.3]"),
+        Quantity(f"a*_{state},c", f"acceleration at {state}, capacity curve",
+                 f"alpha(d_C) g / (e* FC){until}", own, "m/s2", branch),
         Quantity(f"T_{state},c", f"secant period at {state}, capacity curve",
                  f"{factor:g} pi sqrt(d* / a*)", periods[1], "s", EQUATIONS[state]),
         Quantity(f"xi_{state}", f"damping of the mechanism at {state}", GIVEN, damping, "", "C8.7.1.2.1.8"),
-        Quantity(f"S_De_{state}", f"displacement demand at {state}, the larger of both periods", said, demand,
-                 "m", source),
-        Quantity(f"a_g,{state},d", f"ground acceleration at which the demand is d*_{state}", "from S_De = d*",
-                 float(most), "m/s2", "[C8.7.1.12]"),
-    ], Inequality(f"non-linear, {state}", d, demand, "m", "C8.7.1.2.1.8")  # fmt: skip
+        Quantity(f"S_De_{state}", f"displacement demand at {state}, the largest of these periods", said,
+                 demand, "m", source),
+        Quantity(f"d*/S_De_{state}", f"displacement at {state} over the demand", f"d*_{state} / S_De_{state}",
+                 d / demand, "", "C8.7.1.2.1.8"),
+        Quantity(f"a_g,{state},d", f"ground acceleration at which the demand is d*_{state}",
+                 "from S_De = d*", most, "m/s2", "[C8.7.1.12]"),
+    ], compared  # fmt: skip

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Tie
@@ -140,8 +140,9 @@ def strip(interface: Interface, at: Sequence[float], *, width: float, capacity: 
     Raises
     ------
     ModelError
-        If a number is out of range.
+        If a number is out of range, or the point is not on the joint.
     """
+    refuse_kind(interface, Interface, "interface of a strip")
     word = f"strip across {interface.name}"
     side = number(width, f"{word}: width", "m", above=0.0)
     most = number(capacity, f"{word}: capacity", "N", above=0.0)
@@ -165,8 +166,9 @@ def dowel(interface: Interface, at: Sequence[float], *, diameter: float, capacit
     Raises
     ------
     ModelError
-        If a number is out of range.
+        If a number is out of range, or the point is not on the joint.
     """
+    refuse_kind(interface, Interface, "interface of a dowel")
     word = f"dowel across {interface.name}"
     side = number(diameter, f"{word}: diameter", "m", above=0.0)
     most = number(capacity, f"{word}: capacity", "N", above=0.0)
@@ -190,6 +192,8 @@ def reinforced(model: Model, *elements: Element) -> Model:
     ModelError
         If an element names a block that the model does not have, or joins two supports.
     """
+    for element in elements:
+        refuse_kind(element, Element, "what a structure is reinforced with")
     known, supports = {block.name for block in model.blocks}, set(model.supports)
     problems = []
     for element in elements:
@@ -208,6 +212,11 @@ def reinforced(model: Model, *elements: Element) -> Model:
 
 def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie | Dowel, word: str) -> Element:
     point = read_only(np.array(vector(at, f"{word}: at")))
+    reach = float(np.linalg.norm(interface.polygon, axis=1).max())
+    if np.linalg.norm(point - interface.centroid) > (1.0 + 1e-6) * reach:
+        raise ModelError(
+            f"{word}: at is {point.tolist()}, not on the joint, within {reach:g} m of its centroid"
+        )
     return Element(
         Interface(
             interface.block_i, interface.block_j, point, interface.axes, read_only(side * CORNERS), joint

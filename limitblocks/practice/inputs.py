@@ -1,9 +1,17 @@
-"""What a verification is given, as quantities: the spectrum of the ground and the modes of the building."""
+"""What a verification is given, as quantities, and what the text asks of it that was not given."""
 
 from __future__ import annotations
 
-from limitblocks.practice.spectra import Floor, Spectrum
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.joints import Tie
+from limitblocks.model import Model
+from limitblocks.practice.spectra import Place, Spectrum
 from limitblocks.practice.verification_result import Quantity
+
+LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
+PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
 
 GIVEN = "given"
 NTC = "NTC 2018"
@@ -25,9 +33,12 @@ def given(spectrum: Spectrum, state: str = "SLV") -> list[Quantity]:
     ]
 
 
-def carried(floor: Floor, spectrum: Spectrum) -> list[Quantity]:
+def carried(place: Place, spectrum: Spectrum) -> list[Quantity]:
     """Return the modes that carry the mechanism, and the largest acceleration of its floor, m/s2."""
     found: list[Quantity] = []
+    floor = place.floor
+    if not floor:
+        return found
     for k, (mode, peak) in enumerate(zip(floor.modes, floor.peaks(spectrum), strict=True), start=1):
         found += [
             Quantity(f"T_{k}", f"period of mode {k}", GIVEN, mode.period, "s", "C7.2.3"),
@@ -42,3 +53,34 @@ def carried(floor: Floor, spectrum: Spectrum) -> list[Quantity]:
     largest = Quantity("a_Z", "largest acceleration at the height z", words, floor.largest(spectrum), "m/s2",
                        "[C7.2.8]")  # fmt: skip
     return [*found, largest]
+
+
+def remarks(model: Model, rates: Array, confidence: float) -> tuple[str, ...]:
+    """Return what C8.7.1.2.1 asks that a model and its mechanism (n, 6) do not follow."""
+    said = []
+    crushing = any(getattr(own.joint, "compressive_strength", None) is not None for own in model.interfaces)
+    if confidence < LC1 and not crushing:
+        said.append(
+            f"FC {confidence:g} with joints without compressive strength: C8.7.1.2.1.3 asks that of LC1,"
+            f" {LC1}"
+        )
+    if any(isinstance(own.joint, Tie) for own in model.interfaces):
+        said.append(
+            "there are ties: the capacity curve holds them to the end; C8.7.1.2.1.6 counts only what is sure"
+            " to be there until collapse, and a tie that breaks before ends SLV"
+        )
+    if not _plane(model, rates):
+        said.append(
+            "the mechanism is not parallel to one plane: the equations are calibrated for such (C8.7.1.2.1.6)"
+        )
+    return tuple(said)
+
+
+def _plane(model: Model, rates: Array) -> bool:
+    """Whether the velocities of all corners are parallel to one plane."""
+    velocities = np.concatenate(
+        [own[:3] + np.cross(own[3:], block.vertices - block.centroid)
+         for block, own in zip(model.blocks, rates, strict=True)]
+    )  # fmt: skip
+    sizes = np.linalg.svd(velocities, compute_uv=False)
+    return bool(sizes[2] <= PLANE * sizes[0])

@@ -1,7 +1,7 @@
-"""Further checks of walls in earthquakes: floor acceleration of Eurocode 8, rocking after Housner.
+"""Further checks of walls in earthquakes: floor acceleration of Eurocode 8, periods of walls, rocking.
 
-Sources: EN 1998-1:2004, Section 4.3.5.2, Eqs (4.24), (4.25); Housner (1963), The behavior of inverted
-pendulum structures during earthquakes, Bull. Seism. Soc. Am. 53(2).
+Sources: EN 1998-1:2004, Section 4.3.5.2, Eqs (4.24), (4.25); Circolare 7/2019, [C8.7.1.7]; Housner (1963),
+The behavior of inverted pendulum structures during earthquakes, Bull. Seism. Soc. Am. 53(2).
 """
 
 from __future__ import annotations
@@ -58,6 +58,30 @@ def element_force(acceleration: float, weight: float, *, importance: float = 1.0
     )
 
 
+def elastic_period(
+    length: float, thickness: float, unit_weight: float, modulus: float, *, cantilever: bool = True
+) -> float:
+    """Return the period T_0 of a wall free to vibrate before it rocks, s, Circolare 7/2019 [C8.7.1.7].
+
+    ``T_0 = kappa lambda L sqrt(W / (E g))`` of a beam with even mass; lambda = L / t, kappa 6.2 or 2.2.
+
+    Parameters
+    ----------
+    length, thickness : float
+        L and t, m.
+    unit_weight : float
+        W, N/m3.
+    modulus : float
+        E, Pa; of cracked masonry.
+    cantilever : bool
+        Whether it stands free (a parapet, a pinnacle), or is held at both ends.
+    """
+    L, t = (number(x, name, "m", above=0.0) for x, name in ((length, "length"), (thickness, "thickness")))
+    W = number(unit_weight, "unit weight", "N/m3", above=0.0)
+    E = number(modulus, "modulus of elasticity", "Pa", above=0.0)
+    return float((6.2 if cantilever else 2.2) * L / t * L * np.sqrt(W / (E * G)))
+
+
 @dataclass(frozen=True)
 class Rocking:
     """A rigid rectangle that rocks about its lower corners, Housner (1963).
@@ -100,6 +124,6 @@ class Rocking:
 
         `amplitude` is the largest rotation over alpha, 0 to less than 1. Of slender blocks, without losses.
         """
-        if not 0.0 <= amplitude < 1.0:
+        if not 0.0 <= number(amplitude, "amplitude", "") < 1.0:
             raise ModelError(f"amplitude is {amplitude!r} of the slenderness, expected 0 to less than 1")
         return 4.0 / self.frequency * float(np.arccosh(1.0 / (1.0 - amplitude)))

@@ -12,7 +12,7 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
@@ -178,6 +178,7 @@ def settlement(
 
 def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:
     """Return the model in which `support` can move along `direction` only; see :func:`settlement`."""
+    refuse_kind(model, Model, "model")
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
     others = [name for name in model.supports if name != support]
     if support not in model.supports:

@@ -1,20 +1,22 @@
 """Elastic response spectrum of NTC 2018 and floor spectra of Circolare 7/2019, with explicit inputs.
 
-Sources: NTC 2018 (D.M. 17/01/2018), Section 3.2.3.2.1, Eqs [3.2.2]-[3.2.8]; Circolare 7/2019, Section
-C7.2.3, Eqs [C7.2.5]-[C7.2.8], and [C8.7.1.12], checked against a transcription of the official text.
+Sources: NTC 2018 (D.M. 17/01/2018), Section 3.2.3.2, Eqs [3.2.2]-[3.2.7], [3.2.10]; Circolare 7/2019, Section
+C7.2.3, Eqs [C7.2.5]-[C7.2.10], and [C8.7.1.12], checked against a transcription of the official text.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.optimize import brentq
 
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics.loads.load import number
 
 G = 9.81  # m/s2, as the code's examples take it
+WIDEST = 1e6  # times the ground acceleration of the site: where that of a limit state is looked for
 
 
 def damping_factor(damping: float) -> float:
@@ -78,7 +80,10 @@ class Spectrum:
         return plateau * self.T_C * self.T_D / T**2
 
     def displacement(self, period: float, damping: float = 0.05) -> float:
-        """Return S_De(T) = S_e(T) (T / 2 pi)^2, m, Eq. [3.2.8]."""
+        """Return S_De(T) = S_e(T) (T / 2 pi)^2, m, Eq. [3.2.10].
+
+        Beyond T_E, 4.5 s and more, the code lets it fall; here it stays, on the safe side.
+        """
         return self.acceleration(period, damping) * (period / (2.0 * np.pi)) ** 2
 
 
@@ -109,6 +114,17 @@ class FloorMode:
         number(self.shape, "shape of a mode", "")
         number(self.damping, "damping of a mode", "", above=0.0)
 
+    @classmethod
+    def first(cls, period: float, storeys: int, height: float, damping: float = 0.05) -> FloorMode:
+        """Return the first mode of a building of `storeys` of equal mass, linear over its height.
+
+        psi = z / H, `height`; gamma = 3 n / (2 n + 1), Eq. [C7.2.10].
+        """
+        n = number(storeys, "storeys", "", least=1.0)
+        if number(height, "height z / H", "", least=0.0) > 1.0:
+            raise ModelError(f"height z / H is {height!r}, expected 0 to 1: a share of that of the building")
+        return cls(period, 3.0 * n / (2.0 * n + 1.0), height, damping)
+
 
 @dataclass(frozen=True)
 class Floor:
@@ -117,6 +133,8 @@ class Floor:
     Floor spectrum of Circolare 7/2019, Eqs [C7.2.5], [C7.2.6] (after Degli Abbati, Cattari & Lagomarsino
     2018): in each mode 1.1 xi_k^-0.5 eta(xi) times the largest acceleration between `a` T_k and `b` T_k,
     falling on both sides, at T = 0 to the largest acceleration. The first mode is that of [C8.7.1.12].
+    The text has xi_k in per cent; under the root of [C7.2.6] it is taken as a ratio, for 1.1 x 5^-0.5 would
+    be less than one at resonance.
     """
 
     modes: tuple[FloorMode, ...]
@@ -127,6 +145,10 @@ class Floor:
         object.__setattr__(self, "modes", tuple(self.modes))
         if not self.modes:
             raise ModelError("a floor spectrum needs at least one mode of the building")
+        for mode in self.modes:
+            refuse_kind(mode, FloorMode, "mode of the building")
+        if not 0.0 < number(self.a, "a", "") <= number(self.b, "b", ""):
+            raise ModelError(f"a is {self.a!r} and b is {self.b!r}, expected 0 < a <= b, .8 and 1.1")
 
     def peaks(self, ground: Spectrum) -> Sequence[float]:
         """Return the largest acceleration of the floor in each mode, m/s2.
@@ -165,3 +187,33 @@ class Floor:
             return found
         least = self.acceleration(ground, first, damping) * (self.b * first / (2.0 * np.pi)) ** 2
         return max(found, least)
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a mechanism is: on the ground or a floor; rigid until set off, or free to vibrate at T_0."""
+
+    floor: Floor | None = None
+    elastic_period: float = 0.0
+
+    def acceleration(self, ground: Spectrum) -> float:
+        """Return what sets it off, m/s2: a_g S or a_Z [C7.2.8]; the spectrum at T_0 [C8.7.1.9]."""
+        if self.floor:
+            return self.floor.acceleration(ground, self.elastic_period)
+        return ground.acceleration(self.elastic_period)
+
+    def displacement(self, ground: Spectrum, periods: Sequence[float], damping: float) -> float:
+        """Return the largest displacement of the spectrum at some periods and at T_0, m."""
+        every = (*periods, self.elastic_period)
+        if self.floor:
+            return max(self.floor.displacement(ground, T, damping) for T in every)
+        return max(ground.displacement(T, damping) for T in every)
+
+
+def ground_acceleration(ground: Spectrum, demand: Callable[[Spectrum], float], capacity: float) -> float:
+    """Return the a_g of a spectrum at which a demand, which grows with it, is the capacity; m/s2."""
+
+    def excess(a_g: float) -> float:
+        return demand(replace(ground, a_g=a_g)) - capacity
+
+    return float(brentq(excess, ground.a_g / WIDEST, ground.a_g * WIDEST, rtol=1e-13))

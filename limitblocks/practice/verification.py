@@ -9,19 +9,19 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.displacement_check import displacement_check
-from limitblocks.practice.inputs import GIVEN, carried, given
+from limitblocks.practice.inputs import GIVEN, LC1, carried, given, remarks
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
-from limitblocks.practice.spectra import Floor, G, Spectrum
+from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification
 
-LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
 SIMPLIFIED = "C8.7.1.2.1.7"
+MOST = 2.0 * G  # m/s2 of the ground: more is in another unit
 
 
 def verification(
@@ -36,6 +36,7 @@ def verification(
     collapse_demand: Spectrum | None = None,
     damage_demand: Spectrum | None = None,
     damping: tuple[float, float] = (0.08, 0.10),
+    elastic_period: float = 0.0,
 ) -> Verification:
     """Verify a mechanism against an earthquake: linear and, with a capacity curve, non-linear analysis.
 
@@ -62,6 +63,9 @@ def verification(
         Of the limit state of damage (SLD); with it the mechanism is checked not to set off, [C8.7.1.8].
     damping : (float, float)
         Equivalent damping of the mechanism at SLV and SLC, C8.7.1.2.1.8.
+    elastic_period : float
+        T_0, s, of an element free to vibrate before it is set off (parapet, pinnacle, top of a facade):
+        :func:`~limitblocks.practice.elastic_period`. 0 of a wall that its returns hold.
 
     Raises
     ------
@@ -74,38 +78,57 @@ def verification(
     -----
     With P_k the weights of the live load on blocks that move and delta_k their displacements along it:
     e* = (sum P delta)^2 / (sum P sum P delta^2) [C8.7.1.5], a0* = alpha0 g / (e* FC) [C8.7.1.8],
-    d = d_C sum P delta^2 / (delta_C sum P delta) [C8.7.1.4]; at the ground a0* >= a_g S / q.
-    The acceleration at .4 and .6 of d0* is taken from the capacity curve [C8.7.1.3] and, beside it, from the
-    straight line between a0* and d0*; the larger demand of both counts.
+    d = d_C sum P delta^2 / (delta_C sum P delta) [C8.7.1.4]; at the ground a0* >= a_g S / q, free to vibrate
+    a0* >= S_e(T_0) / q [C8.7.1.9]. The acceleration at .4 and .6 of d0* is taken from the capacity curve
+    [C8.7.1.3] and, beside it, from the straight line between a0* and d0*; the larger demand of both counts.
+    The non-linear checks compare ground accelerations, a_g,SLV no less than that which sets it off.
     """
     collapse = collapse_of(model, result)
+    _refuse(demand, collapse_demand, damage_demand, curve, floor)
+    if np.shape(damping) != (2,):
+        raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
     q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
+    place = Place(floor, number(elastic_period, "T_0", "s", least=0.0))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
     found, a0, e = _oscillator(masses, alpha, confidence)
-    found += given(demand)
-    largest = floor.largest(demand) if floor else demand.a_g * demand.S
-    found += carried(floor, demand) if floor else []
-    found += _linear(a0, demand.a_g, largest, q, "a_Z" if floor else "a_g S")
-    checks = [Inequality("linear, SLV", a0, largest / q, "m/s2", SIMPLIFIED)]
+    found += given(demand) + carried(place, demand)
+    set_off = ground_acceleration(demand, place.acceleration, a0)
+    found += _linear(a0, demand, place, q, set_off)
+    checks = [Inequality("linear, SLV", a0, place.acceleration(demand) / q, "m/s2", SIMPLIFIED)]
     if damage_demand:
-        most = floor.largest(damage_demand) if floor else damage_demand.a_g * damage_demand.S
         found += given(damage_demand, "SLD")
-        checks.append(Inequality("linear, SLD", a0, most, "m/s2", "[C8.7.1.8]"))
+        checks.append(
+            Inequality("linear, SLD", a0, place.acceleration(damage_demand), "m/s2", _equation(place))
+        )
     if curve:
-        per_control = _per_control(model, scale * collapse.displacement_rates, curve, masses)
-        for state, spectrum, own in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
+        scales = (
+            _per_control(model, scale * collapse.displacement_rates, curve, masses),
+            G / (e * confidence),
+        )
+        for state, spectrum, given_xi in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
             found += given(spectrum, state) if spectrum and state != "SLV" else []
             if spectrum:
-                xi = number(own, f"damping at {state}", "", above=0.0)
-                more, check = displacement_check(
-                    state, curve, (per_control, G / (e * confidence)), spectrum, floor, xi
-                )
+                xi = number(given_xi, f"damping at {state}", "", above=0.0)
+                least = set_off if state == "SLV" else 0.0  # the text has it of SLV alone
+                more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
                 found += more
                 checks.append(check)
-    return Verification(tuple(found), tuple(checks), masses, model.digest, _remarks(model, confidence))
+    said = remarks(model, collapse.displacement_rates, confidence)
+    return Verification(tuple(found), tuple(checks), masses, model.digest, said)
+
+
+def _refuse(demand: object, *others: object) -> None:
+    """ModelError where what is given is not of its kind, or an acceleration in another unit."""
+    kinds = (Spectrum, Spectrum, Spectrum, CapacityCurve, Floor)
+    words = ("demand", "collapse_demand", "damage_demand", "curve", "floor")
+    for own, kind, word in zip((demand, *others), kinds, words, strict=True):
+        if own is not None or word == "demand":
+            refuse_kind(own, kind, word)
+        if isinstance(own, Spectrum) and own.a_g > MOST:
+            raise ModelError(f"a_g is {own.a_g:g} m/s2, {own.a_g / G:.3g} g; expected at most 2 g: its unit?")
 
 
 def _oscillator(
@@ -135,17 +158,30 @@ def _oscillator(
     ], a0, e  # fmt: skip
 
 
-def _linear(a0: float, a_g: float, largest: float, q: float, word: str) -> list[Quantity]:
+def _equation(place: Place) -> str:
+    """Number of what is compared with a0*."""
+    return "[C8.7.1.9]" if place.elastic_period else "[C8.7.1.8]"
+
+
+def _linear(a0: float, demand: Spectrum, place: Place, q: float, ground: float) -> list[Quantity]:
     """The check with a behaviour factor, as accelerations of the mechanism and of the ground."""
-    ground = a_g * a0 / largest
+    rigid, free = ("a_Z", "S_eZ(T_0)") if place.floor else ("a_g S", "S_e(T_0)")
+    word = free if place.elastic_period else rigid
+    wanted = place.acceleration(demand)
+    source = f"{_equation(place)}, {'[C7.2.5]' if place.elastic_period else '[C7.2.8]'}"
+    at = [
+        Quantity("T_0", "period before it is set off", GIVEN, place.elastic_period, "s", "[C8.7.1.7]"),
+        Quantity(free, "acceleration at T_0, damping 5 %", "spectrum", wanted, "m/s2", source),
+    ]  # fmt: skip
     return [
+        *(at if place.elastic_period else []),
         Quantity("q", "behaviour factor", GIVEN, q, "", SIMPLIFIED),
-        Quantity("a_d", "demand of the linear check", f"{word} / q", largest / q, "m/s2", SIMPLIFIED),
-        Quantity("a_g,SLD", "ground acceleration that sets it off", f"a_g a0* / ({word})", ground, "m/s2",
-                 "[C8.7.1.8], [C7.2.8]"),
+        Quantity("a_d", "demand of the linear check", f"{word} / q", wanted / q, "m/s2", SIMPLIFIED),
+        Quantity("a_g,SLD", "ground acceleration that sets it off", f"from {word} = a0*", ground, "m/s2",
+                 source),
         Quantity("a_g,SLV", "ground acceleration of the linear check", "q a_g,SLD", q * ground, "m/s2",
                  SIMPLIFIED),
-        Quantity("zeta_E", "a_g,SLV over that of the site", "a_g,SLV / a_g", q * ground / a_g, "",
+        Quantity("zeta_E", "a_g,SLV over that of the site", "a_g,SLV / a_g", q * ground / demand.a_g, "",
                  "NTC 2018 8.3"),
     ]  # fmt: skip
 
@@ -161,12 +197,3 @@ def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple
     delta = float((rates[k, :3] + np.cross(rates[k, 3:], arm)) @ curve.control.direction)
     P, x = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal"))
     return float(P @ x**2) / (delta * float(P @ x))
-
-
-def _remarks(model: Model, confidence: float) -> tuple[str, ...]:
-    weak = any(getattr(own.joint, "compressive_strength", None) is not None for own in model.interfaces)
-    if weak or confidence >= LC1:
-        return ()
-    return (
-        f"FC {confidence:g} with joints without compressive strength: C8.7.1.2.1.3 asks that of LC1, {LC1}",
-    )

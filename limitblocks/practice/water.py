@@ -48,6 +48,7 @@ def uplift(
     ModelError
         If a number is out of range, or a given joint reaches above the level.
     """
+    number(level, "level of the water", "m")
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
     if not 0.0 < share <= 1.0:
         raise ModelError(f"share of the water pressure is {share!r}, expected more than 0 and at most 1")

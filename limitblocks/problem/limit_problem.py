@@ -113,6 +113,8 @@ class LimitProblem:
         Units of the numbers.
     blocks, interfaces : tuple of str
         Names of the free blocks and of the interfaces, for messages.
+    centroids : Array, shape (n, 3)
+        Of the free blocks, m: where to look for a symmetry. No equation has them.
     left_out : tuple of str
         Parts of the model's file that are no blocks, for messages.
     """
@@ -135,6 +137,7 @@ class LimitProblem:
     units: Units
     blocks: tuple[str, ...]
     interfaces: tuple[str, ...]
+    centroids: Array
     left_out: tuple[str, ...] = ()
 
     @cached_property

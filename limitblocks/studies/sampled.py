@@ -7,19 +7,18 @@ import json
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
-from scipy.stats import qmc
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.joints.base import checked_choice, checked_count
+from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
 from limitblocks.studies.pool import ANALYSES, Analysis, Progress, analyse, failed, in_order
 from limitblocks.studies.sample_result import SampledStudy
+from limitblocks.studies.samples import Sampler, sampled_values
 
-Sampler = Literal["sobol", "latin hypercube", "halton", "random"]
 Row = dict[str, Any]
 AT_ONCE = 64  # rows handed to the processes before the first is written
 
@@ -79,7 +78,7 @@ def study(
     if analysis not in ANALYSES:
         raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
     checked_count("n", n, 1)
-    names, values = _values(parameters, n, sampler, seed, indices)
+    names, values = sampled_values(parameters, n, sampler, seed, indices)
     head = _head(parameters, values, sampler, seed, analysis, settings, indices)
     store = Path(file) if file is not None else None
     done = _kept(store, head)
@@ -108,56 +107,6 @@ def study(
         samples=n,
         indices=indices,
     )
-
-
-def _values(
-    parameters: Mapping[str, Any], n: int, sampler: str, seed: int, indices: bool
-) -> tuple[tuple[str, ...], Array]:
-    """Names, and values (rows, k): the samples, or A, B and the k matrices with one column of B."""
-    checked_choice("sampler", sampler, ("sobol", "latin hypercube", "halton", "random"))
-    names, k = tuple(parameters), len(parameters)
-    if not names:
-        raise ModelError("a study needs at least one parameter")
-    if indices and n & (n - 1):
-        raise ModelError(f"n is {n}, expected a power of two for Sobol indices")
-    d = 2 * k if indices else k
-    generator = np.random.default_rng(seed)
-    kinds: dict[str, Callable[[], Array]] = {
-        "sobol": lambda: _sobol(d, n, seed),
-        "latin hypercube": lambda: qmc.LatinHypercube(d, rng=generator).random(n),
-        "halton": lambda: qmc.Halton(d, rng=generator).random(n),
-        "random": lambda: generator.random((n, d)),
-    }
-    unit = kinds[sampler]()
-    if indices:
-        A, B = unit[:, :k], unit[:, k:]
-        mixed = [np.where(np.arange(k) == j, B, A) for j in range(k)]
-        unit = np.concatenate([A, B, *mixed])
-    columns = [_scaled(name, parameters[name], unit[:, j]) for j, name in enumerate(names)]
-    return names, np.stack(columns, axis=1)
-
-
-def _sobol(d: int, n: int, seed: int) -> Array:
-    """The first n points of a scrambled Sobol sequence; the next power of two is drawn, as it is balanced."""
-    drawn = qmc.Sobol(d, rng=np.random.default_rng(seed)).random_base2(int(np.ceil(np.log2(max(n, 2)))))
-    return np.asarray(drawn[:n])
-
-
-def _scaled(name: str, given: Any, unit: Array) -> Array:
-    """Values of a parameter at quantiles."""
-    if hasattr(given, "ppf"):
-        values = np.asarray(given.ppf(unit), dtype=float)
-    else:
-        try:
-            low, high = (float(value) for value in given)
-        except (TypeError, ValueError):
-            low = high = np.nan
-        if not low < high:
-            raise ModelError(f"parameter {name!r} is {given!r}, expected (low, high) or a distribution")
-        values = low + (high - low) * unit
-    if not np.isfinite(values).all():
-        raise ModelError(f"parameter {name!r}: its distribution gives values that are not finite")
-    return values
 
 
 def _head(

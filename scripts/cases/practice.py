@@ -1,8 +1,13 @@
-"""What practice asks: closed forms of ties, settlement, rocking, code checks, bridges, water and repair."""
+"""What practice asks: closed forms of ties, settlement, rocking, code checks, bridges, water and repair.
+
+Independent values are those of the programs in tests/practice, run here.
+"""
 
 import math
+import sys
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
+from pathlib import Path
 
 import numpy as np
 
@@ -22,6 +27,7 @@ from limitblocks.practice import (
     passive_fill,
     reinforced,
     settlement,
+    settlement_to_collapse,
     strip,
     tie,
     uplift,
@@ -30,9 +36,16 @@ from limitblocks.practice import (
     worst_position,
 )
 from limitblocks.structures import Fill, arch_bridge
-from limitblocks.structures.cases import COCCHETTI_RIZZI, PRESTWOOD
+from limitblocks.structures.cases import COCCHETTI_RIZZI, PRESTWOOD, STOCKDALE
+
+sys.path.append(str(Path(__file__).parents[2] / "tests" / "practice"))
+
+import planar_bridge
+import spreading_arch
 
 GROUP = "Practice"
+ANOTHER = "another program, tests/practice/"
+SPREAD = 1e-6  # of the radius: the interval in which a spreading arch falls
 T, H, FLOOR, ARM, G = 0.5, 5.0, 10e3, 0.35, 9.81
 OWN = 18e3 * T * H  # N a metre of the facade
 
@@ -90,6 +103,27 @@ def arch_thrust():
     arch = lb.structures.arch(lb.PointContact(2.0), radius=1.0, thickness=t, voussoirs=60, unit_weight=20e3)
     found = settlement(arch, "right support", (1, 0, 0), without_dilatancy=False)
     return found.upper / (20e3 * t)
+
+
+def spread(voussoirs, ratio):
+    """Middle of the interval in which a semicircle of radius 1 falls when a springing spreads."""
+    ring = lb.structures.arch(lb.PointContact(0.8), radius=1.0, thickness=ratio, voussoirs=voussoirs)
+    way = settlement_to_collapse(ring, "right support", (1, 0, 0), step=0.1, accuracy=SPREAD,
+                                 without_dilatancy=False)  # fmt: skip
+    return (way.stands_to + way.falls) / 2
+
+
+def point_load():
+    """Intrados radius 1.806 m, thickness .1661 of it, depth .25 m, 1530 kg/m3; kN at joint 8 of 27."""
+    inner, t = 1.806, 0.1661 * 1.806
+    ring = lb.structures.arch(lb.PointContact(0.9), radius=inner + t / 2, thickness=t, voussoirs=27,
+                              depth=0.25, unit_weight=1530 * G)  # fmt: skip
+    angle = math.pi * 8 / 27
+    joint = (-(inner + t) * math.cos(angle), 0.0, (inner + t) * math.sin(angle))
+    left = min(ring.free_blocks, key=lambda block: block.centroid[0])
+    eighth = sorted(ring.free_blocks, key=lambda block: block.centroid[0])[7]
+    assert left.name == "voussoir 1"
+    return lb.bounds(replace(ring, live=lb.loads.force(eighth.name, (0, 0, -1e3), at=joint))).upper
 
 
 def rocked():
@@ -168,6 +202,11 @@ def practice():
     thrust = COCCHETTI_RIZZI["thrust"]
     yield of_print(GROUP, "semicircle of least thickness, 60 voussoirs, spreads", "reaction / (gamma t d R)",
                    replace(thrust, tolerance=3e-3), arch_thrust, quick=True)  # fmt: skip
+    for voussoirs, ratio in ((8, 0.2), (16, 0.15)):
+        yield Case(GROUP, f"semicircle of {voussoirs} voussoirs, t/R = {ratio:g}, spreads",
+                   "settlement at collapse / R", f"{ANOTHER}spreading_arch.py",
+                   spreading_arch.fourth_hinge(voussoirs, ratio), SPREAD,
+                   partial(spread, voussoirs, ratio))  # fmt: skip
     yield case("facade with a floor", "non-associated", "moments about toe", rocking(),
                lambda: nonassociated(facade()))  # fmt: skip
     yield case("facade, tie of 8 kN at 4.5 m", "non-associated", "moments about toe", rocking(8e3, 4.5),
@@ -196,18 +235,22 @@ def practice():
     yield case("prism of 45 degrees slides into fill", "non-associated", "mu + K_p gamma z A / W", 0.4,
                wedge_in_fill)  # fmt: skip
     bond = lb.OrdunaLourenco(0.6, cohesion=2e6, tensile_strength=2e6)
-    for name, value, settings in (
-        ("arch of two bonded rings", 18.92700621, {"rings": 2, "ring_joint": bond}),
-        ("arch of two dry rings", 7.614910554, {"rings": 2}),
-        ("two arches on a pier of 0.5 m x 1.5 m", 16.93364950,
+    shape, source = {"depth": 1.0}, f"{ANOTHER}planar_bridge.py"
+    for name, other, settings in (
+        ("arch of two bonded rings", {}, {"rings": 2, "ring_joint": bond}),
+        ("arch of two dry rings", {"rings": 2}, {"rings": 2}),
+        ("two arches on a pier of 0.5 m x 1.5 m", {"spans": 2},
          {"spans": 2, "pier_width": 0.5, "pier_height": 1.5}),
     ):  # fmt: skip
-        source = "another program, tests/practice/planar_bridge.py"
+        value = planar_bridge.load_factor(planar_bridge.Bridge(**shape, **other), -0.75)
         yield case(name, "associated, kN", source, value, lambda settings=settings: bridge(**settings))
-    yield of_print(GROUP, "Prestwood bridge, bare ring, 40 voussoirs", "associated, kN",
-                   PRESTWOOD["bare ring"], lambda: prestwood(filled=False), quick=True)  # fmt: skip
-    yield of_print(GROUP, "Prestwood bridge, fill, 40 voussoirs", "associated, kN", PRESTWOOD["with fill"],
-                   prestwood, quick=True)  # fmt: skip
+    bare = planar_bridge.Bridge(6.55, 1.428, 0.22, 40, depth=3.8, gamma=18e3)
+    yield case("Prestwood bridge, bare ring, 40 voussoirs", "associated, kN", source,
+               planar_bridge.load_factor(bare, -6.55 / 4), lambda: prestwood(filled=False))  # fmt: skip
+    yield of_print(GROUP, "Prestwood bridge, fill, 40 voussoirs", "associated, kN", PRESTWOOD, prestwood,
+                   quick=True)  # fmt: skip
+    yield of_print(GROUP, "ring of 27 voussoirs, load at the eighth joint", "associated, kN", STOCKDALE,
+                   point_load, quick=True)  # fmt: skip
     yield case("block that slides, uplift", "non-associated", "mu (1 - p A / W)",
                0.3 * (1 - 9810.0 * 0.6 * 2.0 / 40e3), lifted)  # fmt: skip
     force = OWN * (0.3 * H - T) / 2 / 4.5

@@ -9,8 +9,10 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.load_factor_range import search
 from limitblocks.analysis.load_factor_range.answers import merged
 from limitblocks.cli import app
+from limitblocks.evidence.range_answer import Origin
 from limitblocks.problem import Turning
 
 FEW = {"paths": 3, "mechanisms": 3}
@@ -79,6 +81,22 @@ def test_pushed_pair_has_an_interval(of_pushed):
     assert found.load_path.load_factor in found
     assert not found.wedging.wedged  # and still the load factor is not unique
     assert all(answer.check.passed for answer in found.answers)
+
+
+def test_paths_of_a_planar_model_are_followed_in_its_plane(of_pushed):
+    others = [one for one in of_pushed.answers if one.origin is Origin.REACHED]
+    assert others
+    assert all(one.solution.how.endswith("in the plane") for one in others)
+
+
+def test_an_answer_off_the_load_path_is_reached_and_said_to_be_none_of_it(pushed, monkeypatch):
+    """A path with a large barrier starts from the permanent loads, as those of the sampler do."""
+    large = replace(lb.nonassociated(pushed), how="tracked path, barrier 3 (large barrier), power 2, seed 1")
+    monkeypatch.setattr(search, "nonassociated", lambda *_, **__: large)
+    found = lb.load_factor_range(pushed, paths=1, mechanisms=0)
+    assert found.load_path.origin is Origin.REACHED
+    assert found.reached[0] <= large.load_factor <= found.reached[1]
+    assert "not that of the load path (tracked path, barrier 3" in str(found)
 
 
 @pytest.mark.parametrize("answer", [0, -1])

@@ -14,7 +14,7 @@ from limitblocks.evidence.nearby import Given
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, turning_of
 
-PARTS = ("limits", "flow", "give", "loads", "mechanism")
+PARTS = ("limits", "flow", "loads", "mechanism")
 
 
 def flow_of(model, claim):
@@ -80,7 +80,7 @@ def test_a_block_that_rocks_about_another_edge(share, compressive_strength):
 
 @pytest.mark.parametrize("angle", [1e-6, 1e-3, 0.1])
 def test_slip_at_an_angle_to_the_shear_force(angle):
-    """A push at an angle to the slip, on round friction: the flow turns by it, or the mechanism."""
+    """A push at an angle to the slip, on round friction: flow and mechanism turn by half of it each."""
     model, claim = sliding(lb.OrdunaLourenco(MU))
     state = state_of(model, claim)
     push = replace(model, live=lb.mass_proportional((np.cos(angle), np.sin(angle), 0.0)))
@@ -90,7 +90,8 @@ def test_slip_at_an_angle_to_the_shear_force(angle):
     u = moving(push, block_1=np.array([1.0, 0, 0, 0, 0, 0]))
     y = state.y * (np.abs(u).max() / np.abs(state.u).max())
     error = backward_error(Flow(q), State(a, x, u, y))
-    assert error.value == pytest.approx(angle, rel=0.01)
+    assert error.flow.value == pytest.approx(angle / 2.0, rel=0.01)
+    assert error.mechanism.value == pytest.approx(angle / 2.0, rel=0.01)
     assert error.value == max(error.flow.value, error.mechanism.value)
 
 
@@ -102,22 +103,22 @@ def test_a_load_out_of_balance():
     assert error.value == error.loads.value == pytest.approx(0.01 * MU / (1 + 1.01 * MU), rel=1e-6)
 
 
-def test_it_grows_with_the_change():
-    """In proportion but for which way is the cheapest."""
+def test_it_grows_with_the_change_in_proportion():
     model, claim = true("wall")
     p, state = model.problem, state_of(model, claim)
     values = [backward_error(Flow(p), shaken(p, state, size)).value for size in (1e-8, 1e-7, 1e-6)]
-    assert 3.0 < values[1] / values[0] < 100.0
-    assert 3.0 < values[2] / values[1] < 100.0
+    assert values[1] / values[0] == pytest.approx(10.0, rel=0.1)
+    assert values[2] / values[1] == pytest.approx(10.0, rel=0.1)
 
 
-def test_blocks_at_rest_that_drift_are_no_other_model():
-    """Rates of 1e-7 of the largest where nothing flows: joints that give by as much make them exact."""
+def test_blocks_at_rest_that_drift_are_another_mechanism_not_another_model():
+    """Rates of 1e-7 of the largest where nothing flows: the exact mechanism is as far off."""
     model, claim = true("points")
     p, state = model.problem, state_of(model, claim)
     drift = 1e-7 * np.random.default_rng(0).uniform(-1.0, 1.0, len(state.u)) * np.abs(state.u).max()
     error = backward_error(Flow(p), replace(state, u=state.u + drift))
-    assert 1e-9 < error.value <= 1e-6
+    assert 1e-9 < error.value == error.mechanism.value <= 1e-6
+    assert error.model <= 1e-8
 
 
 def test_a_joint_that_carries_next_to_nothing_counts_by_what_it_carries():
@@ -160,7 +161,7 @@ def test_a_structure_of_slightly_other_frictions():
         np.argsort(q.row_interface, kind="stable")
     ]
     error = error_of(model, replace(found, generalised_stresses=x, flow_multipliers=y))
-    assert 1e-7 < error.model <= np.abs(1.0 / shares - 1.0).max() * 1.1
+    assert 1e-6 < error.limits.value <= np.abs(1.0 / shares - 1.0).max() * 1.1
     assert error.value <= 1.1e-4
 
 
@@ -219,8 +220,8 @@ GROSS = {
     "load factor of the heavy cube for the light stone": ("loads", 0.1),
     "stresses halved": ("loads", 0.3),
     "rates scaled alone": ("mechanism", 0.009),
-    "mirrored mechanism": (None, 0.7),
-    "rises as it slides, sliding, circle": (None, 0.2),
+    "mirrored mechanism": (None, 0.9),
+    "rises as it slides, sliding, circle": ("mechanism", 0.2),
     "slides into a stone that leans on a wall, 1": (None, np.inf),
 }
 

@@ -1,56 +1,15 @@
 import io
 import random
-import re
 import sys
 from dataclasses import replace
 
 import ezdxf
 import numpy as np
 import pytest
+from dxf_files import JOINT, STRUCTURES, drawn, fault, total_area
 from ezdxf.render.forms import cube, cylinder
-from typer.testing import CliRunner
 
 import limitblocks as lb
-from limitblocks.cli import app
-from limitblocks.geometry.polygon import areas
-
-JOINT = lb.OrdunaLourenco(0.6)
-STRUCTURES = {
-    "arch": lb.structures.arch(JOINT, radius=2.0, thickness=0.3, voussoirs=9, depth=0.5),
-    "wall": lb.structures.wall(JOINT, length=1.6, courses=3, thickness=0.2),
-    "corner": lb.structures.corner(JOINT, length=2.4, return_length=1.6, courses=2),
-    "vault": lb.structures.barrel_vault(JOINT, radius=2.0, thickness=0.3, length=1.5, courses=7, stones=2),
-}
-
-
-def total_area(interfaces):
-    return float(sum(areas(interface.polygon[None])[0] for interface in interfaces))
-
-
-def drawn(path, draw, units=6, version="R2010"):
-    """A DXF file of what `draw` puts into the model space; unit code 6 is m, 4 is mm."""
-    drawing = ezdxf.new(version, units=units)
-    draw(drawing.modelspace())
-    drawing.saveas(path)
-    return path
-
-
-def elevation(model, scale=1.0, jitter=0.0):
-    """Outlines of a model in the plane X, Z, by name."""
-    rng = np.random.default_rng(1)
-    outlines = {}
-    for block in model.blocks:
-        front = block.faces[int(np.argmin(block.normals[:, 1]))]
-        corners = block.vertices[list(front)][:, [0, 2]]
-        outlines[block.name] = (corners + rng.uniform(-jitter, jitter, corners.shape)) * scale
-    return outlines
-
-
-def fault(read, path, **options):
-    with pytest.raises(lb.ModelError) as caught:
-        read(path, **options)
-    assert all("\n" not in line and line.startswith(str(path)) for line in caught.value.problems)
-    return str(caught.value)
 
 
 @pytest.mark.parametrize("name", STRUCTURES)
@@ -267,130 +226,6 @@ def test_without_ezdxf(tmp_path, monkeypatch):
         lb.files.read_blocks(tmp_path / "a.dxf")
 
 
-@pytest.mark.parametrize(("name", "thickness"), [("arch", 0.5), ("wall", 0.2)])
-def test_elevation_gives_the_interfaces_of_the_generator(tmp_path, name, thickness):
-    model = STRUCTURES[name]
-
-    def draw(space):
-        for title, corners in elevation(model, scale=1000.0).items():
-            layer = "support" if title in model.supports else "stone"
-            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
-            space.add_text(title, height=20).set_placement(corners.mean(axis=0))
-
-    path = drawn(tmp_path / "a.dxf", draw, units=4)
-    imported = lb.files.read_drawing(path, thickness=thickness, unit_weight={"stone": 20e3})
-    assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
-    assert imported.supports == model.supports
-    assert not imported.notes
-    for block, wanted in zip(imported.blocks, model.blocks, strict=True):
-        assert block.volume == pytest.approx(wanted.volume, rel=1e-9)
-        assert block.centroid == pytest.approx(wanted.centroid, abs=1e-9)
-    interfaces = lb.find_interfaces(imported.blocks, JOINT)
-    assert len(interfaces) == len(model.interfaces)
-    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
-    again = lb.Model(imported.blocks, imported.supports, interfaces, lb.self_weight(), model.live)
-    assert lb.bounds(again).upper == pytest.approx(lb.bounds(model).upper, rel=1e-6)
-
-
-def test_import_of_an_elevation(tmp_path):
-    """A block half as wide as high on a support that its layer marks rocks at half its weight."""
-
-    def draw(space):
-        for layer, low, high in (("Support", (0, -1), (2, 0)), ("stone", (0.5, 0), (1.5, 2))):
-            corners = [low, (high[0], low[1]), high, (low[0], high[1])]
-            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
-
-    path = drawn(tmp_path / "a.dxf", draw)
-    options = ["--friction", "0.7", "--live", "1,0,0", "--unit-weight", "20e3", "--thickness", "0.5"]
-    result = CliRunner().invoke(app, ["import", str(path), *options])
-    assert (result.exit_code, "warning" in result.stderr) == (0, False)
-    model = lb.read(tmp_path / "a.json")
-    assert [block.volume for block in model.free_blocks] == pytest.approx([1.0 * 2.0 * 0.5])
-    assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
-
-
-def test_elevation_drawn_by_hand(tmp_path):
-    """Corners off by up to 0.1 mm, outlines not closed, polylines of every kind."""
-    model = STRUCTURES["arch"]
-
-    def draw(space):
-        for k, corners in enumerate(elevation(model, jitter=1e-4).values()):
-            loop = [*corners, corners[0] + 1e-4]
-            (space.add_lwpolyline, space.add_polyline2d, space.add_polyline3d)[k % 3](
-                [(x, y, 0.0) for x, y in loop] if k % 3 == 2 else [tuple(point) for point in loop]
-            )
-
-    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=0.5)
-    interfaces = lb.find_interfaces(imported.blocks, JOINT)
-    assert len(interfaces) == len(model.interfaces)
-    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=0.01)
-    assert sum("closed over a gap" in note for note in imported.notes) == len(model.blocks)
-
-
-@pytest.mark.parametrize("mirrored", [False, True])
-def test_arcs_become_chords_of_5_degrees(tmp_path, mirrored):
-    def draw(space):  # bulge 1: half a circle, of radius 1 here
-        space.add_lwpolyline([(-1, 0, 0), (1, 0, 1)], format="xyb", close=True)
-        if mirrored:
-            space[0].dxf.extrusion = (0, 0, -1)
-
-    block = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=2.0).blocks[0]
-    chords = 36  # half a circle in chords of 5 degrees
-    assert block.volume == pytest.approx(2.0 * chords / 2 * np.sin(np.pi / chords), rel=1e-12)
-    radii = np.hypot(block.vertices[:, 0], block.vertices[:, 2])
-    assert radii == pytest.approx(np.ones(len(radii)), rel=1e-12)
-    assert block.vertices[:, 2].min() == pytest.approx(0.0, abs=1e-12)
-
-
-def test_outlines_that_are_none(tmp_path):
-    def draw(space):
-        square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-        space.add_lwpolyline(square, close=True)
-        space.add_lwpolyline(square)
-        space.add_lwpolyline([(5, 0), (6, 0), (5, 0)], close=True)
-        space.add_polyline3d([(0, 0, 0), (1, 0, 0), (1, 1, 1), (0, 1, 1)], close=True)
-        space.add_circle((0, 0), 1)
-
-    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
-    assert len(imported.blocks) == 1
-    assert len(imported.left_out) == 3
-    assert all(re.fullmatch("(LWPOLYLINE|POLYLINE) [0-9A-F]+", word) for word in imported.left_out)
-    notes = "\n".join(imported.notes)
-    for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
-        assert word in notes
-
-
-def test_drawing_layers(tmp_path):
-    def draw(space):
-        for k, layer in enumerate(("stone", "frame")):
-            square = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) + k * 0.1
-            space.add_lwpolyline(square, close=True, dxfattribs={"layer": layer})
-
-    path = drawn(tmp_path / "a.dxf", draw)
-    assert len(lb.files.read_drawing(path, thickness=1.0).blocks) == 2
-    assert set(lb.files.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
-    block = lb.files.read_drawing(path, thickness=0.5, units="mm").blocks[0]
-    assert block.volume == pytest.approx(1e-3 * 1e-3 * 0.5, rel=1e-12)  # the thickness is in m
-    assert "did you mean 'stone'" in fault(lb.files.read_drawing, path, thickness=1.0, layers="stones")
-
-
-def test_wrong_drawings(tmp_path):
-    bow = [(0, 0), (1, 1), (1, 0), (0, 1)]
-    path = drawn(tmp_path / "a.dxf", lambda space: space.add_lwpolyline(bow, close=True))
-    assert "crosses or touches itself" in fault(lb.files.read_drawing, path, thickness=1.0)
-    assert "read_drawing" in fault(lb.files.read_blocks, path)
-    for thickness in (0.0, -1.0, np.nan, np.inf):
-        assert "thickness is" in fault(lb.files.read_drawing, path, thickness=thickness)
-    path = drawn(tmp_path / "o.dxf", lambda space: space.add_lwpolyline([(0, 0), (1, 0), (1, 1)]))
-    assert "open by 1.41" in fault(lb.files.read_drawing, path, thickness=1.0)
-    path = drawn(tmp_path / "b.dxf", lambda space: space.add_line((0, 0), (1, 0)))
-    assert "no closed outline but 1 LINE" in fault(lb.files.read_drawing, path, thickness=1.0)
-    path = drawn(
-        tmp_path / "c.dxf", lambda space: space.add_lwpolyline([(0, 0), (1e200, 0), (0, 1)], close=True)
-    )
-    assert "finite numbers" in fault(lb.files.read_drawing, path, thickness=1.0)
-
-
 WORDS = (b"nan", b"1e400", b"-1", b"99999999", b"0", b"", b"INSERT", b"1e308", b"\xff\xfe", b"x")
 
 
@@ -431,34 +266,6 @@ def test_damaged_drawings_read_or_fail_cleanly(tmp_path):
             problems.append(error.problems)
     assert len(problems) > 30
     assert all("\n" not in line and line.startswith(str(path)) for lines in problems for line in lines)
-
-
-def test_outlines_that_retrace_an_edge_are_counted_once(tmp_path):
-    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-
-    def draw(space):
-        space.add_lwpolyline([*square, (0, 0), (1, 0)])  # drawn on over its first side
-        space.add_lwpolyline([(2, 0), (3, 0), (3, 1), (3, 2), (3, 1), (2, 1)], close=True)  # out and back
-
-    imported = lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
-    assert [block.volume for block in imported.blocks] == pytest.approx([1.0, 1.0])
-    assert sum("retraces itself" in note for note in imported.notes) == 2
-
-
-def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
-    def draw(space):
-        space.add_lwpolyline([(0, 0), (1, 0), (1, 1), (0, 1)], close=True)
-        for x in (5, 8):
-            space.add_lwpolyline([(x, 0), (x + 1, 1), (x + 1, 0), (x, 1)], close=True)
-
-    file = drawn(tmp_path / "a.dxf", draw)
-    with pytest.raises(lb.ModelError) as raised:
-        lb.files.read_drawing(file, thickness=1.0)
-    assert "2 of 3 blocks are bad" in raised.value.problems[0]
-    assert sum("crosses or touches itself" in line for line in raised.value.problems) == 2
-    imported = lb.files.read_drawing(file, thickness=1.0, skip_bad=True)
-    assert (len(imported.blocks), len(imported.left_out)) == (1, 2)
-    assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2
 
 
 def test_groups_and_colours_come_through_block_references(tmp_path):

@@ -1,45 +1,29 @@
 """The paper's yield surface: equations against rows, flow rules, crushing, relatives of the octagon."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from rectangles import (
+    AREA,
+    C_T,
+    COMPRESSION,
+    L1,
+    L2,
+    MU,
+    PAPER,
+    RECTANGLE,
+    SLIPS,
+    N,
+    finite_differences,
+    states,
+)
 
 import limitblocks as lb
-from limitblocks.joints.interaction import effective_strength, rectangle_torsion_bending
+from limitblocks.joints.interaction import rectangle_torsion_bending
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
-from limitblocks.joints.torsion import rectangle_torsion_constant
 
-L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0  # Figs 8(b) and 12
-SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
-RECTANGLE = SQUARE * [L1, L2]
-AREA = 4 * L1 * L2
-C_T = float(rectangle_torsion_constant(L1, L2))
-COMPRESSION = (0, 0, N, 0, 0, 0)
 HEXAGON = np.array([(np.cos(t), 0.6 * np.sin(t)) for t in np.arange(6) * np.pi / 3])
 TRAPEZIUM = np.array([(2.0, -1.0), (0.5, 1.0), (-0.7, 1.0), (-2.0, -1.0)])
-PAPER = lb.OrdunaLourenco(MU, slip="paper")
-SLIPS = {
-    "paper": PAPER,
-    "inner": lb.OrdunaLourenco(MU, slip="inner", sides=12),
-    "outer": lb.OrdunaLourenco(MU, slip="outer", sides=12),
-    "exact": lb.OrdunaLourenco(MU, slip="exact"),
-    "crush": lb.OrdunaLourenco(MU, compressive_strength=2e4, slip="paper"),
-    "cones": lb.OrdunaLourenco(MU, slip="exact", compressive_strength=2e4),
-    "bonded": lb.OrdunaLourenco(MU, 2e4, slip="exact", cohesion=3e3, tensile_strength=1e3),
-}
 every_joint = pytest.mark.parametrize("joint", SLIPS.values(), ids=SLIPS)
-
-
-def states(count, seed=0):
-    """Stress resultants of all sizes around the yield surface, under compression."""
-    rng = np.random.default_rng(seed)
-    units = np.array([MU, MU, 0.0, L2, L1, MU * C_T])
-    return rng.uniform(200, 600, (count, 1)) * (
-        rng.normal(size=(count, 6)) * units * 0.5 - [0, 0, 1, 0, 0, 0]
-    )
 
 
 def yield_functions(Q, shear=None):
@@ -129,9 +113,6 @@ def test_vertex_order_does_not_matter():
             )
 
 
-# ---------------------------------------------------------------------------------------- the circle
-
-
 @pytest.mark.parametrize("sides", [3, 4, 8, 12, 17])
 def test_inner_and_outer_polygons_enclose_the_circle(sides):
     interface = lb.joints.interface(RECTANGLE, None)
@@ -176,9 +157,6 @@ def test_paper_octagon_is_too_strong_by_eight_per_cent():
         assert outer.utilisation(interface, Q) == pytest.approx(PAPER.utilisation(interface, Q))
 
 
-# ------------------------------------------------------------------------------------------ the set
-
-
 @every_joint
 def test_the_set_is_convex_and_holds_the_compression_ray(joint):
     interface = lb.joints.interface(RECTANGLE, joint)
@@ -221,9 +199,6 @@ def test_stack_is_the_single_ones_and_the_stress_unit_divides():
     for name in ("F", "g"):
         ours = getattr(joint.yield_rows(polygons, 10.0), name)
         np.testing.assert_allclose(ours, getattr(weaker.yield_rows(polygons), name), rtol=1e-13)
-
-
-# --------------------------------------------------------------------------------------- flow rules
 
 
 def test_tables_3_and_5_and_hinging():
@@ -275,38 +250,6 @@ def test_associated_flow_is_the_gradient_by_finite_differences(name):
             assert parallel.max() == pytest.approx(1, abs=1e-9)
 
 
-def finite_differences(functions, Q):
-    """Central differences (k, 6) of functions with k values."""
-    steps = np.array([1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5])
-    central = [functions(Q + h) - functions(Q - h) for h in np.diag(steps)]
-    return (np.array(central) / (2 * steps[:, None])).T
-
-
-def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
-    f = 2e4
-    joint, interface = replace(PAPER, compressive_strength=f), lb.joints.interface(RECTANGLE, None)
-    rows = joint.yield_rows(RECTANGLE[None])
-    c = PAPER.yield_rows(RECTANGLE[None]).F[0, -4:] * -1
-
-    def eq_39(Q):
-        return c @ Q + Q[2] ** 2 / (AREA * f)
-
-    for Q in states(10):
-        flow = joint.flow_directions(interface, Q)[-4:]
-        gradient = finite_differences(eq_39, Q)
-        np.testing.assert_allclose(flow, gradient, atol=1e-6)
-        np.testing.assert_allclose(flow[:, 2], 1 + 2 * Q[2] / (AREA * f), rtol=1e-12)
-        np.testing.assert_allclose(joint.flow_directions(interface, Q, MU)[-4:], flow, rtol=1e-12)
-    rng = np.random.default_rng(1)
-    for _ in range(50):  # any y in K* dissipates g.y at least: no state of the set does more work
-        z = rng.normal(size=2)
-        y = np.array([np.linalg.norm(z), *z])
-        dq = -rows.F[0, 34:37].T @ y
-        Q = states(1, rng.integers(1 << 30))[0]
-        if joint.utilisation(interface, Q) <= 1:
-            assert dq @ Q <= rows.g[0, 34:37] @ y + 1e-9
-
-
 def test_dilatancy_is_between_zero_and_friction():
     joint, interface = PAPER, lb.joints.interface(RECTANGLE, None)
     Q = states(1)[0]
@@ -331,93 +274,6 @@ def test_zero_friction_carries_normal_force_and_bending_only():
             joint.strength(interface, (0, 0, -1, 0, 0, 0), (1, 0, N, 0, 0, 0))
     moment = lb.OrdunaLourenco(0.0).strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
     assert moment == pytest.approx(-N * L2, rel=1e-12)
-
-
-# ------------------------------------------------------------------------------------------ crushing
-
-
-@given(share=st.floats(0.0, 1.0), f=st.floats(1e3, 1e9), along=st.sampled_from([(1, 0), (0, 1), (0, -1)]))
-def test_moment_strength_is_the_stress_block(share, f, along):
-    """M = |N| l (1 - |N| / (A fcef)): zero at N = 0 and at N = -A fcef."""
-    joint, interface = lb.OrdunaLourenco(MU, compressive_strength=f), lb.joints.interface(RECTANGLE, None)
-    force = share * f * AREA
-    moment = joint.strength(interface, (0, 0, 0, *along, 0), (0, 0, -force, 0, 0, 0))
-    half = L2 if along[0] else L1
-    assert moment == pytest.approx(force * half * (1 - share), abs=1e-9 * f * AREA * half)
-
-
-def test_eq_39_becomes_eq_36_as_the_strength_grows():
-    interface = lb.joints.interface(RECTANGLE, None)
-    Q = states(1)[0] * [1, 1, 1, 0.1, 0.1, 0.1]
-    infinite = PAPER.strength(interface, (0, 0, 0, 1, 0.4, 0), Q)
-    gaps = np.array(
-        [
-            1 - lb.OrdunaLourenco(MU, f).strength(interface, (0, 0, 0, 1, 0.4, 0), Q) / infinite
-            for f in (1e6, 1e7, 1e8, 1e12)
-        ]
-    )
-    assert (gaps > -1e-12).all()
-    np.testing.assert_allclose(gaps[:-2] / gaps[1:-1], 10, rtol=1e-3)
-    assert abs(gaps[-1]) < 1e-8
-
-
-@pytest.mark.parametrize(("b", "h", "share"), [(0.5, 1.0, 0.1), (0.3, 2.0, 0.4), (1.0, 1.5, 0.01)])
-@pytest.mark.parametrize("friction", [2.0, 0.0])
-def test_block_rocking_with_crushing(b, h, share, friction):
-    """Alpha = (b/h) (1 - W / (A fcef)), through both bounds; without friction by a moment alone."""
-    weight = 20e3 * h  # per area
-    joint = lb.OrdunaLourenco(friction, compressive_strength=weight / share, slip="exact")
-    model = lb.structures.block(joint, width=b, height=h, depth=0.7, unit_weight=20e3)
-    factor = 1.0
-    if friction == 0.0:
-        stone = next(block for block in model.blocks if block.unit_weight)
-        factor = stone.weight * h / 2
-        model = lb.Model(
-            model.blocks, model.supports, model.interfaces, model.dead, lb.loads.moment(stone.name, (0, 1, 0))
-        )
-    bounds = lb.bounds(model)
-    expected = b / h * (1 - share) * factor
-    assert bounds.lower == pytest.approx(expected, rel=1e-6)
-    assert bounds.upper == pytest.approx(expected, rel=1e-6)
-
-
-def test_column_too_heavy_for_its_joint_falls():
-    joint = lb.OrdunaLourenco(0.6, compressive_strength=0.99 * 20e3)
-    with pytest.raises(lb.errors.NoEquilibrium):
-        lb.bounds(lb.structures.block(joint, width=0.5, height=1.0, unit_weight=20e3))
-
-
-def test_effective_strength_is_what_the_joint_takes():
-    f = effective_strength(20e6)
-    joint = lb.OrdunaLourenco(0.6, compressive_strength=f)
-    assert joint.strength(lb.joints.interface(RECTANGLE, joint), (0, 0, -1, 0, 0, 0)) == pytest.approx(
-        12e6 * AREA
-    )
-
-
-# ----------------------------------------------------------------------------- cohesion and tension
-
-
-def test_cohesion_and_tension():
-    c, ft, f = 3e3, 1e3, 2e4
-    joint, interface = SLIPS["bonded"], lb.joints.interface(RECTANGLE, None)
-    shear = joint.strength(interface, (0.6, 0.8, 0, 0, 0, 0), COMPRESSION)
-    assert shear == pytest.approx(c * AREA - MU * N, rel=1e-12)
-    torsion = joint.strength(interface, (0, 0, 0, 0, 0, 1), COMPRESSION)
-    assert torsion == pytest.approx(C_T * (c * AREA - MU * N), rel=1e-12)
-    assert joint.strength(interface, (0, 0, 1, 0, 0, 0)) == pytest.approx(ft * AREA, rel=1e-9)
-    assert joint.strength(interface, (0, 0, -1, 0, 0, 0)) == pytest.approx(f * AREA, rel=1e-9)
-    # the stress block: compression on the depth that balances N, tension on the rest
-    depth = (ft * AREA - N) / (f + ft) / (2 * L1)
-    moment = (f + ft) * 2 * L1 * depth * (L2 - depth / 2)
-    assert joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION) == pytest.approx(moment, rel=1e-12)
-    dry = lb.OrdunaLourenco(MU, tensile_strength=ft)  # friction alone allows no tension
-    assert dry.strength(interface, (0, 0, 1, 0, 0, 0)) == 0
-    sticky = lb.OrdunaLourenco(0.0, cohesion=c)
-    assert sticky.strength(interface, (1, 0, 0, 0, 0, 0), COMPRESSION) == pytest.approx(c * AREA, rel=1e-12)
-
-
-# ------------------------------------------------------------------------------------------ bad input
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import linprog
 
-GAMMA, LOAD = 20e3, 1e3  # N/m3, N downwards at load factor one
+LOAD = 1e3  # N downwards at load factor one
 
 
 @dataclass(frozen=True)
@@ -28,6 +28,7 @@ class Bridge:
     width: float = 0.5
     height: float = 1.5
     courses: int = 4
+    gamma: float = 20e3  # N/m3
 
     def point(self, k, m, j):
         """End of joint j of span k, on the intrados of ring m."""
@@ -90,7 +91,7 @@ def load_factor(bridge, at, loaded=0, pulls=()):
     dead = np.zeros(3 * len(row))
     for name, outline in outlines.items():
         area, centre = measures(outline)
-        weight = area * GAMMA * bridge.depth
+        weight = area * bridge.gamma * bridge.depth
         dead[row[name] : row[name] + 3] = 0.0, -weight, -weight * centre[0]
     top = [bridge.point(loaded, bridge.rings, j)[0] for j in range(bridge.voussoirs + 1)]
     own = row[loaded, bridge.rings - 1, int(np.searchsorted(top, at)) - 1]

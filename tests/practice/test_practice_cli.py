@@ -97,6 +97,8 @@ def test_verify(block, tmp_path):
     assert done.exit_code == 1, done.output
     check = json.loads(done.stdout)["checks"][0]
     assert check["ratio"] == pytest.approx(0.2 / 1.35 / 0.15, rel=1e-8)
+    free = run("verify", block, *site, "--linear", "--json", "--elastic-period", 0.3)
+    assert json.loads(free.stdout)["checks"][0]["demand"] == pytest.approx(2.5 * 0.25 * 9.81 * 1.2 / 2)
     assert "--q" in run("verify", block, *site[:-2]).output
     assert "F0 is 1.0" in run("verify", block, *site[:4], "--f0", 1, *site[6:]).output
 
@@ -108,6 +110,7 @@ def test_verify_files_a_report(block, tmp_path):
     done = run("verify", block, *site, "--report", tmp_path / "filed.pdf")
     assert done.exit_code == 1, done.output
     said = " ".join(page.extract_text() for page in pypdf.PdfReader(tmp_path / "filed.pdf").pages)
+    said = " ".join(said.split())
     for word in (
         "alpha0",
         "M*",
@@ -237,3 +240,18 @@ def test_a_bridge_from_the_shell(tmp_path):
     for word in ("Vehicle on the deck", "worst", "passive resistance of fill"):
         assert word in said, word
     assert run("vehicle", bare, *words, "--first", 1).exit_code == 2
+
+
+def test_verify_without_a_whole_curve_has_the_linear_check_and_fails(block, monkeypatch):
+    """A curve that ends early is said; the linear check of .02 g is met; the exit code is 1."""
+    from limitblocks.cli import analyses
+    from limitblocks.practice import capacity_curve
+
+    monkeypatch.setattr(analyses, "capacity", lambda model: capacity_curve(model, steps=2, largest=0.01))
+    site = ("--a-g", 0.02, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
+    done = run("verify", block, *site, "--json")
+    assert done.exit_code == 1, done.output
+    found = json.loads(done.stdout)
+    assert [(one["name"], one["satisfied"]) for one in found["checks"]] == [("linear, SLV", True)]
+    assert "no non-linear check: the capacity curve does not end at zero" in found["remarks"][-1]
+    assert run("verify", block, *site, "--linear", "--json").exit_code == 0

@@ -62,7 +62,8 @@ def test_facade_of_one_block(facade, answer, curve):
     flat = SITE.a_g * SITE.S * SITE.F0 * SITE.T_C * SITE.T_D / (2 * np.pi) ** 2  # beyond T_D
     wanted = flat * np.sqrt(10 / (5 + 8))
     assert found["S_De_SLV"] == pytest.approx(wanted, rel=1e-9)
-    assert found.checks[1].ratio == pytest.approx(0.4 * d0 / wanted, rel=1e-7)
+    assert found["d*/S_De_SLV"] == pytest.approx(0.4 * d0 / wanted, rel=1e-7)
+    assert found.checks[1].ratio == pytest.approx(found["a_g,SLV,d"] / SITE.a_g)
     assert found["S_De_SLC"] == pytest.approx(flat * np.sqrt(10 / (5 + 10)), rel=1e-9)
     assert found["T_SLC"] == pytest.approx(1.56 * np.pi * np.sqrt(0.6 * d0 / (0.4 * a0)), rel=1e-7)
     assert [one.name for one in found.checks] == ["linear, SLV", "non-linear, SLV", "non-linear, SLC"]
@@ -116,6 +117,7 @@ def test_ground_acceleration_of_the_displacement_check(facade, answer, curve):
     again = Spectrum(found["a_g,SLV,d"], SITE.S, SITE.F0, SITE.T_C)
     there = verification(facade, answer, again, q=2.0, confidence=FC, curve=curve)
     assert there["S_De_SLV"] == pytest.approx(found["d*_SLV"], rel=1e-9)
+    assert there.checks[1].ratio == pytest.approx(1.0)
     assert found["a_g,SLV,d"] < SITE.a_g
     assert not found.checks[1].satisfied
 

@@ -134,10 +134,10 @@ def test_the_lower_end_is_claimed_where_it_is_one():
     assert (points.frictionless, points.unclaimed) == (0.0, "")
 
 
-def test_a_joint_without_friction_has_neither_cohesion_nor_tension():
-    """A stone on glue below a ceiling, c A = 1.5 times its weight W.
+def test_glue_holds_a_stone_without_shear():
+    """A stone below a ceiling, c A = 1.5 times its weight W: c A - mu W across, and none without shear.
 
-    The glue alone, without friction, would carry 1.5 W across: more than with it, c A - mu W = W.
+    Without friction the glue would carry 1.5 W across, more than with it: that is no lower end.
     """
     joint = lb.OrdunaLourenco(MU, cohesion=30e3, tensile_strength=60e3)
     blocks = [
@@ -148,5 +148,31 @@ def test_a_joint_without_friction_has_neither_cohesion_nor_tension():
     model = lb.Model(blocks, ["ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     result = lb.nonassociated(model)
     assert result.load_factor == pytest.approx(1.5 - MU)
+    assert result.frictionless == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(MU), lb.PointContact(MU)], ids=repr)
+def test_a_ledge_resists_without_friction(joint):
+    """A stone b = 1, h = 2 before a ledge t = 0.5: without shear W b / 2 = a W (h / 2 - t), a = 1."""
+    blocks = [
+        lb.Block.box("base", (2, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ledge", (0.2, 1, 0.5), (0.6, 0, 0.25)),
+        lb.Block.box("stone", (1, 1, 2), (0, 0, 1), 20e3),
+    ]
+    interfaces = lb.find_interfaces(blocks, joint)
+    push = lb.mass_proportional((1, 0, 0))
+    found = lb.nonassociated(lb.Model(blocks, ["base", "ledge"], interfaces, lb.self_weight(), push))
+    assert found.frictionless == pytest.approx(1.0, rel=1e-6)
+    assert found.load_factor > 1.0
+
+
+def test_a_stone_on_a_slope_has_no_lower_end():
+    angle = np.arctan(0.2)
+    turn = np.array([(np.cos(angle), 0, np.sin(angle)), (0, 1, 0), (-np.sin(angle), 0, np.cos(angle))])
+    model = stone(lb.OrdunaLourenco(MU))
+    blocks = [block.moved(turn, (0, 0, 0)) for block in model.blocks]
+    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(MU))
+    across = lb.mass_proportional((0, 1, 0))  # along X a push up the slope would carry it
+    result = lb.nonassociated(lb.Model(blocks, ["base"], interfaces, lb.self_weight(), across))
     assert np.isnan(result.frictionless)
     assert result.unclaimed.startswith("without friction the dead loads do not stand")

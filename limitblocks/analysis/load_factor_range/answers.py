@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.analysis.load_factor_range.faces import extremes, ray
-from limitblocks.analysis.nonassociated.loop import finished
+from limitblocks.analysis.nonassociated.finished import finished
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array
@@ -17,7 +17,7 @@ from limitblocks.evidence.range_answer import Origin, RangeAnswer
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem import Flow, State
 
 DISTINCT = 1e-4  # of the scale of load factors: nearer ones are one answer
 NOISE = 1e-9  # of the multipliers: mechanisms that hardly slip have no thrust to compare
@@ -143,23 +143,13 @@ def of_result(
     )
 
 
-def state_of(model: Model, problem: LimitProblem, result: Nonassociated) -> State:
-    """Return a result as a dimensionless state."""
-    supports = set(model.supports)
-    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
-    rates = result.displacement_rates[places].ravel()
-    return problem.dimensionless(
-        State(result.load_factor, result.generalised_stresses, rates, result.flow_multipliers)
-    )
-
-
 def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -> tuple[str, ...]:
     """Return what a reader of the range should know."""
     said = []
     if first is None:
         said.append("nonassociated found no answer")
     elif first.origin is not Origin.LOAD_PATH:
-        said.append(f"the load-path answer is one of a larger barrier ({first.solution.how})")
+        said.append(f"the answer of nonassociated is not that of the load path ({first.solution.how})")
     if not flow.constant:
         said.append("with turning about the centre of pressure the set has no convex pieces: paths alone")
     ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []

@@ -2,7 +2,8 @@
 
 The mechanism of least gap y . (F x + g) for the stresses x, then the stresses nearest to x that leave no
 gap: the gap falls from round to round, by a factor that is a third or less where the rows that yield are
-known, and near one where they are not. So the factor tells whether to go on.
+known, and near one where they are not. So the factor tells whether to go on. Complementary pivots close what
+is left near a solution.
 """
 
 from __future__ import annotations
@@ -10,13 +11,13 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, frozen_mechanism
-from limitblocks.analysis.polish import defect, polish
+from limitblocks.analysis.pivot import pivoted
+from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow, State
 
 ROUNDS = 30
 FALLS = 0.5  # of the gap, in two rounds: rounds that make it fall less are given up
-NEAR = 1e-6  # residual where Newton's method is tried
-PATIENCE = 2  # of its steps
+NEAR = 1e-5  # residual where pivots are tried
 
 
 def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float) -> tuple[State, int]:
@@ -44,7 +45,7 @@ def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float)
         state = State(found[0], x, *mechanism)
         worst = defect(flow, state)
         if tolerance < worst <= NEAR:
-            state = polish(flow, state, patience=PATIENCE)
+            state = pivoted(flow, state)
             worst = defect(flow, state)
         if worst < least:
             best, least = state, worst

@@ -77,7 +77,7 @@ def flow_in_plane(
     every row the path of a barrier without seed is that of the whole problem.
     """
     found = in_plane(model.problem, choice)
-    if found is None:
+    if found is None or not found.flat:
         return None
     plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
     own = plane.compliance_of(weights)

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
+from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, NoEquilibrium, SolveError, SolverFailure, UnlimitedLoad
+from limitblocks.errors import ModelError, SolveError, SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
@@ -24,19 +26,14 @@ from limitblocks.problem import Flow, LimitProblem, State
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
 
-BONDS = ("friction", "cohesion", "tensile_strength")  # what a joint without friction is without
-SHEAR = 1e-6  # of the largest force: less shear is none
 TURNED = "with this turning a joint can give power, so that solutions may be lower than without friction"
-FALLS = "without friction the dead loads do not stand, and nothing is known below"
-SHEARED = "a joint carries shear though its friction is zero"
-UNSOLVED = "the load factor without friction was not to be had"
 
 Start = Nonassociated | Bounds | npt.ArrayLike
 
 
 @dataclass(frozen=True, eq=False)
 class Bracket:
-    """Associated load factors without friction and with it, which enclose every solution (Drucker 1954).
+    """The load factor without shear and the associated one, which enclose every solution (Drucker 1954).
 
     `frictionless` is NaN where it is no lower end, and `unclaimed` says why; `associated` is infinite where
     the load is unlimited, and `bounds` its evidence otherwise.
@@ -58,41 +55,14 @@ def bracket(model: Model) -> Bracket:
 
 
 def _bracket(model: Model) -> Bracket:
-    limit_load = _limited(model)
+    try:
+        limit_load = bounds(model)
+    except UnlimitedLoad:
+        limit_load = None
     upper = limit_load.upper if limit_load else np.inf
-    lower, unclaimed = _frictionless(model)
+    lower, unclaimed = load_factor_without_shear(model.problem, limit_load is not None)
     noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
     return Bracket(0.0 if noise else lower, upper, limit_load, unclaimed)
-
-
-def _frictionless(model: Model) -> tuple[float, str]:
-    """The load factor of joints without shear, or why there is none."""
-    smooth = {i.joint: _smooth(i.joint) for i in model.interfaces}
-    interfaces = [replace(i, joint=smooth[i.joint]) for i in model.interfaces]
-    try:
-        bare = _limited(replace(model, interfaces=interfaces))
-    except NoEquilibrium:
-        return np.nan, FALLS
-    except (SolverFailure, ModelError):  # the lower end says little; its failure must not cost the answer
-        return np.nan, UNSOLVED
-    if bare is None:
-        return np.inf, ""
-    size = np.abs(bare.stress_resultants).max(initial=0.0)
-    sheared = np.abs(bare.stress_resultants[:, :2]).max(initial=0.0) > SHEAR * size
-    return (np.nan, SHEARED) if sheared else (bare.lower, "")
-
-
-def _smooth(joint: object) -> object:
-    """The joint without friction and what else lets it carry shear, or tension that sliding would break."""
-    known = {field.name for field in fields(joint)} if is_dataclass(joint) else set()
-    return replace(joint, **dict.fromkeys(known & set(BONDS), 0.0)) if known else joint  # type: ignore[type-var]
-
-
-def _limited(model: Model) -> Bounds | None:
-    try:
-        return bounds(model)
-    except UnlimitedLoad:
-        return None
 
 
 def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
@@ -100,7 +70,7 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
     limit_load = enclosing.bounds
     if limit_load is None:
         return model.problem
-    state = _state_of(model, model.problem, limit_load)
+    state = state_of(model, model.problem, limit_load)
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
 
 
@@ -118,10 +88,11 @@ def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None
     """A result as a state of the flow rule, polished: with associated flow bounds are a solution."""
     if not isinstance(given, Nonassociated | Bounds) or given.digest != model.digest:
         return None
-    return polish(flow, _state_of(model, flow.problem, given))
+    return polish(flow, state_of(model, flow.problem, given))
 
 
-def _state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
+def state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
+    """Return a result as a dimensionless state."""
     supports = set(model.supports)
     places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     rates = result.displacement_rates[places].ravel()
@@ -165,7 +136,8 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
     """
     if start is not None:
         return _given(model, problem, start)
-    dead_load_state(model.problem)  # a least-norm state of what falls may look like one
+    if carried(model.problem) is None:  # a least-norm state of what falls may look like one
+        dead_load_state(model.problem)
     ratios = np.round(weights / problem.compliance, 9).tobytes()
     x = known(problem, ("permanent state", ratios), lambda: permanent_state(problem, weights))
     if x is None:

@@ -12,7 +12,8 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
-    MEDIUM,
+    LARGE_PLANAR_MEANS,
+    MEANS,
     SOFTENING,
     TURNED_MEANS,
     TURNED_SOFTENING,
@@ -28,7 +29,9 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
-LARGE = 100  # blocks in space: beyond it increments take more than 40 times as long as bounds
+LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
+LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
+SMALL = Barrier().size
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
 
@@ -46,7 +49,10 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    large = len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative and len(means) > 1
+    blocks, in_space = len(flow.problem.blocks), _in_space(flow)
+    large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
+    if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
+        means = LARGE_PLANAR_MEANS
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -73,37 +79,50 @@ def _ways(
     record: Callable[[Iteration], None],
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of one way after the other, and which way it was."""
-    problem, weights = flow.problem, flow.problem.compliance
-    power = scale / len(problem.blocks)
 
-    def tracked(one: Means, x: Array, softening: float = SOFTENING) -> tuple[State, str]:
-        smooth = replace(flow, softening=softening)
-        state, (info,) = follow(
-            smooth, x, weights, means=[one], power=power, progress=lambda at: record(_point(problem, at))
-        )
-        if info.interrupted:
-            return state, f"{info.how}, {INTERRUPTED}"
-        return polish(flow, state), info.how
+    def tracked(one: Means) -> tuple[State, str]:
+        return _polished(flow, *_tracked(flow, x0, scale, one, record))
 
-    yield tracked(means[0], x0)
+    first = tracked(means[0])
+    yield first
     if len(means) == 1:
         return
     if not flow.dissipative:
-        centroid = replace(flow, turning=Turning.CENTROID)
-        near, way = first_to_solve(centroid, x0, scale, means, tolerance, record)
-        if way.endswith(INTERRUPTED):
-            yield near, way
-        for one in TURNED_MEANS:
-            state, how = tracked(one, near.x, TURNED_SOFTENING)
-            yield state, f"from the solution that twists about the centroid, {how}"
-    most = MEDIUM if _in_space(flow) else Barrier().size  # in a plane increments cost little
-    small = [one for one in means[1:] if one.barrier.size <= most]
-    for one in small:
-        yield tracked(one, x0)
-    yield _increments(flow, x0, scale, tolerance, record)
+        yield from _from_centroid(flow, x0, scale, means, tolerance, record)
     for one in means[1:]:
-        if one not in small:
-            yield tracked(one, x0)
+        if one.barrier.size <= SMALL:
+            yield tracked(one)
+    larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
+    if means is LARGE_PLANAR_MEANS:
+        yield from larger
+    if _in_space(flow):
+        yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
+    else:  # in a plane they cost little
+        yield _increments(flow, x0, scale, tolerance, record)
+    yield from larger
+
+
+def _from_centroid(
+    flow: Flow,
+    x0: Array,
+    scale: float,
+    means: Sequence[Means],
+    tolerance: float,
+    record: Callable[[Iteration], None],
+) -> Iterator[tuple[State, str]]:
+    """Polished ends of paths from the solution that twists about the centroid, and which they were."""
+    centroid = replace(flow, turning=Turning.CENTROID)
+    near, way = first_to_solve(centroid, x0, scale, means, tolerance, record)
+    if way.endswith(INTERRUPTED):
+        yield near, way
+    for one in TURNED_MEANS:
+        state, how = _polished(flow, *_tracked(flow, near.x, scale, one, record, TURNED_SOFTENING))
+        yield state, f"from the solution that twists about the centroid, {how}"
+
+
+def _polished(flow: Flow, state: State, how: str) -> tuple[State, str]:
+    """The end of a path polished, unless the user stopped it."""
+    return state if how.endswith(INTERRUPTED) else polish(flow, state), how
 
 
 def _in_space(flow: Flow) -> bool:
@@ -115,22 +134,34 @@ def _large_ways(
     flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
-    problem, weights = flow.problem, flow.problem.compliance
-    smooth, nearest = replace(flow, softening=SOFTENING), NearestStresses(problem, weights)
+    nearest = NearestStresses(flow.problem, flow.problem.compliance)
     for one in LARGE_MEANS:
-        state, (info,) = follow(
-            smooth,
-            x0,
-            weights,
-            means=[one],
-            power=scale / len(problem.blocks),
-            progress=lambda at: record(_point(problem, at)),
-        )
-        how = f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
-        if info.interrupted or defect(flow, state) <= tolerance:
+        state, how = _tracked(flow, x0, scale, one, record)
+        if how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance:
             yield state, how
         else:
             yield _in_rounds(flow, nearest, state, how, tolerance)
+
+
+def _tracked(
+    flow: Flow,
+    x: Array,
+    scale: float,
+    one: Means,
+    record: Callable[[Iteration], None],
+    softening: float = SOFTENING,
+) -> tuple[State, str]:
+    """The end of one path from stresses x, and which path it was."""
+    problem = flow.problem
+    state, (info,) = follow(
+        replace(flow, softening=softening),
+        x,
+        problem.compliance,
+        means=[one],
+        power=scale / len(problem.blocks),
+        progress=lambda at: record(_point(problem, at)),
+    )
+    return state, f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
 
 
 def _in_rounds(

@@ -1,23 +1,26 @@
-"""A plane parallel to which everything acts: found in the numbers of a limit problem.
+"""Mirror planes found in the numbers of a limit problem.
 
-The mirror maps every free block to itself: its rates (du, w) to (R du, -R w) with R = 1 - 2 m m^T, m the
-normal of the plane. A place where forces act, an interface or a point of one, is mapped to itself or to
-another place between the same two blocks. docs/planar.md has the proofs of what follows from it.
+A mirror maps a free block to itself or to another: rates (du, w) of the one to (R du, -R w) of the other,
+R = 1 - 2 m m^T, m the normal of the plane. A place where forces act, an interface or a point of one, is
+mapped to a place between the images of its blocks. docs/planar.md has the proofs of what follows from it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem.limit_problem import LimitProblem
+from limitblocks.problem.limit_problem import LimitProblem, Units
 from limitblocks.problem.plane.alike import EXACT, alike, classes, close, numbers, size_of
+from limitblocks.problem.plane.candidates import candidates
 from limitblocks.problem.plane.places import Place, kinds_of, owned
 
-UNIQUE = 1e-6  # of all normals and forces: less across two directions leaves the plane open
 SNAP = 1e-10  # distance of a normal from an axis that is rounding
+
+Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,8 +35,11 @@ class Mirrored:
         Where each one goes.
     turn : Array, shape (K, c, c)
         The stresses there per stress.
+    own : Flags, shape (K,)
+        Whether the place is symmetric about a plane of its own, between blocks that are their own images.
     partner : Indices, shape (K, members)
-        The linear row or cone of the place itself that the mirror makes of each.
+        The linear row or cone that the mirror makes of each: of the place itself where it has a plane of its
+        own, else of its image.
     sort : Indices, shape (K,)
         Equal for places with the same rows, up to their unit, and the same turn.
     """
@@ -41,8 +47,14 @@ class Mirrored:
     places: Place
     image: Indices
     turn: Array
+    own: Flags
     partner: Indices
     sort: Indices
+
+    @property
+    def paired(self) -> Flags:
+        """Whether the place is one of two that are each other's images, and have no planes of their own."""
+        return np.asarray(~self.own & (self.image != np.arange(len(self.image))))
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,38 +67,72 @@ class Mirror:
         Orthonormal columns: the normal of the plane is column `axis`, the others lie in it.
     axis : int
         Which one.
+    image : Indices, shape (n,)
+        Where each free block goes.
     kinds : tuple of Mirrored
         All places, kind by kind.
     """
 
     frame: Array
     axis: int
+    image: Indices
     kinds: tuple[Mirrored, ...]
+
+    @property
+    def rates(self) -> Array:
+        """Rates (6, 6) of the image of a block per rate of the block."""
+        sides = np.ones(3)
+        sides[self.axis] = -1.0
+        reflected = (self.frame * sides) @ self.frame.T
+        rates = np.zeros((6, 6))
+        rates[:3, :3], rates[3:, 3:] = reflected, -reflected
+        return rates
+
+    @property
+    def flat(self) -> bool:
+        """Whether everything acts parallel to the plane: no block or place is paired with another's."""
+        return bool((self.image == np.arange(len(self.image))).all() and all(k.own.all() for k in self.kinds))
 
 
 def mirror_of(problem: LimitProblem) -> Mirror | None:
-    """Return the plane parallel to which everything acts; None where there is none up to EXACT."""
+    """Return a plane about which the problem is symmetric; None where none is found up to EXACT.
+
+    The plane parallel to which everything acts comes first.
+    """
     if problem.C.shape[1] != 6 * len(problem.blocks) or not len(problem.blocks):
         return None
-    ends = _strain_by_end(problem)
-    normal = _normal(problem, ends)
-    if normal is None:
-        return None
-    frame, axis = _frame(normal)
-    sides = np.ones(3)
-    sides[axis] = -1.0
-    reflected = (frame * sides) @ frame.T
-    rates = np.zeros((6, 6))
-    rates[:3, :3], rates[3:, 3:] = reflected, -reflected
-    if not _loaded_in_plane(problem, rates):
+    strain = _strain_by_end(problem)
+    for normal, image in candidates(problem, strain):
+        found = _mirror(problem, strain, Mirror(*_frame(normal), image, ()))
+        if found is not None:
+            return found
+    return None
+
+
+def _mirror(problem: LimitProblem, strain: Array, empty: Mirror) -> Mirror | None:
+    """The mirror with all places; None where the loads or a place are not symmetric."""
+    units, image = problem.units, empty.image
+    if not _loaded_alike(problem, image, empty.rates) or not _same_units(units, image):
         return None
     kinds = []
-    for kind in kinds_of(problem, ends):
-        mirrored = _mirrored(kind, rates)
-        if mirrored is None:
+    for kind in kinds_of(problem, strain):
+        mirrored = _mirrored(kind, image, empty.rates)
+        if mirrored is None or not _same_units_at(problem, mirrored):
             return None
         kinds.append(mirrored)
-    return Mirror(frame, axis, tuple(kinds))
+    return replace(empty, kinds=tuple(kinds))
+
+
+def _same_units(units: Units, image: Indices) -> bool:
+    """Whether blocks are measured by what measures their images."""
+    return all((part[image] == part).all() for part in (units.block_force, units.block_length))
+
+
+def _same_units_at(problem: LimitProblem, kind: Mirrored) -> bool:
+    """Whether places are measured by what measures their images."""
+    interface = problem.stress_interface[kind.places.columns[:, 0]]
+    sizes = problem.units.interface_force[interface], problem.units.interface_length[interface]
+    return all((part[kind.image] == part).all() for part in sizes)
 
 
 def _strain_by_end(problem: LimitProblem) -> Array:
@@ -99,22 +145,6 @@ def _strain_by_end(problem: LimitProblem) -> Array:
     return strain
 
 
-def _normal(problem: LimitProblem, strain: Array) -> Array | None:
-    """Unit vector across all normals of interfaces and all forces; None where there is not just one."""
-    pressing = np.unique(problem.resultants[2::6].indices)
-    forces = [load.reshape(-1, 6)[:, :3] for load in (problem.dead, problem.live)]
-    sizes = [max(float(np.abs(force).max()), np.finfo(float).tiny) for force in forces]
-    vectors = [strain[pressing, :, :3].reshape(-1, 3)]
-    length = np.linalg.norm(vectors[0], axis=1, keepdims=True)
-    vectors[0] = vectors[0] / np.where(length > 0.0, length, 1.0)
-    vectors += [force / size for force, size in zip(forces, sizes, strict=True)]
-    gram = [part.T @ part / max(len(part), 1) for part in vectors]
-    values, axes = np.linalg.eigh(np.sum(gram, axis=0))
-    normal = np.asarray(axes[:, 0])
-    off = max(float(np.abs(part @ normal).max(initial=0.0)) for part in vectors)
-    return normal if values[1] > UNIQUE**2 and off <= EXACT else None
-
-
 def _frame(normal: Array) -> tuple[Array, int]:
     """Orthonormal axes, one of them the normal: a Householder matrix, the global axes where it is one."""
     axis = int(np.abs(normal).argmax())
@@ -123,47 +153,88 @@ def _frame(normal: Array) -> tuple[Array, int]:
     return (np.eye(3) if size < SNAP**2 else np.eye(3) - 2.0 * np.outer(v, v) / size), axis
 
 
-def _loaded_in_plane(problem: LimitProblem, rates: Array) -> bool:
+def _loaded_alike(problem: LimitProblem, image: Indices, rates: Array) -> bool:
     loads = [load.reshape(-1, 6) for load in (problem.dead, problem.live)]
-    return all(close(load @ rates, load, np.abs(load).max(initial=0.0)) for load in loads)
+    return all(close(load[image] @ rates, load, np.abs(load).max(initial=0.0)) for load in loads)
 
 
-def _mirrored(kind: Place, rates: Array) -> Mirrored | None:
-    """Where the mirror takes each place; None where one has no image, or its rows are not symmetric."""
-    image, turn = _images(kind, rates)
+def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
+    """Where the mirror takes each place; None where one has no image, or its rows are not symmetric.
+
+    `blocks` (n,) are the images of the blocks.
+    """
+    image, turn = _images(kind, blocks, rates)
     K, c = kind.columns.shape
-    if not (image[image] == np.arange(K)).all():
+    back = turn[image]
+    if not (image[image] == np.arange(K)).all() or not close(back @ turn, np.eye(c)[None], 1.0):
         return None
-    if not (close(turn @ turn, np.eye(c)[None], 1.0) and close(turn[image], turn, 1.0)):
-        return None
+    still = (np.where(kind.ends >= 0, blocks[kind.ends], -1) == kind.ends).all(axis=1)
+    own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT) & _plane_of_its_own(kind, turn, rates)
     values = numbers(kind, None)
     first, sort = classes(values / size_of(values), turn)
+    partner = _partners(kind, image, turn, own, first, sort)
+    if partner is None and own.any():
+        own = np.zeros_like(own)  # not by planes of their own, but as pairs
+        partner = _partners(kind, image, turn, own, first, sort)
+    return None if partner is None else Mirrored(kind, image, turn, own, partner, sort)
+
+
+def _plane_of_its_own(kind: Place, turn: Array, rates: Array) -> Flags:
+    """Whether the turn leaves the strains of a place by symmetric rates of its blocks as they are."""
+    strain = kind.strain @ (np.eye(6) + rates)
+    off = np.abs(turn[:, None] @ strain - strain).max(axis=(1, 2, 3))
+    return np.asarray(off <= EXACT * np.abs(strain).max(axis=(1, 2, 3)))
+
+
+def _partners(
+    kind: Place, image: Indices, turn: Array, own: Flags, first: Indices, sort: Indices
+) -> Indices | None:
+    """Partners of all members as in :class:`Mirrored`; None where the rows are not symmetric."""
     few = kind.taken(first)
-    partner = alike(few, few, turn[first])
-    if partner is None:
-        return None
-    if (image != np.arange(K)).any() and alike(kind, kind.taken(image), None) is None:
-        return None
-    return Mirrored(kind, image, turn, partner[sort], sort)
+    partner = np.zeros((len(own), len(kind.members)), dtype=np.int64)
+    if own.any():
+        its = np.unique(sort[own], return_inverse=True)
+        one = few.taken(its[0])
+        within = alike(one, one, turn[first[its[0]]])
+        if within is None:
+            return None
+        partner[own] = within[its[1]]
+        there = kind.taken(image[own])
+        if (image != np.arange(len(own))).any() and alike(
+            kind.taken(np.flatnonzero(own)), there, None
+        ) is None:
+            return None
+    if not own.all():
+        rest = np.flatnonzero(~own)
+        across = alike(kind.taken(rest), kind.taken(image[rest]), turn[rest].transpose(0, 2, 1))
+        if across is None:
+            return None
+        partner[rest] = across
+    return partner
 
 
-def _images(kind: Place, rates: Array) -> tuple[Indices, Array]:
+def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:
     """The place (K,) that fits the mirrored one best, and the turn (K, c, c) of stresses; zero if none."""
     K, c = kind.columns.shape
-    _, bucket = np.unique(kind.ends, axis=0, return_inverse=True)
-    table, _ = owned(bucket.ravel(), int(bucket.max()) + 1)
-    number = np.bincount(bucket.ravel())[bucket.ravel()]
-    free = np.where(kind.ends[:, 0] >= 0, 0, 1)
-    inverse = np.linalg.pinv(kind.strain[np.arange(K), free])
-    mirrored = kind.strain @ rates
-    own = mirrored[np.arange(K), free]
+    goal = np.where(kind.ends >= 0, blocks[kind.ends], -1)
+    _, bucket = np.unique(np.sort(np.concatenate([kind.ends, goal]), axis=1), axis=0, return_inverse=True)
+    here, wanted = bucket.ravel()[:K], bucket.ravel()[K:]
+    count = int(bucket.max()) + 1
+    table, _ = owned(here, count)
+    number = np.bincount(here, minlength=count)[wanted]
     scale = np.abs(kind.strain).max(axis=(1, 2, 3))
+    mirrored, free = kind.strain @ rates, np.where(goal[:, 0] >= 0, 0, 1)
     least = np.full(K, EXACT)
     image, turn = np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):
-        there = table[bucket.ravel(), k]
-        back = own @ inverse[there]  # the transpose of the turn
-        off = np.abs(back[:, None] @ kind.strain[there] - mirrored).max(axis=(1, 2, 3)) / scale
+        there = table[wanted, k]
+        turned_round = kind.ends[there, 0] != goal[:, 0]
+        strain = np.where(turned_round[:, None, None, None], kind.strain[there, ::-1], kind.strain[there])
+        own = strain[np.arange(K), free]
+        gram = np.linalg.pinv(own @ own.transpose(0, 2, 1), hermitian=True)
+        # the transpose of the turn
+        back = mirrored[np.arange(K), free] @ own.transpose(0, 2, 1) @ gram
+        off = np.abs(back[:, None] @ strain - mirrored).max(axis=(1, 2, 3)) / scale
         # moments carry any interface over to any other; a mirror image has them about its own centroid
         off = np.maximum(off, np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2)))
         fits = (k < number) & (off <= least)

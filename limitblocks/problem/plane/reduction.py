@@ -1,113 +1,33 @@
-"""A limit problem reduced to the plane parallel to which everything acts.
+"""A limit problem reduced by its mirror plane.
 
-By convexity stresses may be sought among those that the mirror leaves as they are, and mechanisms among
-in-plane rates: docs/planar.md has the proof. The reduced problem is a limit problem again, with the columns
-of rates out of the plane empty; its states are lifted back to the whole one and judged there.
+By convexity stresses and mechanisms may be sought among those that the mirror leaves as they are:
+docs/planar.md has the proof. The reduced problem is a limit problem again, of one block of each pair and of
+those that are their own images, with empty columns of rates out of the plane; its states are lifted back to
+the whole one and judged there.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.problem.cones import Cones
-from limitblocks.problem.limit_problem import LimitProblem, State
+from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.plane.alike import EXACT
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
+from limitblocks.problem.plane.planar import Planar
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
 NOTHING = 1e-13  # of the largest entry of a row: rounding of what vanishes by symmetry
 
 
-@dataclass(frozen=True, eq=False)
-class Planar:
-    """A limit problem in its plane, and what lifts its states back.
-
-    Attributes
-    ----------
-    problem : LimitProblem
-        The reduced problem.
-    stresses : csr_array, shape (s, s')
-        x of the whole problem = stresses x'.
-    rates : csr_array, shape (6 n, 6 n)
-        u = rates u'.
-    multipliers : csr_array, shape (R, R')
-        y = multipliers y'.
-    live : float
-        Unit of the live load of the whole problem over that of the reduced one.
-    """
-
-    problem: LimitProblem
-    stresses: sparse.csr_array
-    rates: sparse.csr_array
-    multipliers: sparse.csr_array
-    live: float = 1.0
-
-    def lifted(self, state: State) -> State:
-        """Return a state of the reduced problem as one of the whole."""
-        return State(
-            self.live * state.load_factor,
-            self.stresses @ state.x,
-            self.live * (self.rates @ state.u),
-            self.live * (self.multipliers @ state.y),
-        )
-
-    def averaged(self, state: State) -> State:
-        """Return the mean of a state of the whole problem and its mirror image as a reduced one.
-
-        Multipliers of rows that others imply go to the nearest ones.
-        """
-        M = self.multipliers
-        nearest = linalg.splu(sparse.csc_array(M.T @ M))
-        return State(
-            state.load_factor / self.live,
-            self.stresses_of(state.x),
-            self.rates.T @ state.u / self.live,
-            nearest.solve(M.T @ state.y) / self.live,
-        )
-
-    def measured(self, whole: LimitProblem) -> Planar:
-        """Return the same for the whole problem in other units of force."""
-        problem = self.problem.measured(whole.units.block_force)
-        return replace(self, problem=problem, live=whole.units.live / problem.units.live)
-
-    def barrier_of(self, cones: Cones) -> Array:
-        """Return how many logarithms of the cone K of the whole problem each reduced row stands for, (R',).
-
-        Rows merged in their mean stand for as many as they are. A cone of which z keeps one direction is two
-        rows, t + z > 0 and t - z > 0, and log(t^2 - z^2) / 2 the sum of half their logarithms.
-        """
-        heads = abs(self.multipliers)[cones.heads]
-        count = np.asarray((heads > 0.0).sum(axis=0)).ravel().astype(float)
-        conic = np.asarray((heads[cones.linear :] > 0.0).sum(axis=0)).ravel() > 0
-        line = np.arange(len(count)) < self.problem.cones.linear
-        return np.where(conic & line, count / 2.0, count)
-
-    def compliance_of(self, weights: Array) -> Array | None:
-        """Return the compliance of reduced stresses from that of all, (s,); None where it is not symmetric.
-
-        Only then elastic strains of symmetric stresses are symmetric, too.
-        """
-        S = self.stresses
-        own = np.asarray(S.multiply(S).T @ weights)
-        squares = np.asarray(S.multiply(S).sum(axis=0)).ravel()
-        off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / squares)
-        return None if abs(off).max() > EXACT * weights.max() else own
-
-    def stresses_of(self, x: Array) -> Array:
-        """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
-        squares = np.asarray(self.stresses.multiply(self.stresses).sum(axis=0)).ravel()
-        return np.asarray(self.stresses.T @ x / squares)
-
-
 def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) -> Planar:
-    """Return the problem reduced to the plane of its mirror.
+    """Return the problem reduced by its mirror.
 
     Parameters
     ----------
@@ -119,7 +39,8 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         FEW rows serve the associated flow, FLOWING ones any, EVERY one margins.
     """
     stresses, rows = _stresses_and_rows(problem, mirror, choice)
-    rates = _rates(problem, mirror)
+    blocks = np.flatnonzero(mirror.image >= np.arange(len(mirror.image)))
+    rates = _rates(mirror, blocks)
     source, weights, cones = rows
     units = problem.units.row
     W = sparse.csr_array(sparse.diags_array(1.0 / units[source]) @ weights @ sparse.diags_array(units))
@@ -139,27 +60,51 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         half_sides=problem.half_sides[kept],
         resultants=_cleaned(B[six]),
         compliance=read_only(stresses.multiply(stresses).T @ problem.compliance),
-        ends=problem.ends[kept],
+        ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
         row_mode=tuple(problem.row_mode[k] for k in source),
         friction=problem.friction[kept],
         units=replace(
             problem.units,
+            block_force=problem.units.block_force[blocks],
+            block_length=problem.units.block_length[blocks],
             interface_force=problem.units.interface_force[kept],
             interface_length=problem.units.interface_length[kept],
             row=units[source],
         ),
+        blocks=tuple(problem.blocks[k] for k in blocks),
         interfaces=tuple(problem.interfaces[k] for k in kept),
+        centroids=problem.centroids[blocks],
     )
-    return Planar(planar, stresses, rates, sparse.csr_array(W.T))
+    return Planar(planar, stresses, rates, sparse.csr_array(W.T), blocks, mirror.flat, problem.units)
 
 
-def _rates(problem: LimitProblem, mirror: Mirror) -> sparse.csr_array:
-    """Rates of all blocks per in-plane rate: along the axes of the plane, and about its normal."""
+def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
+    """Rates of all blocks per rate of `blocks`: of itself and its image; of its own image, in the plane.
+
+    The latter along the axes of the plane, and about its normal.
+    """
     along = np.arange(3) != mirror.axis
     block = np.zeros((6, 6))
     block[:3, :3], block[3:, 3:] = mirror.frame * along, mirror.frame * ~along
-    return sparse.csr_array(sparse.kron(sparse.eye_array(len(problem.blocks)), block))
+    image, n, column = mirror.image[blocks], len(mirror.image), np.arange(len(blocks))
+    still, paired = image == blocks, image != blocks
+    parts = [(block, blocks[still], column[still]), (np.eye(6), blocks[paired], column[paired])]
+    parts.append((mirror.rates, image[paired], column[paired]))
+    u = sparse.csr_array((6 * n, 6 * len(blocks)))
+    for own, i, j in parts:
+        u = sparse.csr_array(
+            u + sparse.kron(sparse.coo_array((np.ones(len(i)), (i, j)), (n, len(blocks))), own)
+        )
+    return u
+
+
+def _ends(ends: Indices, image: Indices, blocks: Indices) -> Indices:
+    """Blocks of the reduced problem at the ends of interfaces; what leans on its image leans on the plane."""
+    index = np.searchsorted(blocks, np.minimum(image, np.arange(len(image))))
+    own = np.where(ends >= 0, index[ends], -1)
+    own[own[:, 0] == own[:, 1], 1] = -1
+    return np.asarray(own)
 
 
 def _stresses_and_rows(
@@ -169,7 +114,8 @@ def _stresses_and_rows(
     triplets, parts, width = [], [], 0
     for kind in mirror.kinds:
         first = np.flatnonzero(kind.image >= np.arange(len(kind.image)))
-        basis = symmetric(kind.turn[first])
+        paired = kind.paired[first, None, None]
+        basis = np.where(paired, np.eye(kind.turn.shape[1]), symmetric(kind.turn[first]))
         for d in np.unique(basis.any(axis=1).sum(axis=1)).tolist():
             if d == 0:  # a tie across the plane carries nothing in it
                 continue
@@ -178,21 +124,27 @@ def _stresses_and_rows(
             new = width + np.arange(len(own) * d).reshape(-1, 1, d)
             width += len(own) * d
             image = kind.image[own]
-            for there, also in ((own, np.ones(len(own), dtype=bool)), (image, image != own)):
+            turned = np.where(paired[its], kind.turn[own] @ X, X)
+            for there, Y, also in ((own, X, np.ones(len(own), dtype=bool)), (image, turned, image != own)):
                 old = kind.places.columns[there][:, :, None]
-                keep = (X != 0.0) & also[:, None, None]
-                triplets.append([np.broadcast_to(v, X.shape)[keep] for v in (X, old, new)])
-            parts += _rows_of(kind, own, X, choice)
+                keep = (Y != 0.0) & also[:, None, None]
+                triplets.append([np.broadcast_to(v, X.shape)[keep] for v in (Y, old, new)])
+            parts += _rows_of(kind, own, X, choice, mirror.flat)
     data, old, new = (np.concatenate(part) for part in zip(*triplets, strict=True))
     stresses = sparse.coo_array((data, (old, new)), shape=(problem.C.shape[0], width)).tocsr()
     return sparse.csr_array(stresses), _joined(parts, len(problem.g))
 
 
-def _rows_of(kind: Mirrored, own: Indices, X: Array, choice: Choice) -> list[PlaneRows]:
+def _rows_of(kind: Mirrored, own: Indices, X: Array, choice: Choice, lines: bool) -> list[PlaneRows]:
     """Rows of the places `own` and of their images, on the stresses of the basis X (K, c, d)."""
-    twice = kind.image[own] != own
-    some = [its for its in (~twice, twice) if its.any()]
-    return [part for its in some for part in plane_rows(kind, own[its], X[its], choice)]
+    twice, paired = kind.image[own] != own, kind.paired[own]
+    groups = ((~twice, choice), (twice & ~paired, choice), (paired, Choice.EVERY))  # pairs imply nothing
+    return [
+        part
+        for its, which in groups
+        if its.any()
+        for part in plane_rows(kind, own[its], X[its], which, lines)
+    ]
 
 
 def symmetric(turn: Array) -> Array:

@@ -52,11 +52,12 @@ class PlaneRows:
 class _Sets:
     """Rows of K places, or of K pairs of a place and its image, on the basis of their symmetric stresses.
 
-    `values` (K, r, d + 1) are F x' + g over the largest of the set, `flow` (K, r, d) is G in this unit;
-    `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and `Mirrored`, the first
-    `linear` of them linear rows.
+    `places` is one or two, `values` (K, r, d + 1) are F x' + g over the largest of the set, `flow` (K, r, d)
+    is G in this unit; `members` and `partner` as in :class:`~limitblocks.problem.plane.places.Place` and
+    `Mirrored`, the first `linear` of them linear rows.
     """
 
+    places: int
     values: Array
     flow: Array
     members: tuple[slice, ...]
@@ -76,17 +77,17 @@ class _Sets:
         return np.asarray((own + np.eye(r)[self.start[self.partner]]) / 2.0)
 
 
-def plane_rows(kind: Mirrored, own: Indices, X: Array, choice: Choice) -> Iterator[PlaneRows]:
+def plane_rows(kind: Mirrored, own: Indices, X: Array, choice: Choice, lines: bool) -> Iterator[PlaneRows]:
     """Rows of the places `own` (K,) and of their images on the stresses of the bases X (K, c, d).
 
-    Places with the same numbers are judged once.
+    Cones of one direction become two linear rows where `lines`. Places with the same numbers are judged once.
     """
     first, of_place = classes(np.stack([kind.sort[own], kind.sort[kind.image[own]]], axis=1))
     members = np.split(np.argsort(of_place, kind="stable"), np.cumsum(np.bincount(of_place))[:-1])
     places = np.concatenate([kind.places.rows[there] for there in _pair(kind, own)], axis=1)
     for at in range(0, len(first), CHUNK):
         chunk = slice(at, at + CHUNK)
-        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), choice):
+        for rows in _rows(_sets(kind, own[first[chunk]], X[first[chunk]]), choice, lines):
             yield _everywhere(places, rows, members[chunk])
 
 
@@ -96,29 +97,37 @@ def _pair(kind: Mirrored, own: Indices) -> list[Indices]:
     return [own] if (image == own).all() else [own, image]
 
 
-def _rows(sets: _Sets, choice: Choice) -> Iterator[_Rows]:
-    """Rows of each set: cones of two directions and more, and lines."""
+def _rows(sets: _Sets, choice: Choice, as_lines: bool) -> Iterator[_Rows]:
+    """Rows of each set: cones, but for those of no direction, or of one where it gives lines; and lines."""
     lines = [sets.heads[:, np.array(sets.linear)]]
     valid = [np.ones(lines[0].shape[:2], dtype=bool)]
     for size in sorted({m.stop - m.start for m in sets.members} - {1}):
         cones = _cones(sets, size)
         lines += [cones.weight[:, :, 0] + sign * cones.weight[:, :, 1] for sign in (1.0, -1.0)]
-        valid += [cones.valid & (cones.rank <= 1), cones.valid & (cones.rank == 1)]
-        yield from _kept(cones)
+        valid += [cones.valid & (cones.rank <= as_lines), cones.valid & (cones.rank == 1) & as_lines]
+        yield from _kept(cones, int(as_lines))
     yield _lines(sets, np.concatenate(lines, axis=1), np.concatenate(valid, axis=1), choice)
 
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
     p, there = kind.places, _pair(kind, own)
-    values = np.concatenate([np.concatenate([p.F[k] @ X, p.g[k][..., None]], axis=2) for k in there], axis=1)
+    bases = [X, kind.turn[own] @ X]
+    values = np.concatenate(
+        [np.concatenate([p.F[k] @ Y, p.g[k][..., None]], axis=2) for k, Y in zip(there, bases, strict=False)],
+        axis=1,
+    )
     size = np.abs(values).max(axis=(1, 2), keepdims=True)
     r, count = p.rows.shape[1], len(p.members)
+    ats = (1, 0) if kind.paired[own].all() else (0, 1)  # partners are in the image, or in the place itself
     return _Sets(
+        places=len(there),
         values=values / size,
-        flow=np.concatenate([p.G[k] @ X for k in there], axis=1) / size,
+        flow=np.concatenate([p.G[k] @ Y for k, Y in zip(there, bases, strict=False)], axis=1) / size,
         members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
         linear=tuple(k < p.linear for k in range(count)) * len(there),
-        partner=np.concatenate([kind.partner[k] + j * count for j, k in enumerate(there)], axis=1),
+        partner=np.concatenate(
+            [kind.partner[k] + at * count for k, at in zip(there, ats, strict=False)], axis=1
+        ),
     )
 
 
@@ -174,9 +183,9 @@ def _cones(sets: _Sets, size: int) -> _Cones:
     return _Cones(mean, rank, stands == np.arange(len(which)), start)
 
 
-def _kept(cones: _Cones) -> Iterator[_Rows]:
-    """Cones of two directions and more."""
-    for rank in np.unique(cones.rank[cones.valid & (cones.rank > 1)]).tolist():
+def _kept(cones: _Cones, lines: int) -> Iterator[_Rows]:
+    """Cones of more directions than become `lines`."""
+    for rank in np.unique(cones.rank[cones.valid & (cones.rank > lines)]).tolist():
         k, which = np.nonzero(cones.valid & (cones.rank == rank))
         weight = cones.weight[k, which, : rank + 1]
         yield _Rows(rank + 1, k, weight, cones.start[which][:, None] + np.arange(rank + 1))
@@ -193,7 +202,8 @@ def _lines(sets: _Sets, weight: Array, valid: Flags, choice: Choice) -> _Rows:
         valid &= ~redundant(np.where(valid[..., None], lines, 0.0), valid, flow)
     k, which = np.nonzero(valid)
     mean = np.einsum("klm,kmr->klr", share, weight)[k, which][:, None]
-    return _Rows(1, k, mean, np.abs(mean[:, 0]).argmax(axis=1)[:, None])
+    here = sets.values.shape[1] // sets.places  # rows of the place itself, not of its image
+    return _Rows(1, k, mean, np.abs(mean[:, 0, :here]).argmax(axis=1)[:, None])
 
 
 def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRows:

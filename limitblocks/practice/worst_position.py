@@ -1,0 +1,165 @@
+"""The worst position of a vehicle that moves along the deck of a bridge."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from limitblocks.analysis.bounds import bounds
+from limitblocks.arrays import Array, read_only
+from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
+from limitblocks.evidence.associated import Bounds
+from limitblocks.joints.base import checked_count
+from limitblocks.mechanics.loads.load import number
+from limitblocks.model import Model
+from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
+from limitblocks.shown import Result
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class WorstPosition(Result):
+    """Envelope of the load factor over the positions of a vehicle.
+
+    Attributes
+    ----------
+    positions, load_factors : Array, shape (p,)
+        X of the first axle, m, and the static load factor there, in the order tried; infinite where the
+        load is unlimited.
+    position : float
+        Worst of them.
+    bounds : Bounds
+        There.
+    model : Model
+        There.
+    digest : str
+        SHA-256 of the model that was given.
+    """
+
+    positions: Array
+    load_factors: Array
+    position: float
+    bounds: Bounds
+    model: Model
+    digest: str
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return a row for each position, in their order along the deck."""
+        pairs = sorted(zip(self.positions.tolist(), self.load_factors.tolist(), strict=True))
+        return [{"position": place, "load_factor": factor} for place, factor in pairs]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the envelope and the bounds at the worst position as numbers and text."""
+        return {
+            "analysis": "worst position",
+            "model_digest": self.digest,
+            "positions": self.positions.tolist(),
+            "load_factors": self.load_factors.tolist(),
+            "position": self.position,
+            "bounds": self.bounds.to_dict(),
+            "model": self.model.to_dict(),
+        }
+
+    def __str__(self) -> str:
+        return (
+            f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
+            f"{self.bounds.lower:.6g}{self._as_read}"
+        )
+
+
+def worst_position(
+    model: Model,
+    vehicle: Vehicle,
+    deck: Deck,
+    between: tuple[float, float] | None = None,
+    *,
+    positions: int = 25,
+    progress: Callable[[float, float], None] | None = None,
+) -> WorstPosition:
+    """Return the position of a vehicle at which the load factor is least, and the envelope on the way.
+
+    Evenly spaced positions first, then a bounded search (Brent) between the neighbours of the worst. The load
+    factor has kinks where an axle leaves a block: the search finds a local minimum, to a thousandth of the
+    way. Give more `positions` where several spans are about as bad.
+
+    Parameters
+    ----------
+    model : Model
+        Structure, its live load is replaced.
+    vehicle : Vehicle
+        Moves from ``between[0]`` to ``between[1]``, X of its first axle, m.
+    deck : Deck
+        Where it runs.
+    between : (float, float), optional
+        m; unless given, wherever some axle stands on the free blocks.
+    positions : int
+        Evenly spaced positions, at least 3.
+    progress : callable, optional
+        Called with each position and its load factor.
+
+    Raises
+    ------
+    ModelError
+        If the interval is empty, or the vehicle is nowhere on the structure.
+    """
+    refuse_kind(vehicle, Vehicle, "vehicle")
+    checked_count("positions", positions, 3)
+    if between is not None and np.shape(between) != (2,):
+        raise ModelError(f"between is {between!r}, expected two places of the first axle, X in m")
+    low, high = (number(x, "between", "m") for x in between or _whole(model, vehicle))
+    if not low < high:
+        raise ModelError(
+            f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
+        )
+    tried: dict[float, tuple[Bounds, Model] | None] = {}
+
+    def at(x: float) -> float:
+        if x not in tried:
+            tried[x] = _loaded(model, vehicle, deck, x)
+        found = tried[x]
+        factor = found[0].lower if found else np.inf
+        if progress:
+            progress(x, factor)
+        return float(factor)
+
+    places = np.linspace(low, high, positions)
+    factors = np.array([at(float(x)) for x in places])
+    if not np.isfinite(factors).any():
+        raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
+    k = int(factors.argmin())
+    about = float(places[max(k - 1, 0)]), float(places[min(k + 1, positions - 1)])
+    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
+    minimize_scalar(
+        lambda x: min(at(float(x)), beyond),
+        bounds=about,
+        method="bounded",
+        options={"xatol": (high - low) * 1e-3},
+    )
+    worst = min((x for x, found in tried.items() if found), key=at)
+    found = tried[worst]
+    assert found  # one is finite
+    order = read_only(np.array(list(tried)))
+    values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
+    return WorstPosition(order, values, worst, *found, model.digest)
+
+
+def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:
+    """Places of the first axle between which some axle stands on the structure."""
+    x = np.concatenate([block.vertices[:, 0] for block in model.free_blocks])
+    return float(x.min()) - max(vehicle.distances), float(x.max()) - min(vehicle.distances)
+
+
+def _loaded(model: Model, vehicle: Vehicle, deck: Deck, x: float) -> tuple[Bounds, Model] | None:
+    """Bounds with the vehicle there; None where it puts nothing on the structure, or any multiple stands."""
+    try:
+        loaded = replace(model, live=vehicle_load(model, vehicle, deck, x))
+        return bounds(loaded), loaded
+    except UnlimitedLoad:
+        return None
+    except ModelError as error:
+        if "stands on a free block" in str(error):
+            return None
+        raise

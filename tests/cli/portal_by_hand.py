@@ -1,0 +1,93 @@
+"""A portal, and outcomes of its analyses that are known without solving."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+from typer.testing import CliRunner
+
+import limitblocks as lb
+from limitblocks.choices import Method
+from limitblocks.cli import app
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.problem import Turning
+
+JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
+PORTAL = {
+    "schema_version": 1,
+    "name": "Portal",
+    "blocks": [
+        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
+        {"name": "left", "box": {"size": [0.5, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "right", "box": {"size": [0.5, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}, "unit_weight": 20e3},
+        {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.2]}, "unit_weight": 24e3},
+    ],
+    "supports": ["ground"],
+    "joints": {"dry": {"type": "PointContact", "friction": 0.2}},
+    "interfaces": {"find": {"joint": "dry"}},
+    "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
+}
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def solved(
+    model,
+    *,
+    dilatancy=0.2,
+    turning="centroid",
+    method="path",
+    tolerance=1e-8,
+    backward_error=None,
+    progress=None,
+    status=Status.CONVERGED,
+):
+    """The associated solution: it satisfies Eqs (54)-(59) where the dilatancy is the friction."""
+    bounds = lb.bounds(model)
+    iteration = Iteration(bounds.lower, "step", 0.0, {"flow": 1e-9}, 1, 0)
+    if progress:
+        progress(iteration)
+    names = ("stress_resultants", "generalised_stresses", "displacement_rates", "flow_multipliers")
+    names += ("dead_load_stresses",)
+    return Nonassociated(
+        load_factor=bounds.upper,
+        frictionless=np.nan,
+        associated=bounds.upper,
+        residuals=bounds.residuals,
+        backward_error=lb.check_mcp(model, bounds).backward_error,
+        status=status,
+        how=f"by hand, {Method(method).value}",
+        history=(iteration,),
+        dilatancy=dilatancy,
+        turning=Turning(turning),
+        remarks=(),
+        tolerance=tolerance,
+        digest=model.digest,
+        unclaimed="nobody asked",
+        **{name: getattr(bounds, name) for name in names},
+    )
+
+
+def walked(model, **settings):
+    end = solved(model, **settings)
+    first = PathStep(0.0, end.stress_resultants, 0.0 * end.displacement_rates, (), {"yield": 0.0}, "step")
+    moved = 1e3 * end.displacement_rates
+    return LoadPath(
+        (first, replace(first, load_factor=0.2, displacements=moved, active=(("[b]|left", "sliding"),))), end
+    )
+
+
+def stopped(model, **settings):
+    best = solved(model, status=Status.OUT_OF_STEPS, **settings)
+    raise lb.NotConverged("not converged: flow residual 1e-3", replace(best, load_factor=0.21))
+
+
+def changed(file, **changes):
+    document = json.loads(file.read_text())
+    for key, change in changes.items():
+        document[key] = change(document[key])
+    file.write_text(json.dumps(document))

@@ -1,0 +1,119 @@
+"""Commands that are stopped: what they say on the way, and what they leave."""
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from portal_by_hand import run, stopped
+
+import limitblocks as lb
+from limitblocks.cli import progress
+from limitblocks.evidence.results import Iteration
+
+
+def test_stopping_early_is_code_3_and_the_best_state_is_kept(solver, file, tmp_path):
+    solver(stopped, stopped)
+    output = tmp_path / "best.json"
+    for verb in ("nonassociated", "path"):
+        done = run(verb, file, "--dilatancy", 0.2, "--output", output, "--force")
+        assert (done.exit_code, done.stdout) == (3, "")
+        assert f"the best state found, not a solution, is in {output}" in done.stderr
+        assert "error: not converged: flow residual 1e-3" in done.stderr
+        assert run("check", file, output).exit_code == 1
+    assert run("nonassociated", file).exit_code == 3
+    assert run("report", file, "--nonassociated").exit_code == 3
+    assert not file.with_suffix(".html").exists()
+
+
+@pytest.mark.usefixtures("solver")
+def test_progress_is_lines_without_a_terminal_and_a_bar_on_one(file, monkeypatch, capsys):
+    assert run("nonassociated", file, "--json").stderr == ""  # less than ten seconds
+    monkeypatch.setattr(progress, "EVERY", 0.01)
+    at = Iteration(0.25, "step", 1.0, {"flow": 1e-3, "yield": 1e-9}, 3, 0)
+    with progress.of_iterations("path") as show:
+        show(at)
+        time.sleep(0.2)
+    captured = capsys.readouterr()
+    assert captured.err.splitlines()[-1] == "path: 0 s, step: load factor 0.25"
+    assert captured.out == ""
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    with progress.of_iterations("path") as show:
+        show(at)
+    captured = capsys.readouterr()
+    assert "step: load factor 0.25" in captured.err
+    assert captured.out == ""
+
+
+def test_an_interrupted_analysis_writes_its_best_state_or_says_there_is_none(solver, file, tmp_path):
+    def interrupted(_model, **_settings):
+        raise KeyboardInterrupt
+
+    solver(interrupted, stopped)
+    output = tmp_path / "best.json"
+    done = run("nonassociated", file, "-o", output)
+    assert (done.exit_code, done.stdout) == (130, "")
+    assert done.stderr == "interrupted, with nothing to write yet\n"
+    assert not output.exists()
+    assert run("path", file, "--dilatancy", 0.2, "-o", output).exit_code == 3
+    assert output.exists()
+
+
+def _interrupted(arguments, met):
+    """Exit code and errors of the command in a process of its own, which gets SIGINT once it tells `met`."""
+    often = "import limitblocks.cli.progress as p; p.EVERY = 0.02; from limitblocks.cli import main; main()"
+    words = [sys.executable, "-c", often, *map(str, arguments)]
+    with subprocess.Popen(words, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True) as process:
+        said = []
+        for line in process.stderr:
+            said.append(line)
+            if met in line:
+                process.send_signal(signal.SIGINT)
+                break
+        _, rest = process.communicate(timeout=60)
+    return process.returncode, "".join(said) + rest
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
+def test_a_range_stopped_by_the_user_is_written_as_far_as_it_got(tmp_path):
+    model = lb.structures.block(lb.PointContact(0.3), width=1.0, height=1.0).save(tmp_path / "model.json")
+    output = tmp_path / "range.json"
+    asked = ("range", model, "--paths", 10**6, "--mechanisms", 10**6, "--time-limit", 600, "-o", output)
+    code, said = _interrupted(asked, "load factor 0.3")
+    assert code == 130, said
+    found = lb.read_result(output)
+    assert not found.complete
+    assert found.load_path.load_factor == pytest.approx(0.3, rel=1e-6)  # friction
+    assert lb.report(lb.read(model), found).sections[0].designs
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows sends no SIGINT to one process")
+def test_a_path_stopped_by_the_user_leaves_its_best_state(tmp_path):
+    joint = lb.OrdunaLourenco(0.6)
+    model = lb.structures.wall(joint, length=4.0, courses=10).save(tmp_path / "model.json")
+    output = tmp_path / "path.json"
+    code, said = _interrupted(("path", model, "-o", output), "load factor")
+    assert code == 130, said
+    assert "interrupted" in said
+    assert not lb.read_result(output).collapse.converged
+
+
+def test_a_study_interrupted_keeps_its_rows(file, tmp_path, monkeypatch):
+    from limitblocks.studies import pool
+
+    done = iter([pool.Outcome(0.25, lb.bounds(lb.read(file)), "")])
+
+    def in_order(*_):
+        yield from done
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pool, "in_order", in_order)
+    rows = tmp_path / "rows.csv"
+    arguments = ("study", "directions", file, "--count", 3, "--csv", rows)
+    kept = run(*arguments)
+    assert kept.exit_code == 130
+    assert kept.stdout.count("interrupted before this one was done") == 2
+    assert len(rows.read_text().splitlines()) == 4
+    assert run(*arguments, "--force").exit_code == 130  # not even one row: nothing is replaced
+    assert "0.25" in rows.read_text()

@@ -1,0 +1,87 @@
+"""Misuse of practice is one line that names the thing, its value and what would be right."""
+
+import facades
+import pytest
+
+import limitblocks as lb
+from limitblocks.practice import (
+    Deck,
+    Floor,
+    FloorMode,
+    Rocking,
+    Spectrum,
+    Vehicle,
+    dowel,
+    reinforced,
+    settlement,
+    strip,
+    uplift,
+    vehicle_load,
+    verification,
+    worst_position,
+)
+
+NAN = float("nan")
+SITE = Spectrum(2.0, 1.2, 2.5, 0.5)
+MODE = FloorMode(0.4, 1.2, 1.0)
+CAR = Vehicle((1e3,))
+
+
+@pytest.fixture(scope="module")
+def facade():
+    return facades.facade()
+
+
+@pytest.fixture(scope="module")
+def answer(facade):
+    return lb.nonassociated(facade)
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"demand": None}, "demand is a NoneType, expected Spectrum"),
+        ({"demand": (2.0, 1.2, 2.5, 0.5)}, "demand is a tuple, expected Spectrum"),
+        ({"demand": Spectrum(245.0, 1.2, 2.5, 0.5)}, "a_g is 245 m/s2, 25 g; expected at most 2 g"),
+        ({"curve": "curve.json"}, "curve is a str, expected CapacityCurve"),
+        ({"floor": MODE}, "floor is a FloorMode, expected Floor"),
+        ({"damping": 0.05}, "damping is 0.05, expected two numbers, at SLV and at SLC"),
+        ({"elastic_period": -1.0}, "T_0 is -1.0, expected a finite number >= 0 in s"),
+    ],
+)  # fmt: skip
+def test_verification(facade, answer, given, words):
+    settings = {"demand": SITE, "q": 2.0} | given
+    with pytest.raises(lb.ModelError) as caught:
+        verification(facade, answer, settings.pop("demand"), **settings)
+    assert str(caught.value).startswith(words)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("misuse", "words"),
+    [
+        (lambda wall: settlement("m.json", "right", (0, 0, -1)), "model is a str, expected Model"),
+        (lambda wall: reinforced(wall, "rod"), "what a structure is reinforced with is a str"),
+        (lambda wall: dowel("a|b", (0, 0, 0), diameter=0.02, capacity=1.0), "interface of a dowel is a str"),
+        (lambda wall: dowel(wall.interfaces[0], (9, 9, 9), diameter=0.02, capacity=1.0),
+         "dowel across ground|wall: at is [9.0, 9.0, 9.0], not on the joint"),
+        (lambda wall: strip(wall.interfaces[0], (-250, 0, 0), width=0.1, capacity=1.0),
+         "strip across ground|wall: at is [-250.0, 0.0, 0.0], not on the joint"),
+        (lambda wall: Floor((0.4,)), "mode of the building is a float, expected FloorMode"),
+        (lambda wall: Floor((MODE,), a=1.5, b=0.5), "a is 1.5 and b is 0.5, expected 0 < a <= b"),
+        (lambda wall: Vehicle(1e3), "axles are 1000.0 at (0.0,), expected a list of N"),
+        (lambda wall: Deck(1.0, y=NAN), "line y of the deck is nan"),
+        (lambda wall: vehicle_load(wall, CAR, Deck(-5.0), 0.0), "the road at -5 m is below the structure"),
+        (lambda wall: vehicle_load(wall, CAR, Deck(5.0), NAN), "position is nan"),
+        (lambda wall: worst_position(wall, (1e3,), Deck(5.0)), "vehicle is a tuple, expected Vehicle"),
+        (lambda wall: worst_position(wall, CAR, Deck(5.0), (1.0,)), "between is (1.0,), expected two places"),
+        (lambda wall: worst_position(wall, CAR, Deck(5.0), positions=2), "positions is 2, expected"),
+        (lambda wall: uplift(wall, NAN), "level of the water is nan"),
+        (lambda wall: Rocking(0.2, 1.0).period("a"), "amplitude is 'a', expected a finite number"),
+    ],
+)  # fmt: skip
+def test_arguments(facade, misuse, words):
+    with pytest.raises(lb.LimitBlocksError) as caught:
+        misuse(facade)
+    assert str(caught.value).startswith(words)
+    assert "\n" not in str(caught.value)
