@@ -25,7 +25,7 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
-PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-6, 1e-6, 1e-6)  # delta of the steps
+PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LIKE = 0.1  # quotient of slack and multiplier from which on it is not plain which is zero
 NEGATIVE = 1e-3  # of the larger one of a pair: below, it is not plain either
 LARGEST = 400  # pairs that are not plain

@@ -93,11 +93,15 @@ def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:
     """Return the intersections (m,) of polygons, right to the area `least` (m,).
 
     GEOS 3.14 can return the whole of a polygon for its intersection with one that it only shares a side
-    with. The order of the corners matters to it, so all is done twice; where the areas differ, on a grid.
+    with. The order of the corners matters to it, so all is done twice; where the areas differ, or a point
+    within is not in both polygons, on a grid.
     """
     common = shapely.intersection(first, second)
     again = shapely.intersection(shapely.normalize(first), shapely.normalize(second))
     doubtful = np.abs(shapely.area(common) - shapely.area(again)) > least
+    within = shapely.point_on_surface(common)
+    outside = ~(shapely.intersects(within, first) & shapely.intersects(within, second))
+    doubtful |= outside & (shapely.area(common) > least)
     common[doubtful] = shapely.intersection(first[doubtful], second[doubtful], grid_size=grid)
     return common
 

@@ -5,7 +5,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
-from limitblocks.analysis.nonassociated.means import LARGE_MEANS, SOFTENING, Means, follow
+from limitblocks.analysis.nonassociated.means import LARGE_MEANS, LARGE_PLANAR_MEANS, SOFTENING, Means, follow
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import defect
@@ -48,6 +48,20 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     monkeypatch.setattr(ways, "LARGE", 10)
     own = [Means(Barrier(0.5, 2.0), 3, 300), Means(Barrier(0.5, 2.0), 4, 300)]
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
+
+
+def test_a_large_wall_in_its_plane_has_a_larger_barrier_before_increments(monkeypatch):
+    def never(*_):
+        raise AssertionError("increments cost too much")
+
+    stopped = LARGE_PLANAR_MEANS[0]._replace(budget=1)
+    monkeypatch.setattr(ways, "LARGE_IN_PLANE", 10)
+    monkeypatch.setattr(ways, "LARGE_PLANAR_MEANS", (stopped, *LARGE_PLANAR_MEANS[1:]))
+    monkeypatch.setattr(ways, "_increments", never)
+    model = lb.structures.wall(lb.PointContact(0.6), length=2.4, courses=6)
+    found = lb.nonassociated(model)
+    assert found.how.startswith("tracked path, barrier 0.2")
+    assert lb.check_mcp(model, found).passed
 
 
 def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):

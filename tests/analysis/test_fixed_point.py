@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated import loop
+from limitblocks.analysis.nonassociated import finished
 from limitblocks.analysis.nonassociated.fixed_point import OSQP, by_cones, by_planes, permanent_state
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
@@ -120,7 +120,7 @@ def test_confirmation_is_an_option_and_only_of_answers():
     [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")],
 )
 def test_an_answer_that_is_not_confirmed_says_so(change, remark, monkeypatch):
-    monkeypatch.setattr(loop, "fixed_point_change", lambda flow, state: change)
+    monkeypatch.setattr(finished, "fixed_point_change", lambda flow, state: change)
     found = lb.nonassociated(flat_block(lb.OrdunaLourenco(MU)))
     assert remark in "".join(found.remarks)
     assert remark in str(found)

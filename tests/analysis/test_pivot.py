@@ -43,6 +43,18 @@ def test_a_state_off_a_solution_is_taken_to_one(joint, about, dilatancy):
     assert defect(flow, pivoted(flow, rough)) <= 1e-8
 
 
+def test_steps_close_without_newtons_method(monkeypatch):
+    """The proximal term fades from step to step."""
+    monkeypatch.setattr(pivot, "polish", lambda flow, state, **_: state)
+    problem = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=4).problem
+    flow = Flow(problem)
+    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    random = np.random.default_rng(0)
+    off = (v + 1e-3 * random.uniform(-1.0, 1.0, v.shape) for v in (solution.x, solution.u, solution.y))
+    rough = State(solution.load_factor + 1e-3, *off)
+    assert defect(flow, pivoted(flow, rough)) <= 1e-8
+
+
 def test_a_block_that_slides_and_tips_at_once():
     """Friction 0.5 and half a width over half a height 0.5: both yield, one of them at rest."""
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=2.0).problem

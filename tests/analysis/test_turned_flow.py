@@ -7,7 +7,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
-from limitblocks.analysis.nonassociated.means import TURNED_MEANS, TURNED_SOFTENING, follow
+from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING, follow
 from limitblocks.analysis.nonassociated.start import (
     bracket,
     load_scale,
@@ -79,24 +79,25 @@ def test_no_proof_where_statics_alone_does_not_give_the_stresses_or_nothing_hold
 
 @pytest.fixture(scope="module")
 def corner():
-    """Two walls that meet, pushed along one: paths from the permanent loads wind."""
+    """Two walls that meet, pushed out of the plane of one: paths from the permanent loads wind."""
     joint = lb.OrdunaLourenco(0.6)
-    model = structures.corner(joint, length=2.4, return_length=2.4, courses=4)
+    model = structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0, 1, 0))
     return model, lb.nonassociated(model)
 
 
-def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner):
+@pytest.mark.parametrize(("softening", "solved"), [(TURNED_SOFTENING, True), (SOFTENING, False)])
+def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner, softening, solved):
     model, about_centroid = corner
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, 0.0, Turning.PRESSURE)
     x0 = start_stresses(model, problem, problem.compliance, about_centroid)
     state, _ = follow(
-        replace(flow, softening=TURNED_SOFTENING),
+        replace(flow, softening=softening),
         x0,
         problem.compliance,
-        means=[TURNED_MEANS[6]],
+        means=[TURNED_MEANS[1]],
         power=load_scale(problem, enclosing.associated) / len(problem.blocks),
     )
     worst = mcp_residuals(flow, polish(flow, state)).worst.value
-    assert worst <= TOLERANCE
+    assert (worst <= TOLERANCE) == solved

@@ -4,7 +4,7 @@ import pytest
 from true_claims import state_of, twisted
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated.loop import finished
+from limitblocks.analysis.nonassociated.finished import finished
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.residuals import TOLERANCE

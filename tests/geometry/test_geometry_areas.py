@@ -252,6 +252,16 @@ def test_polygons_that_share_a_side_have_no_common_area():
     assert shapely.area(common_areas(*pair, np.array([1e-9]), 1e-9)) == pytest.approx([0.0], abs=1e-9)
 
 
+def test_neighbours_across_a_joint_of_a_dome_share_a_side_only():
+    # GEOS 3.14 gives the whole of the second, whatever the order of the corners
+    first = [(-0.3424974772438826, -0.007856525651676051), (-0.17806930397618018, -0.2919607224540524)]
+    first += [(0.35299289255884225, -0.010277784782518175), (0.1675738886612196, 0.31009503288824664)]
+    other = [(0.16757388866121956, 0.31009503288824664), (-0.3424974772438826, -0.007856525651676051)]
+    other += [(-0.5263916124877991, 0.26411361822688467), (-0.03979609363511195, 0.6167847696023684)]
+    pair = [np.array([shapely.Polygon(corners)]) for corners in (first, other)]
+    assert shapely.area(common_areas(*pair, np.array([1e-9]), 1e-9)) == pytest.approx([0.0], abs=1e-9)
+
+
 def wavy(name, low, high, n=12):
     """Column of unit width between two surfaces Z = low(X, Y) and high(X, Y), in triangles."""
     x, y = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, n)] * 2, indexing="ij"))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.analysis.load_factor_range.faces import extremes, ray
-from limitblocks.analysis.nonassociated.loop import finished
+from limitblocks.analysis.nonassociated.finished import finished
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array

@@ -7,9 +7,10 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
-from limitblocks.analysis.nonassociated.loop import end, finished, small_barrier
+from limitblocks.analysis.nonassociated.loop import small_barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings

@@ -30,7 +30,7 @@ from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.pivot import pivoted
-from limitblocks.analysis.polish import PATIENCE, defect, polish
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
@@ -231,7 +231,7 @@ class Walk:
         if z.theta < LAST:
             raise Lost("no solution at the end")
         self.tried = AGAIN * z.theta
-        self._keep(polish(self.path.flow, self.state, patience=PATIENCE))
+        self._keep(polish(self.path.flow, self.state, patience=1))  # a point costs less than more steps
         if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
             self._keep(pivoted(self.path.flow, self.state))
         return self.left < TOLERANCE

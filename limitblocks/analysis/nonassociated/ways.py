@@ -12,6 +12,7 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
+    LARGE_PLANAR_MEANS,
     MEANS,
     SOFTENING,
     TURNED_MEANS,
@@ -29,6 +30,7 @@ from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
+LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -47,7 +49,10 @@ def first_to_solve(
     Of a large model a state that is near `enough` ends the search as well.
     """
     met: list[tuple[State, str]] = []
-    large = means is MEANS and len(flow.problem.blocks) > LARGE and _in_space(flow) and flow.dissipative
+    blocks, in_space = len(flow.problem.blocks), _in_space(flow)
+    large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
+    if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
+        means = LARGE_PLANAR_MEANS
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -87,13 +92,14 @@ def _ways(
     for one in means[1:]:
         if one.barrier.size <= SMALL:
             yield tracked(one)
+    larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
+    if means is LARGE_PLANAR_MEANS:
+        yield from larger
     if _in_space(flow):
         yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
     else:  # in a plane they cost little
         yield _increments(flow, x0, scale, tolerance, record)
-    for one in means[1:]:
-        if one.barrier.size > SMALL:
-            yield tracked(one)
+    yield from larger
 
 
 def _from_centroid(

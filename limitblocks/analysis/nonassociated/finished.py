@@ -1,0 +1,120 @@
+"""The answer of a search: its state as a result with its proof, or the error that says why it is none."""
+
+from __future__ import annotations
+
+from limitblocks.analysis.in_si import in_model_order, resultants_of
+from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
+from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
+from limitblocks.analysis.nonassociated.start import Bracket
+from limitblocks.analysis.nonassociated.ways import left_over
+from limitblocks.analysis.stability import dead_load_state
+from limitblocks.arrays import read_only
+from limitblocks.errors import NoSolution, NotConverged
+from limitblocks.evidence.backward_error import settled, within
+from limitblocks.evidence.ending import Status
+from limitblocks.evidence.given_power import given_power
+from limitblocks.evidence.locked_shear import locked_shear
+from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.model import Model
+from limitblocks.problem import Flow, State
+
+
+def end(flow: Flow, state: State) -> Iteration:
+    """What the polished end tells the user."""
+    load_factor = state.load_factor / flow.problem.units.live
+    return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
+
+
+def finished(
+    model: Model,
+    state: State,
+    enclosing: Bracket,
+    history: tuple[Iteration, ...],
+    flow: Flow,
+    how: str,
+    tolerance: float,
+    throw: bool,
+    confirm: bool = True,
+    limit: float | None = None,
+) -> Nonassociated:
+    """The result of a state, raised as NotConverged where its residuals are above the tolerance.
+
+    With a `limit` of the backward error, unless that is within it.
+    """
+    problem = flow.problem
+    state, error = settled(flow, state, tolerance, limit)
+    si, residuals = problem.in_si(state), mcp_residuals(flow, state)
+    status = _status(flow, state, how, tolerance)
+    change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
+    bounds, claimed = enclosing.bounds, enclosing.of(flow)
+    dead = (
+        bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
+    )
+    if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
+        status = Status.NEARBY
+    result = Nonassociated(
+        load_factor=si.load_factor,
+        frictionless=claimed.frictionless,
+        associated=enclosing.associated,
+        stress_resultants=resultants_of(problem, state.x),
+        generalised_stresses=read_only(si.x),
+        displacement_rates=in_model_order(model, si.u),
+        flow_multipliers=read_only(si.y),
+        dead_load_stresses=dead,
+        residuals=residuals,
+        backward_error=error,
+        status=status,
+        how=how,
+        history=history,
+        dilatancy=flow.dilatancy,
+        turning=flow.turning,
+        remarks=(
+            *off_load_path(how if status is Status.CONVERGED else ""),
+            *given_power(flow, state, tolerance),
+            *locked_shear(flow, state),
+            *unconfirmed(change),
+        ),
+        tolerance=tolerance,
+        digest=model.digest,
+        unclaimed=claimed.unclaimed,
+        fixed_point_change=change,
+    )
+    if throw and not result.accepted:
+        raise _refused(flow, result)
+    return result
+
+
+def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
+    """The error that says why a result is no solution."""
+    problem, worst = flow.problem, result.residuals.worst
+    state = state_without_solution(flow)
+    if result.status is Status.NO_SOLUTION and state is not None:
+        first = problem.member_interface[yielding(flow, state.x)]
+        return NoSolution(
+            "no solution exists: statics alone gives the stresses, "
+            f"{', '.join(dict.fromkeys(problem.interfaces[k] for k in first))} yields first, at load factor "
+            f"{state.load_factor / problem.units.live:.6g}, and the live load does no work on what can flow",
+            result,
+        )
+    place = f" at {worst.where}" if worst.where else ""
+    interrupted = result.status is Status.INTERRUPTED
+    why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
+    return NotConverged(
+        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}, "
+        f"{result.backward_error}; the error's result holds that state",
+        result,
+    )
+
+
+def _status(flow: Flow, state: State, how: str, tolerance: float) -> Status:
+    equations_left, worst = left_over(flow, state, tolerance)
+    if worst <= tolerance:
+        return Status.CONVERGED
+    if how.endswith(INTERRUPTED):
+        return Status.INTERRUPTED
+    if not equations_left:
+        return Status.GIVES_POWER
+    proven = state_without_solution(flow) is not None
+    return Status.NO_SOLUTION if proven else Status.OUT_OF_STEPS
