@@ -35,11 +35,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.proof import Proof
-from limitblocks.evidence.residuals import (
-    Residuals,
-    bounds_residuals,
-    static_residuals,
-)
+from limitblocks.evidence.residuals import Residuals, bounds_residuals, static_residuals
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 

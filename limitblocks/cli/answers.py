@@ -23,11 +23,13 @@ def answer(
     force: bool,
     filed: Path | None = None,
     beside: Sequence[Any] = (),
+    animation: Path | None = None,
     **settings: Any,
 ) -> Any:
     """Solve the model in `file`, write and print the result; write the best state where it stopped early.
 
-    A report goes to `filed`, with the results `beside` this one, which may come about while it is solved.
+    A report goes to `filed`, with the results `beside` this one, which may come about while it is solved;
+    its motion goes to `animation`.
     After Ctrl-C what there is until then is written, and the exit code is 130.
     """
     from limitblocks.io import read, write_result
@@ -38,6 +40,10 @@ def answer(
 
         suffix(filed)  # before the analysis, not after it
         refuse_existing(filed, force, file, option="--report")
+    if animation:
+        from limitblocks.io.formats.gltf.writer import animation_path
+
+        refuse_existing(animation_path(animation), force, file, option="--animation")
     model = read(file)
     try:
         with interrupts() as stopped:
@@ -56,6 +62,10 @@ def answer(
         from limitblocks.reports import report
 
         report(model, result, *beside).save(filed, overwrite=force)
+    if animation:
+        from limitblocks.io import write_animation
+
+        write_animation(model, animation, result, overwrite=force)
     show(model, result, as_json)
     if stopped:
         raise typer.Exit(INTERRUPTED)

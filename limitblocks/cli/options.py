@@ -47,6 +47,10 @@ Filed = Annotated[
     Path | None,
     typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
 ]
+Animation = Annotated[
+    Path | None,
+    typer.Option("--animation", metavar="FILE", help="Write the motion at true size as a .glb animation."),
+]
 ClaimFile = Annotated[Path, typer.Argument(metavar="RESULT", help="Result file (JSON).", show_default=False)]
 ExportFile = Annotated[
     Path,

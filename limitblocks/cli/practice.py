@@ -9,7 +9,7 @@ import typer
 from limitblocks.cli import analyses
 from limitblocks.cli.answers import answer
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.options import Animation, AsJson, Filed, Force, ModelFile, ResultFile
 from limitblocks.cli.vectors import numbers, vector
 
 if TYPE_CHECKING:
@@ -58,6 +58,7 @@ def settle(
     direction: Direction = (0.0, 0.0, -1.0),
     until_collapse: ToCollapse = False,
     largest: Farthest = float("inf"),
+    animation: Animation = None,
     filed: Filed = None,
     as_json: AsJson = False,
     output: ResultFile = None,
@@ -67,7 +68,9 @@ def settle(
     with clean_errors():
         solve = analyses.settlement_to_collapse if until_collapse else analyses.settlement
         way: Any = {"support": support, "direction": direction}
-        way |= {"largest": largest} if until_collapse else {}
+        if animation and not until_collapse:
+            raise typer.BadParameter("give --until-collapse, too", param_hint="--animation")
+        way |= {"largest": largest, "animation": animation} if until_collapse else {}
         answer(solve, model, as_json, output, force, filed, **way)
 
 
@@ -77,6 +80,7 @@ def capacity(
     block: Block = "",
     point: Point = (0.0, 0.0, 0.0),
     largest: Largest = float("inf"),
+    animation: Animation = None,
     as_json: AsJson = False,
     output: ResultFile = None,
     force: Force = False,
@@ -84,6 +88,7 @@ def capacity(
     """Print the load factor against the displacement of the mechanism, until it is zero."""
     with clean_errors():
         settings: Any = {"control": (block, point) if block else None, "steps": steps, "largest": largest}
+        settings |= {"animation": animation}
         answer(analyses.capacity, model, as_json, output, force, **settings)
 
 

@@ -11,12 +11,15 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load
+from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
 from limitblocks.practice.rejoined import closed_up, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
+TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
+SECANTS = 4  # to where a contact closes; then steps are halved
 SHORTEST = 2.0**-20  # of a step: where a contact closes
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 
@@ -28,6 +31,7 @@ class Advanced:
     assembly: Assembly
     control: Control
     changes: tuple[str, ...]
+    snapped: bool = False
 
 
 def refuse_left_behind(what: str, **loads: Load) -> None:
@@ -47,20 +51,52 @@ def advanced(assembly: Assembly, control: Control, rates: Array, step: float) ->
     The step is cut where a contact closes.
     """
     pace = float(velocity(assembly, control, rates) @ control.direction)
-    held, sliding = _motion(assembly, rates)
-    was = [own.ways[:, 2] for own in assembly.contacts]
-    share, least = 1.0, -10.0 * CLOSED * assembly.size
-    while share >= SHORTEST:
-        goal, left = closed_up(moved(assembly, share * step / pace * rates), held, sliding)
-        now = [own.ways[:, 2] for own in goal.contacts]
-        lowest = min(gap.min() for gap, own in zip(now, goal.contacts, strict=True) if not own.tied)
-        if left <= CLOSED * assembly.size and lowest >= least and not meet(goal):
-            break
-        share /= 2.0
-    else:
+    found = moved_until_contact(assembly, step / pace * rates)
+    if found is None:
         return None
-    changes = _changes(assembly, was, now, -least)
-    return Advanced(slid(goal, sliding), _carried(assembly, goal, control), changes)
+    there, changes = found
+    return Advanced(there, carried(assembly, there, control), changes)
+
+
+def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assembly, tuple[str, ...]] | None:
+    """Return the structure after displacements (n, 6), cut where a contact closes, and what changed.
+
+    The contacts that the displacements do not open are brought together again. None if it is stuck.
+    """
+    held, sliding = _motion(assembly, displacements)
+    was, least = [own.ways[:, 2] for own in assembly.contacts], 10.0 * CLOSED * assembly.size
+    rigid = np.concatenate([np.full(len(own.on_i), not own.tied) for own in assembly.contacts])
+    share, before, trials = 1.0, np.concatenate(was), 0
+    while share >= SHORTEST:
+        goal, left = closed_up(moved(assembly, share * displacements), held, sliding)
+        gap = np.concatenate([own.ways[:, 2] for own in goal.contacts])
+        meets = rigid & (gap < -least)
+        closes = rigid & (before > least) & (gap < np.minimum(TOUCH * assembly.size, 0.1 * before))
+        if closes.any() and not (meets & ~closes).any() and gap[closes].min() > -TOUCH * assembly.size:
+            ends = np.cumsum([len(own) for own in held])[:-1]
+            both = [one | two for one, two in zip(held, np.split(closes, ends), strict=True)]
+            goal, left = closed_up(goal, both, sliding)
+            meets &= ~closes
+        if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
+            now = [own.ways[:, 2] for own in goal.contacts]
+            return slid(goal, sliding), _changes(assembly, was, now, least)
+        closes &= meets
+        secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
+        share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
+    return None
+
+
+def touching(assembly: Assembly) -> Model:
+    """Return the model without the interfaces that have opened all over: they carry nothing."""
+    least = 10.0 * CLOSED * assembly.size
+    closed = [own.interface for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least]
+    return replace(assembly.model, interfaces=tuple(closed))
+
+
+def carried_by(assembly: Assembly, model: Model, stress_resultants: Array) -> Array:
+    """Return the stress resultants (m, 6) of all contacts from those of the model of what touches."""
+    place = {id(own): Q for own, Q in zip(model.interfaces, stress_resultants, strict=True)}
+    return np.array([place.get(id(own.interface), np.zeros(6)) for own in assembly.contacts])
 
 
 def across(assembly: Assembly, stress_resultants: Array) -> tuple[str, ...]:
@@ -98,8 +134,8 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]
     return held, sliding
 
 
-def _carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
-    """The control point on its moved block: the same combination of its vertices."""
+def carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
+    """Return the control point on its moved block: the same combination of its vertices."""
     k = [block.name for block in assembly.model.blocks].index(control.block)
     old, new = assembly.model.blocks[k], goal.model.blocks[k]
     about = old.vertices - old.centroid

@@ -15,9 +15,20 @@ from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import vector
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import STILL, across, advanced, refuse_left_behind, velocity
+from limitblocks.practice.advance import (
+    STILL,
+    Advanced,
+    across,
+    advanced,
+    carried,
+    carried_by,
+    refuse_left_behind,
+    touching,
+    velocity,
+)
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.snapped import falls, snapped
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
@@ -29,6 +40,8 @@ SECANT, HALVING = (
 )  # of a step that went beyond the zero: the most of the next one, and of those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
+EVENT = 1e-4  # of the size of the structure: a step in which it snaps
+PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
 
@@ -81,7 +94,7 @@ def capacity_curve(
         points.append(one)
         if progress:
             progress(one)
-    zero = None if ended else points[-1].displacement
+    zero = None if ended else points[-2 if points[-1].snapped else -1].displacement
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
 
 
@@ -132,7 +145,7 @@ def _ahead(
         if found is None:
             return _stopped(point)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        if left >= -ZERO * scale or way <= JUMP * assembly.size:
+        if left >= -ZERO * scale or way <= JUMP * assembly.size or found[2].snapped:
             return found
         step, most = way * min(most, point.load_factor / (point.load_factor - left)), HALVING
 
@@ -146,7 +159,7 @@ def _next_step(
 ) -> float:
     """A step of the curve, or the secant step to its zero once that is near; m, of the control point."""
     before, point = last
-    if before is None:
+    if before is None or point.snapped:
         return FIRST * assembly.size
     slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
     last_step = abs(point.displacement - before.displacement)
@@ -161,14 +174,40 @@ def _advanced(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | None:
     """The structure one step on and its point; None where contacts allow no step."""
-    there = advanced(assembly, control, point.result.displacement_rates, step)
+    there = _held(assembly, control, point, step)
     if there is None:
         return None
-    shift, loaded, result = _answered(there.assembly.model, scale)
+    shift, loaded, result = _answered(touching(there.assembly), scale)
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
-    pressed = across(there.assembly, result.stress_resultants)
-    found = CapacityPoint(at, result.load_factor - shift, shift, loaded, result, there.changes, pressed)
+    pressed = across(there.assembly, carried_by(there.assembly, loaded, result.stress_resultants))
+    found = CapacityPoint(
+        at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
+    )
     return there.assembly, there.control, found
+
+
+def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: float) -> Advanced | None:
+    """The structure one step on, or as far as a load factor holds it; beyond, where it snaps to."""
+
+    def ahead(way: float) -> tuple[Advanced | None, bool]:
+        there = advanced(assembly, control, point.result.displacement_rates, way)
+        return there, there is not None and falls(there.assembly, carries)
+
+    normal = -carried_by(assembly, point.model, point.result.stress_resultants)[:, 2]
+    carries = normal > PRESSED * normal.max()
+    there, fallen = ahead(step)
+    low, high, held = 0.0, step, None
+    way = EVENT * assembly.size
+    while fallen and high - low > EVENT * assembly.size:
+        one, beyond = ahead(way)
+        there, high = (one, way) if beyond else (there, high)
+        held, low = (held, low) if beyond else (one, way)
+        way = (low + high) / 2.0
+    if held is not None or there is None or not fallen:
+        return held or there
+    rest, changes = snapped(there.assembly, carries)
+    moved_on = carried(there.assembly, rest, there.control)
+    return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 
 
 def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:

@@ -55,6 +55,9 @@ class CapacityPoint:
         Joints that press across a gap: a hinge that has moved elsewhere leaves an opened joint behind, and
         nothing but a motion that closes it could press there. The load factor is then one of a structure
         whose gap is filled.
+    snapped : bool
+        Whether no load factor held the structure beyond the point before, and it snapped to this one: some
+        contacts closed and others opened while the live load rested. Its load factor may be below zero.
     """
 
     displacement: float
@@ -64,6 +67,7 @@ class CapacityPoint:
     result: Nonassociated
     changes: tuple[str, ...]
     across: tuple[str, ...] = ()
+    snapped: bool = False
 
     def to_dict(self) -> dict[str, Any]:
         """Return the point with its model and its answer as numbers and text."""
@@ -73,6 +77,7 @@ class CapacityPoint:
             "shift": self.shift,
             "changes": list(self.changes),
             "across": list(self.across),
+            "snapped": self.snapped,
             "model": self.model.to_dict(),
             "result": self.result.to_dict(),
         }
@@ -89,7 +94,8 @@ class CapacityCurve(Result):
     control : Control
         What the displacement is of.
     zero : float or None
-        Displacement at which the load factor is zero, m; None where the curve ends before.
+        Displacement at which the load factor is zero, or where it snaps through zero, m; None where the
+        curve ends before.
     ended : str
         Why the curve ends.
     """

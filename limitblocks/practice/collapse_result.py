@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array, read_only
+from limitblocks.model import Model
 from limitblocks.practice.settlement import Settlement
 from limitblocks.shown import Result
 
@@ -39,6 +40,11 @@ class SettlementPoint:
         """Least reaction, N: without dilatancy if that was asked for, else of the associated mechanism."""
         found = self.found
         return found.lower if found.nonassociated is None else found.nonassociated
+
+    @property
+    def model(self) -> Model:
+        """The displaced structure, its support free along the direction."""
+        return self.found.settling.model
 
     def to_dict(self) -> dict[str, Any]:
         """Return the point with its evidence as numbers and text."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -45,10 +46,15 @@ class Contact:
     axes_i: Array
     axes_j: Array
 
-    @property
+    @cached_property
+    def half_way(self) -> Array:
+        """Axes half way between both blocks, shape (3, 3)."""
+        return half_way(self.axes_i, self.axes_j)
+
+    @cached_property
     def ways(self) -> Array:
         """Way from the corners on i to those on j, local axes, m, shape (k, 3); the gap comes last."""
-        return np.asarray((self.on_j - self.on_i) @ half_way(self.axes_i, self.axes_j).T)
+        return np.asarray((self.on_j - self.on_i) @ self.half_way.T)
 
     @property
     def tied(self) -> bool:
@@ -151,7 +157,7 @@ def _screw_shift(displacements: Array) -> Array:
 
 def placed(own: Contact) -> Interface:
     """Return the interface half way between both blocks, on its closed corners; a tie between its anchors."""
-    axes = half_way(own.axes_i, own.axes_j)
+    axes = own.half_way
     if own.tied:
         n = own.on_j[0] - own.on_i[0]
         n = n / np.linalg.norm(n)

@@ -49,7 +49,7 @@ def carried(place: Place, spectrum: Spectrum) -> list[Quantity]:
                      "S_e(T_k, xi_k) |gamma_k psi_k| sqrt(1 + .0004 xi_k^2), xi_k in %", peak, "m/s2",
                      "[C7.2.7]"),
         ]  # fmt: skip
-    words = "root of the sum of a_Z,k^2; here at least a_g S, on the safe side"
+    words = "sqrt(sum a_Z,k^2); here at least a_g S, on the safe side"
     largest = Quantity("a_Z", "largest acceleration at the height z", words, floor.largest(spectrum), "m/s2",
                        "[C7.2.8]")  # fmt: skip
     return [*found, largest]

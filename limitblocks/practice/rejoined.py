@@ -17,7 +17,6 @@ from limitblocks.practice.displaced import (
     Contact,
     Truths,
     contact,
-    half_way,
     moved,
     placed,
 )
@@ -47,17 +46,17 @@ def closed_up(assembly: Assembly, held: list[Truths], sliding: list[bool]) -> tu
         last, left = left, float(np.abs(way).max(initial=0.0))
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
-        rows = _rows(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
+        rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
         step = lsmr(rows, -way[wanted], atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
     return assembly, left
 
 
-def _rows(assembly: Assembly) -> sparse.csr_array:
-    """Rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
+def rows_of(assembly: Assembly) -> sparse.csr_array:
+    """Return the rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     parts = [
-        (sign, own.ends[side], points, half_way(own.axes_i, own.axes_j))
+        (sign, own.ends[side], points, own.half_way)
         for own in assembly.contacts
         for side, sign, points in ((0, -1.0, own.on_i), (1, 1.0, own.on_j))
     ]
@@ -108,5 +107,5 @@ def _found_anew(assembly: Assembly, own: Contact) -> Iterator[Contact]:
         if same:
             yield from (contact(face, place) for face in same)
             return
-    moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * half_way(own.axes_i, own.axes_j)[2])
+    moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
     yield replace(moved_on, interface=placed(moved_on))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from io import BytesIO
 from typing import Any
@@ -26,6 +27,7 @@ _PAGE = (595.3, 841.9)  # A4, points
 _WIDE = _PAGE[0] - 2 * _MARGIN - 12
 _GAP, _PADDING = 7.0, 8.0  # between columns, points; and a little for rounding
 _SAFE = str.maketrans({"−": "-", "≤": "<=", "≥": ">="})
+GREEK = {"α": "a", "γ": "g", "δ": "d", "ζ": "z", "ξ": "x", "π": "p", "ψ": "y", "Σ": "S"}  # in its symbol font
 
 
 def pdf(document: Document) -> bytes:
@@ -58,7 +60,10 @@ def latin(text: str) -> str:
 
 def marked(text: str) -> str:
     """Return `text` as reportlab's markup shows it; characters the fonts lack appear by their code."""
-    return escape(latin(text.replace("α", "\0"))).replace("\0", "<greek>a</greek>")
+    parts = re.split(f"([{''.join(GREEK)}])", text)
+    return "".join(
+        f"<greek>{GREEK[part]}</greek>" if part in GREEK else escape(latin(part)) for part in parts
+    )
 
 
 def _story(document: Document) -> Iterator[Any]:

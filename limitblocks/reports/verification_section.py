@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 from limitblocks.model import Model
 from limitblocks.practice.verification_result import CLAIMED, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
 from limitblocks.reports.words import rounded_down, some, with_unit
 
+GREEK = {"alpha": "α", "gamma": "γ", "delta": "δ", "zeta": "ζ", "xi": "ξ", "pi": "π", "psi": "ψ", "sum": "Σ"}
 CODE = "Circolare 7/2019, C8.7.1.2.1"
 
 
@@ -15,7 +18,7 @@ def verification_section(_model: Model, found: Verification) -> Section:
     """Return the section of a kinematic verification."""
     worst = min(found.checks, key=lambda one: one.ratio)
     quantities = [
-        (one.symbol, one.meaning, one.formula, with_unit(one.value, one.unit), one.source)
+        (_typeset(one.symbol), one.meaning, _typeset(one.formula), with_unit(one.value, one.unit), one.source)
         for one in found.quantities
     ]
     checks = [
@@ -57,9 +60,16 @@ def _masses(found: Verification) -> Table:
          f"{one.weight * one.horizontal / 1e3:.6g}", f"{one.weight * one.horizontal**2 / 1e3:.6g}")
         for one in found.masses
     ]  # fmt: skip
-    heads = ("Mass", "P + Q, kN", "delta_PQx", "delta_Py", "(P + Q) dx, kN", "(P + Q) dx², kN")
+    heads = ("Mass", "P + Q, kN", "δ_PQx", "δ_Py", "(P + Q) dx, kN", "(P + Q) dx², kN")
     said = "Weights and virtual displacements, the largest horizontal one 1 [C8.7.1.1]"
     return Table.of(said, heads, rows, right=(1, 2, 3, 4))  # the last one takes the rest of the line
+
+
+def _typeset(formula: str) -> str:
+    """A formula with Greek letters and raised squares."""
+    for word, letter in GREEK.items():
+        formula = re.sub(rf"\b{word}(?![a-z])", letter, formula)
+    return formula.replace("^2", "²")
 
 
 def _word(satisfied: bool) -> str:

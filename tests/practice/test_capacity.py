@@ -9,7 +9,16 @@ from scipy.optimize import brentq
 import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.loads import added_mass, pressure
-from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve, reinforced, tie
+from limitblocks.practice import (
+    CapacityCurve,
+    CapacityPoint,
+    Control,
+    capacity,
+    capacity_curve,
+    reinforced,
+    tie,
+)
+from limitblocks.practice.advance import across, advanced
 from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.rejoined import closed_up
 
@@ -225,12 +234,14 @@ def test_a_curve_that_rises_goes_on_by_longer_steps():
 
 
 def test_a_joint_that_presses_across_its_gap_is_named():
-    """The hinge of an arch moves to another joint and leaves an opened one that is pressed off its edge."""
-    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=15)
-    curve = capacity_curve(arch, steps=10, largest=0.33)
-    across = [bool(point.across) for point in curve.points]
-    assert not across[0]
-    assert across[-1]
-    assert curve.proven_to == curve.displacements[across.index(True) - 1]
-    assert "presses across a gap of" in curve.points[-1].across[0]
+    """Beyond where the hinges of an arch move, opened joints of its first mechanism are pressed."""
+    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=12)
+    result = lb.nonassociated(arch)
+    control = capacity._control(arch, result, None)
+    there = advanced(assembly_of(arch), control, result.displacement_rates, 0.45)
+    pressed = across(there.assembly, lb.nonassociated(there.assembly.model).stress_resultants)
+    assert "presses across a gap of" in pressed[0]
+    points = [CapacityPoint(d, 0.2, 0.0, arch, result, (), words) for d, words in ((0.0, ()), (0.1, pressed))]
+    curve = CapacityCurve(tuple(points), control, None, "")
+    assert curve.proven_to == 0.0
     assert "joints press across their gaps" in str(curve)

@@ -55,14 +55,20 @@ def write_animation(model: Model, file: str | Path, result: Any, *, overwrite: b
     ModelError
         The suffix is not .glb, or the result belongs to another model.
     """
-    path = Path(file)
-    if path.suffix.lower() != ".glb":
-        raise ModelError(f"{path}: suffix {path.suffix!r} is not that of an animation; expected .glb")
+    path = animation_path(file)
     states = places(model, result) if hasattr(result, "points") else motion(model, result).states
     supports = set(model.supports)
     layers = labels(model.blocks, supports)
     still = np.zeros_like(states[:1])
     return write(path, encoded(model.blocks, layers, supports, np.concatenate([still, states])), overwrite)
+
+
+def animation_path(file: str | Path) -> Path:
+    """Return the path of an animation, or raise ModelError if it does not end in .glb."""
+    path = Path(file)
+    if path.suffix.lower() != ".glb":
+        raise ModelError(f"{path}: suffix {path.suffix!r} is not that of an animation; expected .glb")
+    return path
 
 
 def encoded(

@@ -1,0 +1,90 @@
+"""A displaced structure that no load factor holds: it snaps until contacts close, the live load at rest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy import optimize, sparse
+
+from limitblocks.arrays import Array
+from limitblocks.errors import SolveError
+from limitblocks.practice.advance import moved_until_contact
+from limitblocks.practice.displaced import CLOSED, Assembly, Truths
+from limitblocks.practice.rejoined import rows_of
+
+linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
+
+TURN = 0.05  # the largest displacement of a round over the size of its block
+ROUNDS = 100  # of linear programs, each from where the last one led
+FALLS = 1e-6  # power of the dead loads over that of all of them through the largest displacement: none below
+TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
+
+def falls(assembly: Assembly, pressed: Truths) -> bool:
+    """Whether no load factor holds the structure by forces where its contacts are closed.
+
+    By Farkas' lemma there is then a motion in which the live load does no work, the dead loads do, and no
+    corner penetrates.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    pressed : array of bool, shape (m,)
+        Contacts that carry a force: they do not slide.
+    """
+    return _steepest(assembly, pressed)[1] > FALLS
+
+
+def snapped(assembly: Assembly, pressed: Truths) -> tuple[Assembly, tuple[str, ...]]:
+    """Return where a structure that falls comes to rest, and the contacts that opened and closed.
+
+    Each round goes along the steepest fall until a contact closes: a chain under compression is unstable,
+    so that it is held only where there are no more hinges than a mechanism needs.
+
+    Raises
+    ------
+    SolveError
+        If it does not come to rest.
+    """
+    changes: tuple[str, ...] = ()
+    for _ in range(ROUNDS):
+        step, power = _steepest(assembly, pressed)
+        if power <= FALLS:
+            return assembly, changes
+        found = moved_until_contact(assembly, step)
+        if found is None or len(found[0].contacts) != len(pressed):
+            break
+        assembly, changes = found[0], changes + found[1]
+    raise SolveError("the structure snaps, and where it comes to rest was not found")
+
+
+def _steepest(assembly: Assembly, pressed: Truths) -> tuple[Array, float]:
+    """Displacements (n, 6) in which the dead loads do most work, and it over the most they could do."""
+    model = assembly.model
+    free = np.array([block.name not in model.supports for block in model.blocks])
+    size = np.array([block.size for block in model.blocks])
+    scale = TURN * np.repeat(np.stack([size, np.ones_like(size)], axis=1), 3, axis=1)
+    dead, live = np.zeros_like(scale), np.zeros_like(scale)
+    dead[free], live[free] = (load.on(model.free_blocks) * scale[free] for load in (model.dead, model.live))
+    rows = (rows_of(assembly) @ sparse.diags_array(scale.ravel())).tocsr()
+    gap = np.concatenate([own.ways[:, 2] for own in assembly.contacts])
+    corners = [len(own.on_i) for own in assembly.contacts]
+    rigid = ~np.repeat([own.tied for own in assembly.contacts], corners)
+    stuck = rigid & np.repeat(pressed, corners) & (gap <= 10.0 * CLOSED * assembly.size)
+    along = np.flatnonzero(np.outer(stuck, [True, True, False]))
+    reach = np.repeat(free, 6) * 1.0
+    rests = sparse.csr_array(live.reshape(1, -1) / np.abs(live).max())
+    found = linear_program(
+        -dead.ravel() / np.abs(dead).sum(),
+        -rows[2::3][rigid],
+        np.maximum(gap[rigid], 0.0),
+        sparse.vstack([rows[along], rests]),
+        np.zeros(len(along) + 1),
+        np.stack([-reach, reach], axis=1),
+        "highs",
+        options=TIGHT,
+    )
+    if found.x is None:
+        raise SolveError(f"whether the structure is held was not found: {found.message}")
+    return (found.x * scale.ravel()).reshape(-1, 6), -float(found.fun)
