@@ -240,7 +240,7 @@ def test_points_that_coincide_where_two_interfaces_meet_are_told_apart():
 
 @pytest.mark.parametrize("name", ["points", "octagon", "circle"])
 def test_the_barrier_of_the_half_has_every_logarithm_of_the_whole(name):
-    """Of a cone in a joint in the plane, which has no shear, only its head is left: one logarithm, not half."""
+    """Of a cone in a joint in the plane, which has no shear, only its head is left: one logarithm."""
     problem = pair_of_columns(JOINTS[name]).problem
     plane = reduced(problem, mirror_of(problem), Choice.EVERY)
     assert plane.barrier_of(problem.cones).sum() == problem.cones.degree
