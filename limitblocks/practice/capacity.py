@@ -32,7 +32,6 @@ from limitblocks.practice.snapped import falls, snapped
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
-TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = (
     0.98,
@@ -40,7 +39,7 @@ SECANT, HALVING = (
 )  # of a step that went beyond the zero: the most of the next one, and of those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
-EVENT = 1e-4  # of the size of the structure: a step in which it snaps
+EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
 PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
@@ -71,7 +70,7 @@ def capacity_curve(
     steps : int
         Points to the zero that the slope of the curve foretells.
     largest : float
-        Displacement at which the curve ends, m.
+        Displacement at which the curve ends, m; at most the size of the structure.
     progress : callable, optional
         Called with each point.
 
@@ -110,6 +109,8 @@ def _curve(
 ) -> Iterator[CapacityPoint | str]:
     """The points of the curve, then why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
+    whole = assembly.size
+    end = min(largest, whole)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
     while True:
@@ -117,10 +118,12 @@ def _curve(
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
             return  # below it where it jumps through zero
-        if point.displacement >= largest * (1.0 - 1e-12):
-            yield f"the displacement {largest:g} m is reached"
+        if point.displacement >= end * (1.0 - 1e-12):
+            size = "" if largest <= whole else ", the size of the structure,"
+            yield f"the displacement {end:g} m{size} is reached"
             return
-        step = min(_next_step(assembly, control, (before, point), steps), largest - point.displacement)
+        next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps)
+        step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
         if isinstance(found, str) or still:
             yield found if isinstance(found, str) else _stopped(point)
@@ -132,15 +135,14 @@ def _ahead(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
-    failures, most = 0, SECANT
+    most = SECANT
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
         except SolveError as error:
-            failures += 1
-            if failures == TRIALS:
-                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             step /= 2.0
+            if step < EVENT * assembly.size:
+                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:
             return _stopped(point)

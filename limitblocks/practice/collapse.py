@@ -125,12 +125,13 @@ def _way(
             return
         while True:
             step = min(step, largest - point.displacement)
-            there = advanced(assembly, control, _rates(point.found), step)
-            if there is None:
-                yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
-                return
-            at = point.displacement + float((there.control.point - control.point) @ control.direction)
+            at = point.displacement + step
             try:
+                there = advanced(assembly, control, _rates(point.found), step)
+                if there is None:
+                    yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
+                    return
+                at = point.displacement + float((there.control.point - control.point) @ control.direction)
                 answer, why = found(there.assembly.model), ""
                 break
             except NoEquilibrium:
