@@ -94,8 +94,9 @@ def test_dilatancy_out_of_range_is_refused(reference, dilatancy, analysis):
     ids=str,
 )
 def test_units_change_nothing(kind, reference, change):
+    """Up to rounding, which decides where in an interval of solutions the path is closed."""
     found = lb.nonassociated(wall(kind, **change))
-    assert found.load_factor == pytest.approx(reference[1].load_factor, abs=1e-8)
+    assert found.load_factor == pytest.approx(reference[1].load_factor, abs=1e-6)
 
 
 def test_a_mirror_image_has_the_same_answer(kind, reference):
