@@ -40,6 +40,7 @@ SECANT, HALVING = (
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
+SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
@@ -65,8 +66,9 @@ def capacity_curve(
         Loads may be mass-proportional, added masses, forces and moments on blocks: they move with the
         blocks, and keep their directions.
     control : (str, sequence of float), optional
-        Block and point (m) whose displacement along the live load is measured. Default: the highest corner
-        of the block that moves fastest along it.
+        Block and point (m) whose displacement along the live load is measured. Default: of the block that
+        moves fastest along it the foremost of the highest corners: on a wall that of the outer face, whose
+        displacement at zero is the least.
     steps : int
         Points to the zero that the slope of the curve foretells.
     largest : float
@@ -135,13 +137,13 @@ def _ahead(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
-    most = SECANT
+    most, least = SECANT, min(EVENT * assembly.size, SMALLEST * step)
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
         except SolveError as error:
             step /= 2.0
-            if step < EVENT * assembly.size:
+            if step < least:
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:
@@ -231,7 +233,9 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     rates = result.displacement_rates
     if given is None:
         block = model.blocks[int((rates[:, :3] @ direction).argmax())]
-        point = block.vertices[block.vertices[:, 2].argmax()]
+        height = block.vertices[:, 2]
+        highest = block.vertices[height >= height.max() - CLOSED * block.size]
+        point = highest[(highest @ direction).argmax()]
     else:
         name, at = given
         if name not in place:
