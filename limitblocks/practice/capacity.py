@@ -22,6 +22,7 @@ from limitblocks.practice.advance import (
     advanced,
     carried,
     carried_by,
+    farthest,
     refuse_left_behind,
     touching,
     velocity,
@@ -101,8 +102,7 @@ def capacity_curve(
 
 def _refuse(model: Model, steps: int, largest: float) -> None:
     checked_count("steps", steps, 2)
-    if not largest > 0.0:
-        raise ModelError(f"largest is {largest!r}, expected a displacement > 0 in m")
+    farthest(largest, "displacement")
     refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
 
 
