@@ -222,7 +222,7 @@ def test_overlap_is_seen():
     axis.set(xticks=[0, 1], xlabel="far from each other")
     assert collisions(figure) == []
     axis.set_xticks([0.5, 0.501], ["twelve thousand", "thirteen thousand"])
-    axis.annotate("off the page", (1.1, 0.5), annotation_clip=False)
+    axis.annotate("off the page", (1.1, 0.5), xycoords="figure fraction", annotation_clip=False)
     assert collisions(figure) == [
         ("twelve thousand", "thirteen thousand"),
         ("off the page", "outside the figure"),

@@ -9,8 +9,9 @@ from scipy import optimize, sparse
 
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.practice.advance import moved_until_contact
-from limitblocks.practice.displaced import CLOSED, Assembly, Truths
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths
 from limitblocks.practice.rejoined import rows_of
 
 linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
@@ -25,7 +26,7 @@ def falls(assembly: Assembly, pressed: Truths) -> bool:
     """Whether no load factor holds the structure by forces where its contacts are closed.
 
     By Farkas' lemma there is then a motion in which the live load does no work, the dead loads do, and no
-    corner penetrates.
+    corner penetrates. It knows no bonds: what a tie, a dowel or a glued joint may hold is never said to fall.
 
     Parameters
     ----------
@@ -33,7 +34,14 @@ def falls(assembly: Assembly, pressed: Truths) -> bool:
     pressed : array of bool, shape (m,)
         Contacts that carry a force: they do not slide.
     """
-    return _steepest(assembly, pressed)[1] > FALLS
+    return not any(_holds(own) for own in assembly.contacts) and _steepest(assembly, pressed)[1] > FALLS
+
+
+def _holds(own: Contact) -> bool:
+    """Whether a contact carries more than compression and its friction."""
+    joint = own.interface.joint
+    bonded = any(getattr(joint, strength, 0.0) for strength in ("cohesion", "tensile_strength"))
+    return bonded or isinstance(joint, Tie | Dowel | Guide)
 
 
 def snapped(assembly: Assembly, pressed: Truths) -> tuple[Assembly, tuple[str, ...]]:

@@ -1,15 +1,25 @@
 """Rounds of the fixed point that close paths which wind, and the ways of large models."""
 
+from dataclasses import replace
+
 import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
-from limitblocks.analysis.nonassociated.means import LARGE_MEANS, LARGE_PLANAR_MEANS, SOFTENING, Means, follow
+from limitblocks.analysis.nonassociated.means import (
+    LARGE_MEANS,
+    LARGE_PLANAR_MEANS,
+    MEANS,
+    SOFTENING,
+    Means,
+    follow,
+)
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow
+from limitblocks.problem.plane import Planar
 
 
 def corner():
@@ -62,6 +72,59 @@ def test_a_large_wall_in_its_plane_has_a_larger_barrier_before_increments(monkey
     found = lb.nonassociated(model)
     assert found.how.startswith("tracked path, barrier 0.2")
     assert lb.check_mcp(model, found).passed
+
+
+SECOND = (Means(Barrier(), 1, 1), Means(Barrier(0.02, 2.0), 1, 300))  # the first path is stopped at once
+
+
+def symmetric_facade(**changes):
+    size = {"length": 3.2, "courses": 3, "return_length": 1.6, "openings": ()}
+    return lb.structures.facade(lb.PointContact(0.6), **(size | changes))
+
+
+def test_one_half_closes_a_dome_that_the_whole_leaves_open():
+    """Pushed along, the whole ends at a residual of 1e-4 after all means; in the half two are enough."""
+    model = lb.structures.EXAMPLES["dome"](lb.PointContact(0.7))
+    found = lb.nonassociated(model, means=MEANS[:2])
+    assert found.how == "tracked path, barrier 0.02, power 2, seed 1, in one half"
+    assert lb.check_mcp(model, found).passed
+    assert any("leave symmetry on the way" in remark for remark in found.remarks)
+    assert found.load_factor <= found.associated * (1 + 1e-6)
+
+
+def test_one_half_comes_after_the_first_path_and_only_of_what_is_symmetric():
+    model = symmetric_facade()
+    assert lb.nonassociated(model, means=SECOND).how.endswith("in one half")
+    assert "half" not in lb.nonassociated(model).how  # the first path closes
+    assert "half" not in lb.nonassociated(symmetric_facade(direction=(1.0, 1.0, 0.0)), means=SECOND).how
+
+
+def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
+    lift = Planar.lifted
+
+    def broken(plane, state):
+        up = lift(plane, state)
+        return replace(up, x=1.001 * up.x)
+
+    model = symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", broken)
+    found = lb.nonassociated(model, means=SECOND)
+    assert found.converged
+    assert "half" not in found.how
+
+
+def test_a_half_that_is_interrupted_says_so(monkeypatch):
+    seen = []
+
+    def press(iteration):
+        seen.append(iteration)
+        if len(seen) == 6:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(symmetric_facade(), means=SECOND, progress=press)
+    assert caught.value.result.status is lb.results.Status.INTERRUPTED
 
 
 def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):

@@ -226,3 +226,21 @@ def test_units_of_the_halves_may_differ():
     two = whole.in_si(other.lifted(other.problem.dimensionless(small.in_si(state))))
     for a, b in ((one.x, two.x), (one.u, two.u), (one.y, two.y), (one.load_factor, two.load_factor)):
         assert np.allclose(a, b, rtol=1e-12, atol=0.0)
+
+
+def test_points_that_coincide_where_two_interfaces_meet_are_told_apart():
+    """Stones in running bond stand on the middle of two: along the joint of these they touch both."""
+    model = structures.dome(JOINTS["points"], radius=2.0, thickness=0.3, courses=3, stones=10)
+    plane = in_plane(model.problem)
+    assert len(plane.blocks) < 0.6 * len(model.free_blocks)
+    half = lb.bounds(model)
+    assert half.solvers[0].endswith("in one half")
+    assert same(half, without_mirror(lb.bounds, model))
+
+
+@pytest.mark.parametrize("name", ["points", "octagon", "circle"])
+def test_the_barrier_of_the_half_has_every_logarithm_of_the_whole(name):
+    """Of a cone in a joint in the plane, which has no shear, only its head is left: one logarithm."""
+    problem = pair_of_columns(JOINTS[name]).problem
+    plane = reduced(problem, mirror_of(problem), Choice.EVERY)
+    assert plane.barrier_of(problem.cones).sum() == problem.cones.degree

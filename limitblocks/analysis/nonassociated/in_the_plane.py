@@ -1,4 +1,4 @@
-"""Paths in the plane of a planar problem: followed there, lifted back, and judged in the whole problem.
+"""Paths in the plane of a planar problem, or in one half: followed there, lifted, judged in the whole.
 
 Symmetric stresses and rates of the plane solve the equations of a path in the whole problem, too, if its
 compliance is symmetric: docs/planar.md has the proof.
@@ -18,8 +18,9 @@ from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.increment import Increment
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
 from limitblocks.analysis.nonassociated.start import Start, start_stresses
+from limitblocks.analysis.nonassociated.ways import Half, no_half
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
@@ -32,7 +33,7 @@ SYMMETRIC = 1e-9  # of the largest stress: a start farther from its mirror image
 
 @dataclass(frozen=True, eq=False)
 class InPlane:
-    """The flow rule `whole` in its plane, the stresses a path starts from, and their compliance."""
+    """The flow rule `whole` in its plane or one half, the stresses a path starts from, their compliance."""
 
     whole: Flow
     plane: Planar
@@ -69,15 +70,21 @@ class InPlane:
 
 
 def flow_in_plane(
-    model: Model, flow: Flow, weights: Array, start: Start | None, choice: Choice = Choice.FLOWING
+    model: Model,
+    flow: Flow,
+    weights: Array,
+    start: Start | None,
+    choice: Choice = Choice.FLOWING,
+    *,
+    half: bool = False,
 ) -> InPlane | None:
-    """Return the flow rule in the plane parallel to which everything acts; None where there is none.
+    """Return the flow rule in the plane parallel to which everything acts, or in one half; None without one.
 
     Nor is there one where the compliance `weights` (s,) or the stresses to start from are not symmetric. With
     every row the path of a barrier without seed is that of the whole problem.
     """
     found = in_plane(model.problem, choice)
-    if found is None or not found.flat:
+    if found is None or found.flat is half:
         return None
     plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
     own = plane.compliance_of(weights)
@@ -92,17 +99,29 @@ def found_in_plane_or_whole(
     flow: Flow,
     start: Start | None,
     tolerance: float,
-    solve: Callable[[Flow, Array], tuple[State, str]],
+    solve: Callable[[Flow, Array, Half], tuple[State, str]],
 ) -> tuple[State, str]:
-    """Return what `solve` finds in the plane, if the whole problem accepts it; else what it finds there."""
+    """Return what `solve` finds in the plane, if the whole problem accepts it; else what it finds there.
+
+    In the whole problem `solve` may ask for what it finds in one half.
+    """
     weights = flow.problem.compliance
     planar = flow_in_plane(model, flow, weights, start)
     if planar is not None:
-        state, how = solve(planar.flow, planar.x0)
+        state, how = solve(planar.flow, planar.x0, no_half)
         lifted = planar.accepted(state, tolerance)
         if lifted is not None or how.endswith(INTERRUPTED):
             return lifted or planar.plane.lifted(state), way_in_plane(how)
-    return solve(flow, start_stresses(model, flow.problem, weights, start))
+
+    def half() -> tuple[State, str] | None:
+        """Its state, lifted; the flow that turns about the centre of pressure is not that of the half."""
+        one = flow_in_plane(model, flow, weights, start, half=True) if flow.constant else None
+        if one is None:
+            return None
+        state, how = solve(one.flow, one.x0, no_half)
+        return one.plane.lifted(state), way_in_plane(how, IN_HALF)
+
+    return solve(flow, start_stresses(model, flow.problem, weights, start), half)
 
 
 def _start(
@@ -122,10 +141,10 @@ def _start(
     )
 
 
-def way_in_plane(how: str) -> str:
-    """Return the words of a way that was gone in the plane."""
+def way_in_plane(how: str, where: str = "in the plane") -> str:
+    """Return the words of a way that was gone in the plane, or in one half."""
     end = f", {INTERRUPTED}"
-    return f"{how.removesuffix(end)}, in the plane{end * how.endswith(end)}"
+    return f"{how.removesuffix(end)}, {where}{end * how.endswith(end)}"
 
 
 def admissible(pushes: tuple[Pushed, ...]) -> bool:

@@ -22,7 +22,7 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_jammed,
     refuse_unlimited,
 )
-from limitblocks.analysis.nonassociated.ways import first_to_solve
+from limitblocks.analysis.nonassociated.ways import Half, first_to_solve
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
 from limitblocks.evidence.backward_error import checked_limit, settled, within
@@ -126,12 +126,12 @@ def nonassociated(
     else:
         first = enclosing.bounds if way is Method.FIXED_POINT and start is None else start
 
-        def solve(at: Flow, x0: Array) -> tuple[State, str]:
+        def solve(at: Flow, x0: Array, half: Half) -> tuple[State, str]:
             if way is Method.FIXED_POINT:
                 return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
             scale = load_scale(at.problem, enclosing.associated)
             near = partial(_near, at, tolerance, limit)
-            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record, near)
+            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record, near, half)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))

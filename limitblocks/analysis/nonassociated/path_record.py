@@ -9,22 +9,28 @@ from typing import NamedTuple
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
-LARGE, ROUNDS = "large barrier", "rounds of the fixed point"
+LARGE, ROUNDS, IN_HALF = "large barrier", "rounds of the fixed point", "in one half"
 
 
 def off_load_path(how: str) -> tuple[str, ...]:
-    """What a reader should know of an answer that a large barrier or rounds led to."""
+    """What a reader should know of an answer that a large barrier, rounds or one half led to."""
+    symmetric = (
+        "one half of the structure led to this solution: that the blocks leave symmetry on the way, as an "
+        "asymmetric mechanism may, was not looked for",
+    ) * (IN_HALF in how)
     if LARGE in how:
         return (
+            *symmetric,
             "a large barrier led to this solution: it is not that of the load path, and most of them are "
             "higher; load_factor_range shows others",
         )
     if ROUNDS in how:
         return (
+            *symmetric,
             "rounds of the fixed point led to this solution from a path that did not end: it need not be "
             "that of the load path; load_factor_range shows others",
         )
-    return ()
+    return symmetric
 
 
 class Progress(NamedTuple):

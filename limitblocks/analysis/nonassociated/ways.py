@@ -32,7 +32,12 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
+Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
+
+
+def no_half() -> None:
+    """No half: what is not symmetric, or is reduced already."""
 
 
 def first_to_solve(
@@ -43,8 +48,11 @@ def first_to_solve(
     tolerance: float,
     record: Callable[[Iteration], None],
     enough: Callable[[State], bool] = lambda _: False,
+    half: Half = no_half,
 ) -> tuple[State, str]:
     """The state to which one way after the other leads, and which it was: the load path comes first.
+
+    If there are further means, `half` comes second.
 
     Of a large model a state that is near `enough` ends the search as well.
     """
@@ -58,7 +66,7 @@ def first_to_solve(
         if large
         else _ways(flow, x0, scale, means, tolerance, record)
     )
-    for state, how in ways:
+    for state, how in ways if len(means) == 1 else _then(ways, half):
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
@@ -68,6 +76,15 @@ def first_to_solve(
     state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
     interrupted = how.endswith(INTERRUPTED) and not way.endswith(INTERRUPTED)
     return state, f"{way}, {INTERRUPTED}" if interrupted else way
+
+
+def _then(ways: Iterator[tuple[State, str]], half: Half) -> Iterator[tuple[State, str]]:
+    """The first way, then one half, then the other ways."""
+    yield next(ways)
+    found = half()
+    if found is not None:
+        yield found
+    yield from ways
 
 
 def _ways(

@@ -223,22 +223,26 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
     table, _ = owned(here, count)
     number = np.bincount(here, minlength=count)[wanted]
     scale = np.abs(kind.strain).max(axis=(1, 2, 3))
-    mirrored, free = kind.strain @ rates, np.where(goal[:, 0] >= 0, 0, 1)
-    least = np.full(K, EXACT)
-    image, turn = np.full(K, K), np.zeros((K, c, c))
+    wide = np.concatenate([kind.strain, kind.middle], axis=3)
+    mirrored = (wide.reshape(K, 2, c, 2, 6) @ rates).reshape(wide.shape)
+    free = np.where(goal[:, 0] >= 0, 0, 1)
+    least, image, turn = np.full(K, np.inf), np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):
         there = table[wanted, k]
         turned_round = kind.ends[there, 0] != goal[:, 0]
-        strain = np.where(turned_round[:, None, None, None], kind.strain[there, ::-1], kind.strain[there])
-        own = strain[np.arange(K), free]
+        strain = np.where(turned_round[:, None, None, None], wide[there, ::-1], wide[there])
+        own = strain[np.arange(K), free, :, :6]
         gram = np.linalg.pinv(own @ own.transpose(0, 2, 1), hermitian=True)
         # the transpose of the turn
-        back = mirrored[np.arange(K), free] @ own.transpose(0, 2, 1) @ gram
-        off = np.abs(back[:, None] @ strain - mirrored).max(axis=(1, 2, 3)) / scale
+        back = mirrored[np.arange(K), free, :, :6] @ own.transpose(0, 2, 1) @ gram
+        apart = np.abs(back[:, None] @ strain - mirrored)
+        off = apart[..., :6].max(axis=(1, 2, 3)) / scale
         # moments carry any interface over to any other; a mirror image has them about its own centroid
         off = np.maximum(off, np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2)))
-        fits = (k < number) & (off <= least)
-        image, least = np.where(fits, there, image), np.where(fits, off, least)
+        # where two interfaces meet, points of theirs coincide: their middles tell which is which
+        far = apart.max(axis=(1, 2, 3))
+        fits = (k < number) & (off <= EXACT) & (far < least)
+        image, least = np.where(fits, there, image), np.where(fits, far, least)
         turn = np.where(fits[:, None, None], back.transpose(0, 2, 1), turn)
     lost = image == K  # their turn is zero, which is no mirror
     return np.where(lost, np.arange(K), image), turn

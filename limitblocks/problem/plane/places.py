@@ -32,6 +32,8 @@ class Place:
         Free blocks at both ends, -1 for a support.
     strain : Array, shape (K, 2, c, 6)
         Strain rates per rate of the block at each end.
+    middle : Array, shape (K, 2, c, 6)
+        Their mean over the places of the interface.
     F, G : Array, shape (K, r, c)
         Yield rows and plastic potential, in the force of the interface.
     g : Array, shape (K, r)
@@ -44,6 +46,7 @@ class Place:
     cones: tuple[int, ...]
     ends: Indices
     strain: Array
+    middle: Array
     F: Array
     G: Array
     g: Array
@@ -58,8 +61,9 @@ class Place:
     def taken(self, chosen: Indices) -> Place:
         """Return some of the places."""
         columns, rows, ends = (part[chosen] for part in (self.columns, self.rows, self.ends))
-        strain, F, G, g = (part[chosen] for part in (self.strain, self.F, self.G, self.g))
-        return Place(columns, rows, self.linear, self.cones, ends, strain, F, G, g)
+        strain, middle = self.strain[chosen], self.middle[chosen]
+        F, G, g = (part[chosen] for part in (self.F, self.G, self.g))
+        return Place(columns, rows, self.linear, self.cones, ends, strain, middle, F, G, g)
 
 
 def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
@@ -80,17 +84,28 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
             dense.append(np.zeros((len(its), r, c)))
             dense[-1][index[of_stress[j]], row[i], column[j]] = data * problem.units.row[i]
         own = columns[its, :c]
+        at = strain[own].transpose(0, 2, 1, 3)
         yield Place(
             columns=own,
             rows=rows[its, :r],
             linear=linear,
             cones=cones,
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
-            strain=strain[own].transpose(0, 2, 1, 3),
+            strain=at,
+            middle=_means(at, problem.stress_interface[own[:, 0]]),
             F=dense[0],
             G=dense[1],
             g=(problem.g * problem.units.row)[rows[its, :r]],
         )
+
+
+def _means(values: Array, of: Indices) -> Array:
+    """Mean of values (K, ...) over all of the same number in `of` (K,), at each of them."""
+    _, which, count = np.unique(of, return_inverse=True, return_counts=True)
+    total = np.zeros((len(count), *values.shape[1:]))
+    np.add.at(total, which, values)
+    mean = total / count.reshape(-1, *[1] * (values.ndim - 1))
+    return np.asarray(mean[which])
 
 
 def _alike(

@@ -97,13 +97,15 @@ class Planar:
         """Return how many logarithms of the cone K of the whole problem each reduced row stands for, (R',).
 
         Rows merged in their mean stand for as many as they are. A cone of which z keeps one direction is two
-        rows, t + z > 0 and t - z > 0, and log(t^2 - z^2) / 2 the sum of half their logarithms.
+        rows, t + z > 0 and t - z > 0, and log(t^2 - z^2) / 2 the sum of half their logarithms. One of which z
+        vanishes is the row t > 0.
         """
-        heads = abs(self.multipliers)[cones.heads]
-        count = np.asarray((heads > 0.0).sum(axis=0)).ravel().astype(float)
-        conic = np.asarray((heads[cones.linear :] > 0.0).sum(axis=0)).ravel() > 0
+        weights = abs(self.multipliers)
+        count = np.asarray((weights[cones.heads] > 0.0).sum(axis=0)).ravel().astype(float)
+        tails = np.setdiff1d(np.arange(cones.height), cones.heads)
+        directed = np.asarray((weights[tails] > 0.0).sum(axis=0)).ravel() > 0
         line = np.arange(len(count)) < self.problem.cones.linear
-        return np.where(conic & line, count / 2.0, count)
+        return np.where(directed & line, count / 2.0, count)
 
     def compliance_of(self, weights: Array) -> Array | None:
         """Return the compliance of reduced stresses from that of all, (s,); None where it is not symmetric.
