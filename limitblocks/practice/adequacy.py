@@ -12,7 +12,7 @@ from typing import Any
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
@@ -185,6 +185,7 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     LimitBlocksError
         As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
     """
+    refuse_kind(factors, PartialFactors, "factors")
     design = design_model(model, factors)
     values = tuple(_values(model, factors))
     pair = bounds(design)

@@ -34,6 +34,13 @@ class Advanced:
     snapped: bool = False
 
 
+def farthest(largest: object, what: str) -> float:
+    """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
+    if not isinstance(largest, int | float | np.integer) or not largest > 0.0:
+        raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
+    return float(largest)
+
+
 def refuse_left_behind(what: str, **loads: Load) -> None:
     """Raise ModelError for a load that stays behind when its block moves."""
     for word, load in loads.items():

@@ -22,6 +22,7 @@ from limitblocks.practice.advance import (
     advanced,
     carried,
     carried_by,
+    farthest,
     refuse_left_behind,
     touching,
     velocity,
@@ -32,7 +33,6 @@ from limitblocks.practice.snapped import falls, snapped
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
-TRIALS = 4  # of halving a step beyond which no answer is found
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = (
     0.98,
@@ -40,7 +40,8 @@ SECANT, HALVING = (
 )  # of a step that went beyond the zero: the most of the next one, and of those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
-EVENT = 1e-4  # of the size of the structure: a step in which it snaps
+EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
+SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
@@ -66,12 +67,13 @@ def capacity_curve(
         Loads may be mass-proportional, added masses, forces and moments on blocks: they move with the
         blocks, and keep their directions.
     control : (str, sequence of float), optional
-        Block and point (m) whose displacement along the live load is measured. Default: the highest corner
-        of the block that moves fastest along it.
+        Block and point (m) whose displacement along the live load is measured. Default: of the block that
+        moves fastest along it the foremost of the highest corners: on a wall that of the outer face, whose
+        displacement at zero is the least.
     steps : int
         Points to the zero that the slope of the curve foretells.
     largest : float
-        Displacement at which the curve ends, m.
+        Displacement at which the curve ends, m; at most the size of the structure.
     progress : callable, optional
         Called with each point.
 
@@ -100,8 +102,7 @@ def capacity_curve(
 
 def _refuse(model: Model, steps: int, largest: float) -> None:
     checked_count("steps", steps, 2)
-    if not largest > 0.0:
-        raise ModelError(f"largest is {largest!r}, expected a displacement > 0 in m")
+    farthest(largest, "displacement")
     refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
 
 
@@ -110,6 +111,8 @@ def _curve(
 ) -> Iterator[CapacityPoint | str]:
     """The points of the curve, then why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
+    whole = assembly.size
+    end = min(largest, whole)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
     while True:
@@ -117,10 +120,12 @@ def _curve(
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
             return  # below it where it jumps through zero
-        if point.displacement >= largest * (1.0 - 1e-12):
-            yield f"the displacement {largest:g} m is reached"
+        if point.displacement >= end * (1.0 - 1e-12):
+            size = "" if largest <= whole else ", the size of the structure,"
+            yield f"the displacement {end:g} m{size} is reached"
             return
-        step = min(_next_step(assembly, control, (before, point), steps), largest - point.displacement)
+        next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps)
+        step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
         if isinstance(found, str) or still:
             yield found if isinstance(found, str) else _stopped(point)
@@ -132,15 +137,14 @@ def _ahead(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
-    failures, most = 0, SECANT
+    most, least = SECANT, min(EVENT * assembly.size, SMALLEST * step)
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
         except SolveError as error:
-            failures += 1
-            if failures == TRIALS:
-                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             step /= 2.0
+            if step < least:
+                return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:
             return _stopped(point)
@@ -229,7 +233,9 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     rates = result.displacement_rates
     if given is None:
         block = model.blocks[int((rates[:, :3] @ direction).argmax())]
-        point = block.vertices[block.vertices[:, 2].argmax()]
+        height = block.vertices[:, 2]
+        highest = block.vertices[height >= height.max() - CLOSED * block.size]
+        point = highest[(highest @ direction).argmax()]
     else:
         name, at = given
         if name not in place:

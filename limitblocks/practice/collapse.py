@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, NoEquilibrium, SolveError
+from limitblocks.errors import NoEquilibrium, SolveError
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import Advanced, across, advanced, refuse_left_behind
+from limitblocks.practice.advance import Advanced, across, advanced, farthest, refuse_left_behind
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
@@ -72,10 +73,9 @@ def settlement_to_collapse(
     refuse_left_behind("settlement until collapse", dead=model.dead)
     assembly = moving.assembly_of(model)
     size = assembly.size
-    step = _length("step", step, STEP * size)
-    accuracy = _length("accuracy", accuracy, ACCURACY * size)
-    if not largest > 0.0:
-        raise ModelError(f"largest is {largest!r}, expected a settlement > 0 in m")
+    step = number(STEP * size if step is None else step, "step", "m", above=0.0)
+    accuracy = number(ACCURACY * size if accuracy is None else accuracy, "accuracy", "m", above=0.0)
+    largest = farthest(largest, "settlement")
     unit = settling(model, support, direction).direction
     place = next(block for block in model.blocks if block.name == support).centroid
     control = Control(support, place, unit)
@@ -99,12 +99,6 @@ def settlement_to_collapse(
     return SettlementCurve(tuple(points), *end)
 
 
-def _length(name: str, given: float | None, default: float) -> float:
-    if given is not None and not (np.isfinite(given) and given > 0.0):
-        raise ModelError(f"{name} is {given!r}, expected a finite length > 0 in m")
-    return default if given is None else float(given)
-
-
 def _way(
     assembly: Assembly,
     control: Control,
@@ -125,12 +119,13 @@ def _way(
             return
         while True:
             step = min(step, largest - point.displacement)
-            there = advanced(assembly, control, _rates(point.found), step)
-            if there is None:
-                yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
-                return
-            at = point.displacement + float((there.control.point - control.point) @ control.direction)
+            at = point.displacement + step
             try:
+                there = advanced(assembly, control, _rates(point.found), step)
+                if there is None:
+                    yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
+                    return
+                at = point.displacement + float((there.control.point - control.point) @ control.direction)
                 answer, why = found(there.assembly.model), ""
                 break
             except NoEquilibrium:

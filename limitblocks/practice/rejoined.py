@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import lsmr
 
+from limitblocks.arrays import Array
+from limitblocks.errors import SolveError
 from limitblocks.geometry import find_interfaces
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.practice.displaced import (
@@ -89,23 +90,37 @@ def slid(assembly: Assembly, sliding: list[bool]) -> Assembly:
 
     Faces that slide flat on one another get the area that they now share; an opened joint that slides keeps
     its corners on block j.
+
+    Raises
+    ------
+    SolveError
+        If they share none any more, or in other parts.
     """
-    contacts: list[Contact] = []
-    for own, slides in zip(assembly.contacts, sliding, strict=True):
-        contacts += list(_found_anew(assembly, own)) if slides and not own.tied else [own]
+    contacts = tuple(
+        _found_anew(assembly, own) if slides and not own.tied else own
+        for own, slides in zip(assembly.contacts, sliding, strict=True)
+    )
     model = replace(assembly.model, interfaces=tuple(own.interface for own in contacts))
-    return Assembly(model, tuple(contacts))
+    return Assembly(model, contacts)
 
 
-def _found_anew(assembly: Assembly, own: Contact) -> Iterator[Contact]:
-    i, j = own.ends
+def _found_anew(assembly: Assembly, own: Contact) -> Contact:
+    if not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
+        moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
+        return replace(moved_on, interface=placed(moved_on))
+    now = own.interface
     blocks = assembly.model.blocks
-    if own.axes_i[2] @ own.axes_j[2] > 1.0 - PARALLEL and np.ptp(own.ways[:, 2]) <= CLOSED * assembly.size:
-        place = {block.name: k for k, block in enumerate(blocks)}
-        faces = find_interfaces([blocks[i], blocks[j]], own.interface.joint)
-        same = [face for face in faces if face.axes[2] @ own.interface.axes[2] > 1.0 - PARALLEL]
-        if same:
-            yield from (contact(face, place) for face in same)
-            return
-    moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
-    yield replace(moved_on, interface=placed(moved_on))
+    faces = find_interfaces([blocks[k] for k in own.ends], now.joint)
+    shared = [face for face in faces if _parallel(face.axes, now.axes)]
+    parts = [
+        one for one in assembly.contacts if one.ends == own.ends and _parallel(one.interface.axes, now.axes)
+    ]
+    if not shared:
+        raise SolveError(f"{now.block_j!r} slides off {now.block_i!r}")
+    if len(shared) != len(parts):
+        raise SolveError(f"{now.block_j!r} slides on {now.block_i!r} to an area of {len(shared)} parts")
+    return contact(shared[parts.index(own)], {block.name: k for k, block in enumerate(blocks)})
+
+
+def _parallel(axes: Array, others: Array) -> bool:
+    return bool(axes[2] @ others[2] > 1.0 - PARALLEL)

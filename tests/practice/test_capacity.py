@@ -21,6 +21,7 @@ from limitblocks.practice import (
 from limitblocks.practice.advance import across, advanced
 from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.rejoined import closed_up
+from limitblocks.practice.rejoined import slid as slid_on
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -71,7 +72,7 @@ def test_block_that_slides_off_its_base_tips_over_the_edge():
     ]
     found = lb.find_interfaces(stones, lb.PointContact(friction))
     model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    curve = capacity_curve(model, steps=2, control=("block", (0, 0, h)), largest=0.48)
+    curve = capacity_curve(model, steps=8, control=("block", (0, 0, h)), largest=0.48)
     tips = 0.5 - friction * h / 2
     slid = curve.displacements < tips
     assert 3 <= slid.sum() < len(slid)
@@ -81,6 +82,58 @@ def test_block_that_slides_off_its_base_tips_over_the_edge():
         assert np.ptp(own.polygon[:, 0]) * np.ptp(own.polygon[:, 1]) == pytest.approx(1 - point.displacement)
     first = curve.points[int(slid.sum())]
     assert first.load_factor == pytest.approx((0.5 - first.displacement) / (h / 2), rel=1e-6)
+
+
+def sliding_block(friction=0.1, size=1.0):
+    """A flat block on a base of the same plan: it slides before it rocks."""
+    stones = [
+        lb.Block.box("base", (size, size, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (size, size, 0.3), (0, 0, 0.15), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(friction))
+    return lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+def test_a_block_that_slides_goes_over_the_edge_and_no_farther():
+    """At friction mu until its centre is mu h / 2 from the edge; beyond the edge it needs no push."""
+    curve = capacity_curve(sliding_block(), steps=4)
+    slid = curve.displacements < 0.5 - 0.1 * 0.15
+    assert slid.sum() > 2
+    assert curve.load_factors[slid] == pytest.approx(0.1, rel=1e-9)
+    assert np.diff(curve.displacements).max() < 1.2 / 4
+    assert curve.load_factors[~slid].max() < 0.1
+    assert 0.5 < curve.zero < 0.5 + 0.1 * 0.3 + 1e-9  # its top turns ahead of its centre by no more
+
+
+def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
+    """From one corner of a square to the other, a way longer than its side: it slides for ever."""
+    stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
+    found = lb.find_interfaces(stones, lb.PointContact(0.1))
+    push = lb.mass_proportional((0.5**0.5, 0.5**0.5, 0))
+    curve = capacity_curve(lb.Model(stones, ["base"], found, lb.self_weight(), push), steps=2)
+    assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
+    assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
+
+
+def test_a_block_beyond_the_edge_shares_no_area_with_its_base():
+    there = moved(assembly_of(sliding_block()), np.array([[0.0] * 6, [1.5, 0, 0, 0, 0, 0]]))
+    with pytest.raises(lb.SolveError, match="'block' slides off 'base'"):
+        slid_on(there, [True])
+
+
+def test_a_contact_in_two_parts_keeps_two_as_it_slides():
+    """A table on two feet of 1 m x 1 m: each keeps its own area, and none counts twice."""
+    outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
+    n = len(outline)
+    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
+    faces = [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *(side[::-1] for side in sides)]
+    table = lb.Block("table", [(x, y, z) for y in (0, 1) for x, z in outline], faces, 20e3)
+    stones = [lb.Block.box("base", (9, 3, 1), (1.5, 0.5, -0.5)), table]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    there = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])
+    centres = sorted(own.interface.centroid[0] for own in there.contacts)
+    assert centres == pytest.approx([1.0, 3.0])
 
 
 def test_mass_and_tie_move_with_the_block():

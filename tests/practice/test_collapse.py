@@ -102,8 +102,8 @@ def test_it_ends_where_it_is_told_to():
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
-        ({"step": 0.0}, "step is 0.0, expected a finite length > 0"),
-        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite length > 0"),
+        ({"step": 0.0}, "step is 0.0, expected a finite number > 0"),
+        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite number > 0"),
         ({"largest": 0.0}, "largest is 0.0, expected a settlement > 0"),
     ],
 )

@@ -69,6 +69,18 @@ def test_facade_of_one_block(facade, answer, curve):
     assert [one.name for one in found.checks] == ["linear, SLV", "non-linear, SLV", "non-linear, SLC"]
 
 
+def test_the_default_control_is_above_the_toe(facade, answer, curve):
+    """d0* = .2955306 m; negative control: the corner behind it moves T (1 - cos) farther."""
+    whole = capacity_curve(facade, steps=3)
+    found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=whole)
+    assert whole.control.point[0] == T / 2
+    assert found["d0*"] == pytest.approx(0.2955306, abs=6e-7)
+    inner = capacity_curve(facade, control=("wall", (-T / 2, 0, H)), steps=3)
+    behind = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=inner)["d0*"]
+    more = T * (1 - np.cos(np.arctan(found["alpha0"])))
+    assert behind / found["d0*"] == pytest.approx(1 + more / whole.zero, rel=1e-6)
+
+
 def test_each_mass_and_each_sum(facade, answer):
     """Turning about the toe: horizontal displacements go as heights, vertical ones as arms to the toe."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC)
