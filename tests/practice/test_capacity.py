@@ -338,3 +338,35 @@ def test_a_joint_that_presses_across_its_gap_is_named():
     curve = CapacityCurve(tuple(points), control, None, "")
     assert curve.proven_to == 0.0
     assert "joints press across their gaps" in str(curve)
+
+
+@pytest.mark.parametrize("uphill", [True, False])
+def test_dead_loads_that_fall_are_held_by_some_of_the_live_load(uphill):
+    """A block on a slope beta steeper than friction: pushed up tan(beta + phi), down -tan(beta - phi)."""
+    slope, friction = np.radians(30), 0.2
+    turn = np.array([[np.cos(slope), 0, -np.sin(slope)], [0, 1, 0], [np.sin(slope), 0, np.cos(slope)]])
+    flat = sliding_block().blocks
+    stones = [lb.Block(own.name, own.vertices @ turn.T, own.faces, own.unit_weight) for own in flat]
+    found = lb.find_interfaces(stones, lb.PointContact(friction))
+    push = lb.mass_proportional((1 if uphill else -1, 0, 0))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), push)
+    shift, held, result = capacity._answered(model)
+    assert (shift < 0) == uphill
+    assert lb.check_mcp(held, result).passed
+    expected = np.tan(slope + np.arctan(friction)) if uphill else -np.tan(slope - np.arctan(friction))
+    assert result.load_factor - shift == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
+    """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
+    there = assembly_of(sliding_block())
+
+    def advanced_to(assembly, control, point, step, scale):
+        at = point.displacement + step
+        return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
+
+    monkeypatch.setattr(capacity, "_advanced", advanced_to)
+    point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
+    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0)
+    assert 0.15 <= found.displacement < 0.3
