@@ -20,10 +20,11 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.polish import admissible, defect, diagonal_factors, polish
+from limitblocks.analysis.polish import admissible, defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
+from limitblocks.problem.factors import diagonal_factors
 
 PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LARGEST = 400  # pairs that are not plain

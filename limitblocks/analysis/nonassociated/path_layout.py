@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.polish import diagonal_factors
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Flow, LimitProblem
+from limitblocks.problem.factors import diagonal_factors
 
 
 def _places(owner: Indices, m: int) -> Indices:
