@@ -22,6 +22,7 @@ from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
 from limitblocks.analysis.polish import admissible, defect, polish
 from limitblocks.arrays import Array
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 from limitblocks.problem.factors import diagonal_factors

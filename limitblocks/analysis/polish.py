@@ -27,6 +27,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 from limitblocks.problem.factors import diagonal_factors

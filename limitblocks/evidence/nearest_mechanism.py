@@ -8,6 +8,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.limits import Flags
 from limitblocks.problem import LimitProblem
 from limitblocks.problem.factors import diagonal_factors

@@ -23,6 +23,7 @@ from limitblocks.practice.advance import (
     carried,
     carried_by,
     farthest,
+    pressed_in,
     refuse_left_behind,
     touching,
     velocity,
@@ -42,7 +43,6 @@ JUMP = 1e-6  # of the size of the structure: a step in which the load factor jum
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
-PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
 
@@ -195,10 +195,9 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
 
     def ahead(way: float) -> tuple[Advanced | None, bool]:
         there = advanced(assembly, control, point.result.displacement_rates, way)
-        return there, there is not None and falls(there.assembly, carries)
+        return there, there is not None and falls(there.assembly)
 
-    normal = -carried_by(assembly, point.model, point.result.stress_resultants)[:, 2]
-    carries = normal > PRESSED * normal.max()
+    assembly = pressed_in(assembly, carried_by(assembly, point.model, point.result.stress_resultants))
     there, fallen = ahead(step)
     low, high, held = 0.0, step, None
     way = EVENT * assembly.size
@@ -209,7 +208,7 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
         way = (low + high) / 2.0
     if held is not None or there is None or not fallen:
         return held or there
-    rest, changes = snapped(there.assembly, carries)
+    rest, changes = snapped(there.assembly)
     moved_on = carried(there.assembly, rest, there.control)
     return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 

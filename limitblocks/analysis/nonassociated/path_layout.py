@@ -14,6 +14,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
 from limitblocks.problem.factors import diagonal_factors
 
