@@ -25,7 +25,6 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
-from limitblocks.problem.factors import diagonal_factors
 
 PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LARGEST = 400  # pairs that are not plain

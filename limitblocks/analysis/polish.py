@@ -30,7 +30,6 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
-from limitblocks.problem.factors import diagonal_factors
 
 PROXIMAL = 1e-6  # delta
 REGULAR = 1e-11  # eps of the least solution

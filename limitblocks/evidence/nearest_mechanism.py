@@ -11,7 +11,6 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.limits import Flags
 from limitblocks.problem import LimitProblem
-from limitblocks.problem.factors import diagonal_factors
 
 REGULAR = 1e-13  # eps of the quasidefinite system
 REFINEMENTS = 6

@@ -16,7 +16,6 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
-from limitblocks.problem.factors import diagonal_factors
 
 
 def _places(owner: Indices, m: int) -> Indices:
