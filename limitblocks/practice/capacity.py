@@ -211,7 +211,7 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
 
 
 def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
-    """The answer; where the dead loads alone fall, from the load factor of the least stresses within yield."""
+    """The answer; where the dead loads alone fall, from the load factor of the least stresses."""
     try:
         return 0.0, model, nonassociated(model)
     except NoEquilibrium:
