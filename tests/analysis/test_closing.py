@@ -139,7 +139,7 @@ def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
 
 
 def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch):
-    """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-2."""
+    """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-5."""
     whole, ends = ways.closed, []
 
     def rough(flow, nearest, state, tolerance):
@@ -150,10 +150,10 @@ def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch
 
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(ways, "closed", rough)
-    found = lb.nonassociated(corner(), backward_error=1e-2)
+    found = lb.nonassociated(corner(), backward_error=1e-5)
     assert len(ends) == 1
     assert found.status is lb.results.Status.NEARBY
-    assert found.backward_error.value <= 1e-2
+    assert found.backward_error.value <= 1e-5
 
 
 def parts(state):
