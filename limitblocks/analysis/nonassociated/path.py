@@ -21,6 +21,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Point,
     distance,
     inner,
+    inners,
     moved,
     moved_on,
     residuals,
@@ -169,19 +170,21 @@ class Walk:
             self._retreat()
             return
         turn = replace(turn, theta=1.0)
-        length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
-        if not (np.isfinite(length) and length > 0.0 and newton.sign):
+        square, along = inners(self.path.cones, self.z, turn, turn, step)
+        if not (np.isfinite(square) and square > 0.0):
             self._retreat()
             return
-        tangent = turn.scaled(self._heading(newton.sign, turn) / length)
-        correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
-        if off <= 1.0 and self._returns(tangent):
-            self._retreat()
-        elif off > 1.0:
+        correction = step.moved(-along / square, turn)
+        if off > 1.0:
             self.correctors += 1
             self.z = moved(self.path, self.z, 1.0, correction)
+            return
+        sign = newton.sign
+        tangent = turn.scaled(self._heading(sign, turn) / np.sqrt(square))
+        if not sign or self._returns(tangent):
+            self._retreat()
         else:
-            self._accept(newton.sign, correction, tangent)
+            self._accept(sign, correction, tangent)
 
     def _heading(self, sign: float, turn: Point) -> float:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
