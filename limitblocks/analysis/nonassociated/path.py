@@ -45,6 +45,7 @@ TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, 
 DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
+WINDS = 1 / 3  # of theta: a path that falls less than to that within its patience winds
 
 
 class Lost(Exception):
@@ -67,6 +68,7 @@ def track(
     barrier: Barrier | None = None,
     seed: int = 0,
     budget: int = BUDGET,
+    patience: int | None = None,
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
 ) -> tuple[State, Tracked]:
@@ -86,6 +88,8 @@ def track(
         Of the weights of the products.
     budget : int
         Factorisations.
+    patience : int, optional
+        Factorisations in which theta must fall to a third; a path that takes longer is given up.
     power : float
         Unit of the barrier's size, dimensionless.
     progress : callable, optional
@@ -97,7 +101,8 @@ def track(
         The solution, or the best state met, and how the path went.
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
+        start = path_from(flow, x0, weights, barrier or Barrier(), seed, power)
+        walk = Walk(start, budget, progress, patience)
         end = walk.go()
         best = walk.best or walk.state
     tracked = Tracked(
@@ -120,8 +125,14 @@ def state_of(z: Point) -> State:
 class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
-    def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
-        self.path, self.budget, self.progress = path, budget, progress
+    def __init__(
+        self,
+        path: Path,
+        budget: int,
+        progress: Callable[[Progress], None] | None,
+        patience: int | None = None,
+    ) -> None:
+        self.path, self.budget, self.progress, self.patience = path, budget, progress, patience
         self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
         self.base: _Base | None = None
         self.length, self.correctors, self.tried = FIRST, 0, TRIED
@@ -145,6 +156,8 @@ class Walk:
             while not self._closed():
                 if self.factorisations >= self.budget:
                     return "budget"
+                if self._winds():
+                    return "winds"
                 self._advance()
         except Lost as lost:
             return str(lost)
@@ -225,6 +238,12 @@ class Walk:
         z = moved(self.path, z, 1.0, correction)
         self.z = moved(self.path, z, self.length, tangent)
         self.correctors = 0
+
+    def _winds(self) -> bool:
+        """Whether theta has hardly fallen for as many factorisations as there is patience for."""
+        since = self.factorisations - (self.patience or self.factorisations)
+        before = [point.theta for point in self.points if point.factorisations <= since]
+        return bool(before) and min(point.theta for point in self.points) > WINDS * min(before)
 
     def _closed(self) -> bool:
         """Whether the polish of a base far down the path is a solution; tried as theta falls."""
