@@ -18,8 +18,8 @@ def minkowski(a: Array, b: Array) -> Array:
 
 
 def quotient(cones: Cones, s: Array, q: Array) -> Array:
-    """Return L(s)^-1 q: what times s is q."""
-    rows = np.empty_like(q)
+    """Return L(s)^-1 q: what times s is q; shape (R,), or (R, k) of columns."""
+    rows, s = np.empty_like(q), s.reshape(-1, *[1] * (q.ndim - 1))
     rows[: cones.linear] = q[: cones.linear] / s[: cones.linear]
     for index in cones.groups:
         rows[index.T] = _divided(s[index.T], q[index.T])

@@ -28,7 +28,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
+from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked, winds
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
@@ -43,9 +43,9 @@ CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
+PIVOTS = 200  # pairs of slack and multiplier that are not plain: more cost more than further steps
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
-WINDS = 1 / 3  # of theta: a path that falls less than to that within its patience winds
 
 
 class Lost(Exception):
@@ -101,20 +101,12 @@ def track(
         The solution, or the best state met, and how the path went.
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        start = path_from(flow, x0, weights, barrier or Barrier(), seed, power)
-        walk = Walk(start, budget, progress, patience)
+        walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
+        walk.patience = patience
         end = walk.go()
         best = walk.best or walk.state
-    tracked = Tracked(
-        walk.path.barrier,
-        seed,
-        end,
-        defect(flow, best),
-        walk.factorisations,
-        walk.failures,
-        tuple(walk.points),
-    )
-    return best, tracked
+    counts = walk.factorisations, walk.failures, tuple(walk.points)
+    return best, Tracked(walk.path.barrier, seed, end, defect(flow, best), *counts)
 
 
 def state_of(z: Point) -> State:
@@ -125,14 +117,10 @@ def state_of(z: Point) -> State:
 class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
-    def __init__(
-        self,
-        path: Path,
-        budget: int,
-        progress: Callable[[Progress], None] | None,
-        patience: int | None = None,
-    ) -> None:
-        self.path, self.budget, self.progress, self.patience = path, budget, progress, patience
+    patience: int | None = None
+
+    def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
+        self.path, self.budget, self.progress = path, budget, progress
         self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
         self.base: _Base | None = None
         self.length, self.correctors, self.tried = FIRST, 0, TRIED
@@ -156,7 +144,7 @@ class Walk:
             while not self._closed():
                 if self.factorisations >= self.budget:
                     return "budget"
-                if self._winds():
+                if winds(self.points, self.factorisations, self.patience):
                     return "winds"
                 self._advance()
         except Lost as lost:
@@ -239,12 +227,6 @@ class Walk:
         self.z = moved(self.path, z, self.length, tangent)
         self.correctors = 0
 
-    def _winds(self) -> bool:
-        """Whether theta has hardly fallen for as many factorisations as there is patience for."""
-        since = self.factorisations - (self.patience or self.factorisations)
-        before = [point.theta for point in self.points if point.factorisations <= since]
-        return bool(before) and min(point.theta for point in self.points) > WINDS * min(before)
-
     def _closed(self) -> bool:
         """Whether the polish of a base far down the path is a solution; tried as theta falls."""
         if self.base is None or self.base.point.theta >= self.tried:
@@ -255,7 +237,7 @@ class Walk:
         self.tried = AGAIN * z.theta
         self._keep(polish(self.path.flow, self.state, patience=1))  # a point costs less than more steps
         if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
-            self._keep(pivoted(self.path.flow, self.state))
+            self._keep(pivoted(self.path.flow, self.state, largest=PIVOTS))
         return self.left < TOLERANCE
 
     def _keep(self, state: State) -> None:

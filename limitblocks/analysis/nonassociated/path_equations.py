@@ -173,6 +173,4 @@ def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:
 def inners(cones: Cones, z: Point, a: Point, *directions: Point) -> tuple[float, ...]:
     """Return the products of one direction with others."""
     s, y = curvature(cones, z.s, a.s), curvature(cones, z.y, a.y)
-    return tuple(
-        float(s @ b.s + y @ b.y) / cones.degree + a.theta * b.theta / z.theta**2 for b in directions
-    )
+    return tuple(float(s @ b.s + y @ b.y) / cones.degree + a.theta * b.theta / z.theta**2 for b in directions)

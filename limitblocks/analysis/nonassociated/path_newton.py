@@ -16,7 +16,7 @@ REFINED = 1e-4  # theta below which directions are refined: without it paths sta
 
 
 class _Columns(NamedTuple):
-    """Right-hand sides of the five equations, products over s, or directions by x, u, a, s, y: columns."""
+    """Right-hand sides of the five equations, or directions by x, u, a, s, y: columns."""
 
     flow: Array
     balance: Array
@@ -35,8 +35,8 @@ class Newton:
         self.path, self.z = path, z
         p, layout = path.flow.problem, path.layout
         self.GT = layout.potential(z.x)
-        stiff = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
-        H = layout.padding + layout.potential_parts(z.x) @ stiff
+        self.slopes = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
+        H = layout.padding + layout.potential_parts(z.x) @ self.slopes
         diagonal = np.arange(H.shape[1])
         self.elastic = (path.rho(z.theta) * path.elastic)[:, None]
         H[:, diagonal, diagonal] += layout.per_interface(self.elastic[:, 0])
@@ -70,12 +70,12 @@ class Newton:
 
     def _eliminated(self, q: _Columns) -> _Columns:
         """Directions by x, u, a, s, y as columns."""
-        p, z, layout = self.path.flow.problem, self.z, self.path.layout
-        free = self._flexed(q.flow + self.GT @ (q.product + slope(p.cones, z.s, z.y, q.slack)))
+        p, layout = self.path.flow.problem, self.path.layout
+        free = self._flexed(q.flow + self.GT @ q.product)
         w = layout.solved(self.lu, np.vstack([q.balance + layout.balance @ free, q.work]))
         dx = free + self._flexed(p.C @ w[:-1])
-        ds = p.F @ dx - q.slack
-        return _Columns(dx, w[:-1], w[-1:], ds, q.product - slope(p.cones, z.s, z.y, ds))
+        fall = layout.per_row(self.slopes @ layout.per_interface(dx))
+        return _Columns(dx, w[:-1], w[-1:], p.F @ dx - q.slack, q.product - fall)
 
     def _left(self, q: _Columns, d: _Columns) -> _Columns:
         """What directions leave of q; slacks and products are exact."""
@@ -88,12 +88,17 @@ class Newton:
         return _Columns(flow, balance, q.work - p.live @ d.balance, none, none)
 
     def _columns(self, right: tuple[Equations, ...]) -> _Columns:
+        """Right-hand sides as columns; multipliers that products and slacks ask for in place of products."""
+        cones, z, slack = self.path.cones, self.z, np.column_stack([q.slack for q in right])
+        product = quotient(cones, z.s, np.column_stack([q.product for q in right]))
+        if slack.any():
+            product += slope(cones, z.s, z.y, slack)
         return _Columns(
             np.column_stack([q.flow for q in right]),
             np.column_stack([q.balance for q in right]),
             np.array([[q.work for q in right]]),
-            np.column_stack([q.slack for q in right]),
-            np.column_stack([quotient(self.path.cones, self.z.s, q.product) for q in right]),
+            slack,
+            product,
         )
 
     def _flexed(self, v: Array) -> Array:
