@@ -87,6 +87,7 @@ def backfill(
         from limitblocks.io import read
         from limitblocks.loads import fill
         from limitblocks.practice import passive_fill, reinforced
+        from limitblocks.shown import many
 
         refuse_existing(output, force, model)
         structure = read(model)
@@ -96,4 +97,4 @@ def backfill(
         made = reinforced(structure, *held)
         if weight:
             made = replace(made, dead=made.dead + fill(unit_weight, level))
-        typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {len(held)} blocks")
+        typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {many(len(held), 'block')}")
