@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis import pivot
 from limitblocks.analysis.nonassociated import path
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.path import track

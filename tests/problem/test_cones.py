@@ -158,7 +158,7 @@ def test_central_pairs_differ_by_v_and_multiply_to_the_identity(v, product):
 
 @given(interior(), VECTORS)
 def test_curvature_is_that_of_the_logarithmic_barrier(v, a):
-    """Derivative along a of the gradient of -log v of rows and -log(t^2 - z.z) / 2 of cones, by differences."""
+    """The change along a of the gradient of -log v of rows and -log(t^2 - z.z) / 2 of cones."""
 
     def gradient(w):
         slope = np.concatenate([-1.0 / w[:2], np.zeros(len(w) - 2)])
