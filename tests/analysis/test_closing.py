@@ -167,3 +167,14 @@ def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch
 
 def parts(state):
     return state.load_factor, state.x, state.u, state.y
+
+
+def test_a_path_in_one_half_is_followed_where_the_whole_one_is_given_up():
+    """It turns back twice before it ends, at a load factor 6 % below that of the next means."""
+    model = replace(
+        lb.structures.EXAMPLES["tower"](lb.PointContact(0.7)), live=lb.mass_proportional((0, 1, 0))
+    )
+    assert (
+        lb.nonassociated(model, confirm=False).how
+        == "tracked path, small barrier, power 1, seed 1, in one half"
+    )
