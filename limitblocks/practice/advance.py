@@ -9,8 +9,9 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
-from limitblocks.mechanics.loads.load import Load
+from limitblocks.mechanics.loads.load import Load, triple
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
@@ -21,6 +22,7 @@ STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
 SECANTS = 4  # to where a contact closes; then steps are halved
 SHORTEST = 2.0**-20  # of a step: where a contact closes
+BESIDE = 1e-2  # of the size of a block: a point as far from it is not on it
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 
 
@@ -50,6 +52,16 @@ def refuse_left_behind(what: str, **loads: Load) -> None:
                     f"the {word} load has a {type(term).__name__}, which does not move with the blocks; a "
                     f"{what} needs weights, added masses, forces and moments"
                 )
+
+
+def refuse_beside(block: Block, point: Array) -> None:
+    """Raise ModelError for a point (3,) that is not on a block, by the box about it."""
+    low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
+    if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
+        raise ModelError(
+            f"control point {triple(point)} is not on block {block.name!r}, which reaches from {triple(low)} "
+            f"to {triple(high)} m"
+        )
 
 
 def advanced(assembly: Assembly, control: Control, rates: Array, step: float) -> Advanced | None:

@@ -23,6 +23,7 @@ from limitblocks.practice.advance import (
     carried,
     carried_by,
     farthest,
+    refuse_beside,
     refuse_left_behind,
     touching,
     velocity,
@@ -241,6 +242,7 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         if name not in place:
             raise ModelError(f"control block {name!r} is not a block of the model")
         block, point = model.blocks[place[name]], np.array(vector(at, "control point"))
+        refuse_beside(block, point)
     control = Control(block.name, read_only(point), direction)
     largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
     if not velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:
