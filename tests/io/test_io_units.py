@@ -15,7 +15,10 @@ from limitblocks.io.units import DIMENSIONS, METRES, NEWTONS
 SI = {
     "schema_version": 1,
     "blocks": [
-        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
+        {
+            "name": "ground",
+            "prism": {"outline": [[-2, -0.2], [2, -0.2], [2, 0], [-2, 0]], "between": [-0.5, 0.5]},
+        },
         {"name": "left", "box": {"size": [0.5, 1.0, 2.2], "at": [-1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "right", "box": {"size": [0.5, 1.0, 2.2], "at": [1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.4]}, "unit_weight": 24e3},
@@ -53,7 +56,14 @@ def scaled(document, metre, newton):
         return [value / unit for value in values]
 
     for block in new["blocks"]:
-        block["box"] = {key: over(value, metre) for key, value in block["box"].items()}
+        if "box" in block:
+            block["box"] = {key: over(value, metre) for key, value in block["box"].items()}
+        else:
+            outline, between = block["prism"].values()
+            block["prism"] = {
+                "outline": [over(place, metre) for place in outline],
+                "between": over(between, metre),
+            }
         if "unit_weight" in block:
             block["unit_weight"] *= metre**3 / newton
     joint = new["joints"]["mortar"]
