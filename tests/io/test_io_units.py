@@ -12,12 +12,13 @@ from limitblocks import units
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.io.units import DIMENSIONS, METRES, NEWTONS
 
+GROUND = [[-2.0, -0.2], [2.0, -0.2], [2.0, 0.0], [-2.0, 0.0]]
 SI = {
     "schema_version": 1,
     "blocks": [
         {
             "name": "ground",
-            "prism": {"outline": [[-2, -0.2], [2, -0.2], [2, 0], [-2, 0]], "between": [-0.5, 0.5]},
+            "prism": {"outline": GROUND, "between": [-0.5, 0.5]},
         },
         {"name": "left", "box": {"size": [0.5, 1.0, 2.2], "at": [-1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "right", "box": {"size": [0.5, 1.0, 2.2], "at": [1.0, 0.0, 1.1]}, "unit_weight": 20e3},
@@ -118,9 +119,12 @@ def test_millimetres_are_the_same_bits(tmp_path):
     document["joints"] = {"mortar": {"type": "PointContact", "friction": 0.6}}
     document["dead"] = [{"type": "SelfWeight"}]
     digest = read(document, tmp_path).digest
-    for block in document["blocks"]:
+    ground, *stones = document["blocks"]
+    outline = [[round(1000 * x) for x in place] for place in ground["prism"]["outline"]]
+    ground["prism"] = {"outline": outline, "between": [-500, 500]}
+    for block in stones:
         block["box"] = {key: [round(1000 * x) for x in value] for key, value in block["box"].items()}
-        block.pop("unit_weight", None)
+        block.pop("unit_weight")
     for block, weight in zip(document["blocks"][1:], (2e-5, 2e-5, 2.4e-5), strict=True):
         block["unit_weight"] = weight
     model = read(document | {"units": {"length": "mm"}}, tmp_path)
