@@ -20,8 +20,9 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.polish import admissible, defect, diagonal_factors, polish
+from limitblocks.analysis.polish import admissible, defect, polish
 from limitblocks.arrays import Array
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 

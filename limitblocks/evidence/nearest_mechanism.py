@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.limits import Flags
 from limitblocks.problem import LimitProblem
 
@@ -76,7 +76,7 @@ def least_solution(J: sparse.csr_array, r: Array, regular: float, refinements: i
     m, n = J.shape
     eps = sparse.diags_array(np.full(m, -regular))
     K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = linalg.splu(K)
+    lu = diagonal_factors(K)
     right = np.concatenate([np.zeros(n), r])
     z = lu.solve(right)
     for _ in range(refinements):

@@ -15,9 +15,10 @@ from limitblocks.mechanics.loads.load import Load, triple
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
-from limitblocks.practice.rejoined import closed_up, meet, slid
+from limitblocks.practice.rejoined import closed_up, joined, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
+PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
 SECANTS = 4  # to where a contact closes; then steps are halved
@@ -98,7 +99,8 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
             meets &= ~closes
         if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
             now = [own.ways[:, 2] for own in goal.contacts]
-            return slid(goal, sliding), _changes(assembly, was, now, least)
+            there, said = slid(goal, sliding)
+            return there, _changes(assembly, was, now, least) + said
         closes &= meets
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
@@ -108,8 +110,15 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
 def touching(assembly: Assembly) -> Model:
     """Return the model without the interfaces that have opened all over: they carry nothing."""
     least = 10.0 * CLOSED * assembly.size
-    closed = [own.interface for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least]
-    return replace(assembly.model, interfaces=tuple(closed))
+    return joined(assembly, (own for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least))
+
+
+def pressed_in(assembly: Assembly, stress_resultants: Array) -> Assembly:
+    """Return the structure with the contacts that carry a force, of stress resultants (m, 6), marked."""
+    normal = -stress_resultants[:, 2]
+    pressed = (normal > PRESSED * normal.max()).tolist()
+    contacts = (replace(own, pressed=one) for own, one in zip(assembly.contacts, pressed, strict=True))
+    return replace(assembly, contacts=tuple(contacts))
 
 
 def carried_by(assembly: Assembly, model: Model, stress_resultants: Array) -> Array:

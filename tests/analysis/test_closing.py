@@ -99,6 +99,15 @@ def test_one_half_comes_after_the_first_path_and_only_of_what_is_symmetric():
     assert "half" not in lb.nonassociated(symmetric_facade(direction=(1.0, 1.0, 0.0)), means=SECOND).how
 
 
+def test_of_a_large_model_one_half_comes_before_rounds(monkeypatch):
+    model = symmetric_facade()
+    monkeypatch.setattr(ways, "LARGE", len(model.free_blocks) - 1)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (SECOND[0], *LARGE_MEANS[1:]))
+    found = lb.nonassociated(model)
+    assert found.how == "tracked path, small barrier, power 1, seed 1, in one half"
+    assert lb.check_mcp(model, found).passed
+
+
 def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
     lift = Planar.lifted
 

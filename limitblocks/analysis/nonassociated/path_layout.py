@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.polish import diagonal_factors
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
 
 

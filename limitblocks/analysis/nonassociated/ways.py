@@ -54,7 +54,7 @@ def first_to_solve(
 
     If there are further means, `half` comes second.
 
-    Of a large model a state that is near `enough` ends the search as well.
+    Of a large model a state that is near `enough` ends the search as well, but for the end of the first path.
     """
     met: list[tuple[State, str]] = []
     blocks, in_space = len(flow.problem.blocks), _in_space(flow)
@@ -70,7 +70,7 @@ def first_to_solve(
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
-        if how.endswith(INTERRUPTED) or (large and enough(state)):
+        if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
@@ -150,13 +150,17 @@ def _in_space(flow: Flow) -> bool:
 def _large_ways(
     flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
-    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
+    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
+
+    That of the first comes without rounds as well: one half costs less, and follows the load path.
+    """
     nearest = NearestStresses(flow.problem, flow.problem.compliance)
     for one in LARGE_MEANS:
         state, how = _tracked(flow, x0, scale, one, record)
-        if how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance:
+        ended = how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance
+        if ended or one is LARGE_MEANS[0]:
             yield state, how
-        else:
+        if not ended:
             yield _in_rounds(flow, nearest, state, how, tolerance)
 
 
