@@ -60,8 +60,8 @@ def refuse_beside(block: Block, point: Array) -> None:
     low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
     if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
         raise ModelError(
-            f"control point {triple(point)} is not on block {block.name!r}, which reaches from {triple(low)} "
-            f"to {triple(high)} m"
+            f"control point {triple(point.tolist())} is not on block {block.name!r}, which reaches from {triple(low.tolist())} "
+            f"to {triple(high.tolist())} m"
         )
 
 

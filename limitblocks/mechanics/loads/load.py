@@ -98,7 +98,8 @@ def number(
         return real
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     wanted += f" and <= {most:g}" if most < np.inf else ""
-    shown = float(f"{value:.12g}") if isinstance(value, float) else value
+    short = float(f"{real:.12g}")  # -1.962, not -1.9620000000000002
+    shown = short if abs(real - short) > 0.0 else value
     raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
 
 
