@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,7 +12,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
-from limitblocks.mechanics.loads.load import Load, triple
+from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
@@ -55,14 +56,19 @@ def refuse_left_behind(what: str, **loads: Load) -> None:
                 )
 
 
-def refuse_beside(block: Block, point: Array) -> None:
-    """Raise ModelError for a point (3,) that is not on a block, by the box about it."""
+def control_point(model: Model, name: str, at: Sequence[float]) -> tuple[Block, Array]:
+    """Return the block of a name and a point (3,), m, on it; ModelError where it is none."""
+    named = {block.name: block for block in model.blocks}
+    if name not in named:
+        raise ModelError(f"control block {name!r} is not a block of the model")
+    block, point = named[name], np.array(vector(at, "control point"))
     low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
     if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
+        at, first, last = (triple(place.tolist()) for place in (point, low, high))
         raise ModelError(
-            f"control point {triple(point.tolist())} is not on block {block.name!r}, which reaches from {triple(low.tolist())} "
-            f"to {triple(high.tolist())} m"
+            f"control point {at} is not on block {block.name!r}, which reaches from {first} to {last} m"
         )
+    return block, point
 
 
 def advanced(assembly: Assembly, control: Control, rates: Array, step: float) -> Advanced | None:
