@@ -64,9 +64,9 @@ def control_point(model: Model, name: str, at: Sequence[float]) -> tuple[Block, 
     block, point = named[name], np.array(vector(at, "control point"))
     low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
     if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
-        at, first, last = (triple(place.tolist()) for place in (point, low, high))
+        here, first, last = (triple(place.tolist()) for place in (point, low, high))
         raise ModelError(
-            f"control point {at} is not on block {block.name!r}, which reaches from {first} to {last} m"
+            f"control point {here} is not on block {block.name!r}, which reaches from {first} to {last} m"
         )
     return block, point
 
