@@ -53,6 +53,13 @@ def test_a_block_that_slides_at_another_friction(share, slip):
     assert error.places[0][0] == error.limits.where
 
 
+def test_what_is_beyond_the_most_that_counts_is_not_looked_for():
+    model, claim = slid_at(0.99 * MU)
+    flow, state = flow_of(model, claim), state_of(model, claim)
+    assert backward_error(flow, state, most=1e-4).value == np.inf
+    assert backward_error(flow, state, most=0.1).value == pytest.approx(0.01, rel=1e-6)
+
+
 @pytest.mark.parametrize("share", [1 + 1e-4, 1 - 1e-4])
 def test_the_changed_friction_is_that_of_a_model_that_can_be_made(share):
     _, claim = slid_at(share * MU)
