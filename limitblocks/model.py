@@ -183,6 +183,11 @@ def _name_problems(model: Model) -> list[str]:
     names = [block.name for block in model.blocks]
     known, supports = set(names), set(model.supports)
     problems = [f"block name {name!r} is used {k} times" for name, k in Counter(names).items() if k > 1]
+    problems += [
+        f"support {name!r} is named {k} times; once is enough"
+        for name, k in Counter(model.supports).items()
+        if k > 1
+    ]
     problems += [f"support {name!r} is not a block of the model" for name in sorted(supports - known)]
     if not supports:
         problems.append("the model has no support; name at least one block that does not move")

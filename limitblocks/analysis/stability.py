@@ -25,7 +25,7 @@ from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
-from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, static_residuals
+from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import (
     Stability,
@@ -36,7 +36,6 @@ from limitblocks.evidence.stability_result import (
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice
-from limitblocks.shown import many
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
 WEDGED = 1e4  # mean of the rows in their units: a self-stress without bounds leaves no digits to the loads
@@ -143,14 +142,14 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
         If no solver finds a state whose recomputed equilibrium residual is within 1e-8.
     """
     problem = model.problem
-    said: list[Residual] = []
+    tried: list[Residual] = []
     for x, worst in _all_states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
             return min(MOST, _margin(problem, x))
-        said.append(worst)
+        tried.append(worst)
     if falls(problem, problem.dead + load_factor * problem.units.live * problem.live):
         return -MOST
-    raise SolverFailure(f"how safely the loads stand is undecided: {_least(said)}")
+    raise SolverFailure(f"how safely the loads stand is undecided: {nearest(tried, 'state')}")
 
 
 def dead_load_state(problem: LimitProblem) -> Array:
@@ -167,22 +166,15 @@ def dead_load_state(problem: LimitProblem) -> Array:
 
 
 def _dead_load_state(problem: LimitProblem) -> Array:
-    said: list[Residual] = []
+    tried: list[Residual] = []
     for x, worst in _all_states(problem, 0.0):
         if worst.value <= TOLERANCE:
             return read_only(x)
-        said.append(worst)
+        tried.append(worst)
     fallen = falls(problem, problem.dead)
     if fallen:
         raise NoEquilibrium(fallen, problem.left_out)
-    raise SolverFailure(f"whether the dead loads stand is undecided: {_least(said)}")
-
-
-def _least(tried: list[Residual]) -> str:
-    """The state that comes nearest to one, of all that were tried."""
-    best = min(tried, key=lambda one: one.value)
-    said = f"the {best.name} residual {best.value:.1e} at {best.where}"
-    return f"the best of {many(len(tried), 'state')} has {said}"
+    raise SolverFailure(f"whether the dead loads stand is undecided: {nearest(tried, 'state')}")
 
 
 def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:

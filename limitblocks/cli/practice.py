@@ -78,7 +78,7 @@ def capacity(
     model: ModelFile,
     steps: Steps = 20,
     block: Block = "",
-    point: Point = (0.0, 0.0, 0.0),
+    point: Point = None,
     largest: Largest = float("inf"),
     animation: Animation = None,
     as_json: AsJson = False,
@@ -87,6 +87,8 @@ def capacity(
 ) -> None:
     """Print the load factor against the displacement of the mechanism, until it is zero."""
     with clean_errors():
+        if bool(block) != (point is not None):
+            raise typer.BadParameter("give both or neither", param_hint="--block, --point")
         settings: Any = {"control": (block, point) if block else None, "steps": steps, "largest": largest}
         settings |= {"animation": animation}
         answer(analyses.capacity, model, as_json, output, force, **settings)

@@ -13,7 +13,6 @@ from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
-from limitblocks.mechanics.loads.load import vector
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
@@ -23,6 +22,7 @@ from limitblocks.practice.advance import (
     advanced,
     carried,
     carried_by,
+    control_point,
     farthest,
     pressed_in,
     refuse_left_behind,
@@ -228,7 +228,6 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     if not np.linalg.norm(push) > 0.0:
         raise ModelError("the live loads add up to no force; a capacity curve needs a direction")
     direction = read_only(push / np.linalg.norm(push))
-    place = {block.name: k for k, block in enumerate(model.blocks)}
     rates = result.displacement_rates
     if given is None:
         block = model.blocks[int((rates[:, :3] @ direction).argmax())]
@@ -236,10 +235,7 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]
     else:
-        name, at = given
-        if name not in place:
-            raise ModelError(f"control block {name!r} is not a block of the model")
-        block, point = model.blocks[place[name]], np.array(vector(at, "control point"))
+        block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
     largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
     if not velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:

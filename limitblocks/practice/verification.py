@@ -21,6 +21,7 @@ from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_accel
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
+MOST_FC = 2.0  # the code has 1 to 1.35
 MOST = 2.0 * G  # m/s2 of the ground: more is in another unit
 
 
@@ -89,7 +90,7 @@ def verification(
         raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
-    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
+    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
     place = Place(floor, number(elastic_period, "T_0", "s", least=0.0))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none

@@ -15,6 +15,7 @@ from limitblocks.reports.words import rounded_down, some
 
 GREEK = {"alpha": "α", "gamma": "γ", "delta": "δ", "zeta": "ζ", "xi": "ξ", "pi": "π", "psi": "ψ", "sum": "Σ"}
 CODE = "Circolare 7/2019, C8.7.1.2.1"
+LARGER = {"N": "kN", "kg": "t"}  # what an engineer reads
 DIGITS = 4  # of what is shown; the result file has all
 #: Captions of the steps: what is done, and the title that the text gives it.
 CAPTIONS = {
@@ -107,26 +108,26 @@ def _steps(found: Sequence[Quantity]) -> Iterator[Table]:
 def _masses(found: Verification) -> Table:
     """The weights and virtual displacements that the sums are of."""
     P, x, y = np.array([(one.weight / 1e3, one.horizontal, one.vertical) for one in found.masses]).T
-    columns = [_column(values) for values in (P, x, y, P * x, P * x**2)]
-    sums = ["Sum", *(f"{values.sum():.{DIGITS}g}" for values in (P, P * x, P * x**2))]
-    sums[2:2] = ["", ""]
-    rows = [*zip((one.name for one in found.masses), *columns, strict=True), sums]
+    shares = [[f"{value:.{DIGITS}f}" for value in values] + [""] for values in (x, y)]
+    weights, *moments = (_column(values) for values in (P, P * x, P * x**2))
+    names = [*(one.name for one in found.masses), "Sum"]
+    rows = list(zip(names, weights, *shares, *moments, strict=True))
     heads = ("Mass", "P + Q, kN", "δ_PQx", "δ_Py", "(P + Q) δ_PQx, kN", "(P + Q) δ_PQx², kN")
     said = "Weights and virtual displacements, the largest horizontal one 1 [C8.7.1.1]"
     return Table.of(said, heads, rows, right=(1, 2, 3, 4, 5))
 
 
 def _column(values: np.ndarray) -> list[str]:
-    """Numbers with as many decimals as the largest of them needs for its digits."""
+    """Numbers and their sum, with as many decimals as the largest of them needs for its digits."""
     largest = float(np.abs(values).max())
     decimals = max(DIGITS - 1 - int(np.floor(np.log10(largest))), 0) if largest else 0
-    return [f"{value:.{decimals}f}" for value in values]
+    return [f"{value:.{decimals}f}" for value in (*values, values.sum())]
 
 
 def _shown(value: float, unit: str) -> str:
-    """A number with its unit, forces in kN."""
-    if unit == "N":
-        value, unit = value / 1e3, "kN"
+    """A number with its unit, forces in kN and masses in t."""
+    if unit in LARGER:
+        value, unit = value / 1e3, LARGER[unit]
     return f"{value:.{DIGITS}g} {unit.replace('s2', 's²')}".strip()
 
 

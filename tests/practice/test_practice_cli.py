@@ -121,7 +121,7 @@ def test_verify_files_a_report(block, tmp_path):
         "not against the Gazzetta",
     ):
         assert word in said, word
-    assert f"{0.2 * 9.81 / 1.35:.6g} m/s²" in said
+    assert f"{0.2 * 9.81 / 1.35:.4g} m/s²" in said
     assert run("verify", block, *site, "--report", tmp_path / "filed.doc").exit_code == 2
     (tmp_path / "kept.pdf").write_text("another's")
     assert run("verify", block, *site, "--report", tmp_path / "kept.pdf").exit_code == 2

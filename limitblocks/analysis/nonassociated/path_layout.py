@@ -185,3 +185,7 @@ class Layout:
     def per_stress(self, blocks: Array) -> Array:
         """Return what stands by interface (m, k, ...) as stresses (s, ...)."""
         return np.asarray(blocks[self.problem.stress_interface, self.stress_place])
+
+    def per_row(self, blocks: Array) -> Array:
+        """Return what stands by interface (m, r, ...) as rows (R, ...)."""
+        return np.asarray(blocks[self.problem.row_interface, self.row_place])

@@ -32,6 +32,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
+FAR = 1e-6  # residual of a path's end that its polish, which it has tried, does not mend
 Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -61,6 +62,8 @@ def first_to_solve(
     large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
     if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
         means = LARGE_PLANAR_MEANS
+    elif means is MEANS and half is no_half:  # in a plane or one half points cost little
+        means = tuple(one._replace(patience=None) for one in MEANS)
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -110,7 +113,7 @@ def _ways(
         if one.barrier.size <= SMALL:
             yield tracked(one)
     larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
-    if means is LARGE_PLANAR_MEANS:
+    if means is LARGE_PLANAR_MEANS or _in_space(flow):
         yield from larger
     if _in_space(flow):
         yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
@@ -138,8 +141,9 @@ def _from_centroid(
 
 
 def _polished(flow: Flow, state: State, how: str) -> tuple[State, str]:
-    """The end of a path polished, unless the user stopped it."""
-    return state if how.endswith(INTERRUPTED) else polish(flow, state), how
+    """The end of a path polished, unless the user stopped it or a path of this very flow ended far off."""
+    done = how.endswith(INTERRUPTED) or (flow.constant and defect(flow, state) > FAR)
+    return state if done else polish(flow, state), how
 
 
 def _in_space(flow: Flow) -> bool:
