@@ -148,7 +148,7 @@ def least(given: Given, most: float = np.inf, *, held: bool = False) -> Nearby |
     for level in LEVELS[: np.searchsorted(LEVELS, most, "right")]:
         if best is not None and best.change <= level:
             break
-        near = nearby(given, level)
+        near = nearby(given, level, held)
         if near is None or (held and moved_by(given, near).value > level) or not is_exact(near):
             continue
         best = near if best is None or near.change < best.change else best

@@ -32,7 +32,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
-FAR = 1e-3  # residual of a path's end that its polish, which it has tried, does not mend
+FAR = 1e-6  # residual of a path's end that its polish, which it has tried, does not mend
 Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -62,6 +62,8 @@ def first_to_solve(
     large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
     if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
         means = LARGE_PLANAR_MEANS
+    elif means is MEANS and half is no_half:  # in a plane or one half points cost little
+        means = tuple(one._replace(patience=None) for one in MEANS)
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
