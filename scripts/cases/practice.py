@@ -193,6 +193,39 @@ def factored():
     return adequacy(slides(), PartialFactors(gamma_G=1.35, gamma_Q=1.5, gamma_M=2.2, gamma_phi=1.25)).factor
 
 
+def arch_with_rods(case, source):
+    """Ties, prestress, least ties and water of one arch, in both programs."""
+    own = planar_bridge.Bridge(depth=1.0)
+    model = partial(arch_bridge, lb.PointContact(0.6), span=3.0, rise=0.75, thickness=0.22, voussoirs=15)
+    live = lb.loads.top_force((0, 0, -1e3), (-0.75, 0))
+
+    def rods(k, force, prestress=0.0):
+        x, z = (own.point(0, 0, k) + own.point(0, 1, k + 1)) / 2
+        ours = tie(f"span 1 voussoir {k + 1}", (x, 0, z), f"span 1 voussoir {15 - k}", (-x, 0, z),
+                   area=1e-4, strength=force / 1e-4, prestress=prestress)  # fmt: skip
+        return ours, ((x, z), (1.0, 0.0), (prestress, force), (0, 0, k), (0, 0, 14 - k))
+
+    def bounded(*elements, water=None):
+        loaded = replace(model(), live=live)
+        if water:
+            loaded = replace(loaded, dead=loaded.dead + uplift(loaded, water))
+        return lb.bounds(reinforced(loaded, *elements) if elements else loaded).upper
+
+    for name, rod_ in (("tie of 20 kN at the haunches", rods(2, 2e4)),
+                       ("rod of 50 kN prestress at the fifth voussoirs", rods(4, 5e4 + 1, 5e4))):  # fmt: skip
+        yield case(f"arch, {name}", "associated, kN", source,
+                   planar_bridge.load_factor(own, -0.75, pulls=[rod_[1]]),
+                   lambda rod_=rod_: bounded(rod_[0]))  # fmt: skip
+    level = own.rise + own.thickness + 0.3
+    yield case("arch, water 0.3 m over the crown in its joints", "associated, kN", source,
+               planar_bridge.load_factor(own, -0.75, water=level), lambda: bounded(water=level))  # fmt: skip
+    required = 1.5 * planar_bridge.load_factor(own, -0.75)
+    ours, pulls = zip(*(rods(k, 5e4) for k in (1, 2, 4)), strict=True)
+    yield case("arch, least ties for 1.5 times its load", "sum of forces, N", source,
+               planar_bridge.least_pulls(own, -0.75, required, pulls),
+               lambda: least_ties(replace(model(), live=live), ours, required).total)  # fmt: skip
+
+
 def practice():
     def case(structure, quantity, formula, value, run, quick=True):
         return Case(GROUP, structure, quantity, formula, value, 1e-6 * abs(value), run, quick=quick)
@@ -244,6 +277,7 @@ def practice():
     ):  # fmt: skip
         value = planar_bridge.load_factor(planar_bridge.Bridge(**shape, **other), -0.75)
         yield case(name, "associated, kN", source, value, lambda settings=settings: bridge(**settings))
+    yield from arch_with_rods(case, source)
     bare = planar_bridge.Bridge(6.55, 1.428, 0.22, 40, depth=3.8, gamma=18e3)
     yield case("Prestwood bridge, bare ring, 40 voussoirs", "associated, kN", source,
                planar_bridge.load_factor(bare, -6.55 / 4), lambda: prestwood(filled=False))  # fmt: skip

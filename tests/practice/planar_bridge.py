@@ -10,6 +10,7 @@ import numpy as np
 from scipy.optimize import linprog
 
 LOAD = 1e3  # N downwards at load factor one
+WATER = 9810.0  # N/m3
 
 
 @dataclass(frozen=True)
@@ -74,12 +75,34 @@ def pier(bridge, k):
     return outlines, joints
 
 
-def load_factor(bridge, at, loaded=0, pulls=()):
+def load_factor(bridge, at, loaded=0, pulls=(), water=None):
     """Greatest multiple of 1 kN at X = `at` on the extrados of span `loaded` that a safe state carries.
 
-    `pulls` are forces from 0 to a limit: point, unit direction, limit, the block pulled, the block that pulls
-    (None for the ground).
+    `pulls` are forces between two limits: point, unit direction, limits, the block pulled, the block that
+    pulls (None for the ground). In the joints stands water up to the level `water`.
     """
+    yields, equilibrium, dead, limits = statics(bridge, at, loaded, pulls, water)
+    objective = -np.eye(len(limits))[-1]
+    return -solved(objective, yields, equilibrium, dead, limits)
+
+
+def least_pulls(bridge, at, required, pulls):
+    """Least sum of `pulls`, N, with which a safe state carries `required` times 1 kN at X = `at`."""
+    yields, equilibrium, dead, limits = statics(bridge, at, 0, pulls, None)
+    limits[-1] = required, required
+    objective = np.zeros(len(limits))
+    objective[-1 - len(pulls) : -1] = 1e3
+    return solved(objective, yields, equilibrium, dead, limits)
+
+
+def solved(objective, yields, equilibrium, dead, limits):
+    found = linprog(objective, yields, np.zeros(len(yields)), equilibrium, -dead, limits)
+    assert found.status == 0, found.message
+    return found.fun
+
+
+def statics(bridge, at, loaded, pulls, water):
+    """Yield rows, equilibrium, dead loads and limits of the forces, in kN: joint ends, pulls, load factor."""
     parts = [arch(bridge, k) for k in range(bridge.spans)] + [
         pier(bridge, k) for k in range(bridge.spans - 1)
     ]
@@ -89,40 +112,44 @@ def load_factor(bridge, at, loaded=0, pulls=()):
     count = 4 * len(joints) + len(pulls) + 1
     equilibrium = np.zeros((3 * len(row), count))
     dead = np.zeros(3 * len(row))
+
+    def add(to, force, name, sign=1.0):
+        if name in row:  # neither abutment nor ground
+            to[row[name] : row[name] + 3] += sign * force
+
     for name, outline in outlines.items():
         area, centre = measures(outline)
-        weight = area * bridge.gamma * bridge.depth
-        dead[row[name] : row[name] + 3] = 0.0, -weight, -weight * centre[0]
+        add(dead, -area * bridge.gamma * bridge.depth / 1e3 * np.array([0.0, 1.0, centre[0]]), name)
     top = [bridge.point(loaded, bridge.rings, j)[0] for j in range(bridge.voussoirs + 1)]
-    own = row[loaded, bridge.rings - 1, int(np.searchsorted(top, at)) - 1]
-    equilibrium[own : own + 3, -1] = 0.0, -LOAD, -LOAD * at
+    own = loaded, bridge.rings - 1, int(np.searchsorted(top, at)) - 1
+    add(equilibrium[:, -1], -LOAD / 1e3 * np.array([0.0, 1.0, at]), own)
     yields = np.zeros((4 * len(joints), count))
     for t, (point, direction, _, *ends) in enumerate(pulls):
-        force = np.array([*direction, point[0] * direction[1] - point[1] * direction[0]])
         for name, sign in zip(ends, (1.0, -1.0), strict=True):
-            if name in row:
-                equilibrium[row[name] : row[name] + 3, 4 * len(joints) + t] += sign * force
+            add(equilibrium[:, 4 * len(joints) + t], wrench(point, direction), name, sign)
     for c, (i, j, p, q, friction) in enumerate(joints):
-        along = (q - p) / np.linalg.norm(q - p)
+        length = np.linalg.norm(q - p)
+        along = (q - p) / length
         normal = np.array([along[1], -along[0]])
         normal *= np.sign(normal @ (measures(outlines[j])[1] - (p + q) / 2))  # into j
+        heads = np.zeros(2) if water is None else WATER * (water - np.array([p[1], q[1]]))
+        pushes = bridge.depth * length / 6e3 * np.array([[2, 1], [1, 2]]) @ heads  # linear between the ends
         for e, end in enumerate((p, q)):
-            for d, direction in enumerate((normal, along)):
-                force = np.array([*direction, end[0] * direction[1] - end[1] * direction[0]])
-                for name, sign in ((j, 1.0), (i, -1.0)):
-                    if name in row:  # neither abutment nor ground
-                        equilibrium[row[name] : row[name] + 3, 4 * c + 2 * e + d] += sign * force
+            for name, sign in ((j, 1.0), (i, -1.0)):
+                add(dead, pushes[e] * wrench(end, normal), name, sign)
+                for d, direction in enumerate((normal, along)):
+                    add(equilibrium[:, 4 * c + 2 * e + d], wrench(end, direction), name, sign)
             place = 4 * c + 2 * e
             yields[place, [place, place + 1]] = -friction, 1.0
             yields[place + 1, [place, place + 1]] = -friction, -1.0
-    limits = [(0, None), (None, None)] * (2 * len(joints)) + [(0, pull[2] / 1e3) for pull in pulls]
-    limits.append((None, None))
-    objective = -np.eye(len(limits))[-1]
-    scaled = equilibrium.copy()
-    scaled[:, -1] /= 1e3  # forces in kN
-    found = linprog(objective, yields, np.zeros(len(yields)), scaled, -dead / 1e3, limits)
-    assert found.status == 0, found.message
-    return -found.fun
+    limits = [(0, None), (None, None)] * (2 * len(joints))
+    limits += [(low / 1e3, high / 1e3) for _, _, (low, high), *_ in pulls]
+    return yields, equilibrium, dead, [*limits, (None, None)]
+
+
+def wrench(point, direction):
+    """Force of unit size along `direction`, and its moment about the origin."""
+    return np.array([*direction, point[0] * direction[1] - point[1] * direction[0]])
 
 
 def measures(outline):

@@ -4,11 +4,21 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from planar_bridge import Bridge, load_factor, measures
+from planar_bridge import Bridge, least_pulls, load_factor, measures
 
 import limitblocks as lb
 from limitblocks.loads import top_force
-from limitblocks.practice import Deck, Vehicle, passive_fill, reinforced, tie, vehicle_load, worst_position
+from limitblocks.practice import (
+    Deck,
+    Vehicle,
+    least_ties,
+    passive_fill,
+    reinforced,
+    tie,
+    uplift,
+    vehicle_load,
+    worst_position,
+)
 from limitblocks.structures import Fill, arch_bridge
 
 JOINT = lb.PointContact(0.6)
@@ -46,20 +56,58 @@ def test_another_program_has_the_same_load_factor(shape, loaded):
     assert found.upper == pytest.approx(load_factor(own, at, loaded), rel=1e-6)
 
 
-def test_another_program_with_a_tie():
-    """A tie across the haunches, 20 kN at most, from voussoir 3 to voussoir 13 at the level of the first."""
-    own = Bridge()
-    left = (own.point(0, 0, 2) + own.point(0, 1, 3)) / 2
-    ends = left, left * (-1.0, 1.0)
-    x, z = zip(*ends, strict=True)
-    model = bridge()
-    rod = tie(
-        "span 1 voussoir 3", (x[0], 0, z[0]), "span 1 voussoir 13", (x[1], 0, z[1]), area=1e-4, strength=2e8
+def rod(own, k, force, prestress=0.0):
+    """A tie at the level of voussoir k + 1 to the one opposite, in both programs."""
+    left = (own.point(0, 0, k) + own.point(0, 1, k + 1)) / 2
+    x, z = left
+    ours = tie(
+        f"span 1 voussoir {k + 1}",
+        (x, 0, z),
+        f"span 1 voussoir {15 - k}",
+        (-x, 0, z),
+        area=1e-4,
+        strength=force / 1e-4,
+        prestress=prestress,
     )
-    pull = (ends[0], (1.0, 0.0), 20e3, (0, 0, 2), (0, 0, 12))
-    tied = lb.bounds(reinforced(model, rod))
+    return ours, (left, (1.0, 0.0), (prestress, force), (0, 0, k), (0, 0, 14 - k))
+
+
+@pytest.mark.parametrize("prestress", [0.0, 8e3])
+def test_another_program_with_a_tie(prestress):
+    """A tie across the haunches, 20 kN at most, from voussoir 3 to voussoir 13 at the level of the first."""
+    own, model = Bridge(), bridge()
+    ours, pull = rod(own, 2, 20e3, prestress)
+    tied = lb.bounds(reinforced(model, ours))
     assert tied.upper == pytest.approx(load_factor(own, -0.75, pulls=[pull]), rel=1e-6)
     assert tied.upper > 1.1 * lb.bounds(model).upper
+
+
+def test_another_program_with_a_prestress_that_is_too_large():
+    """A rod at the fifth voussoirs that pulls 100 kN and no less: the arch carries less than with a slack one."""
+    own, model = Bridge(), bridge()
+    tight, pull = rod(own, 4, 1e5 + 1, 1e5)
+    slack, _ = rod(own, 4, 1e5 + 1)
+    found = lb.bounds(reinforced(model, tight)).upper
+    assert found == pytest.approx(load_factor(own, -0.75, pulls=[pull]), rel=1e-6)
+    assert found < 0.9 * lb.bounds(reinforced(model, slack)).upper
+
+
+def test_another_program_with_water_in_the_joints():
+    """Water .3 m over the crown; the joints carry less, the arch less."""
+    own, model = Bridge(), bridge()
+    level = own.rise + own.thickness + 0.3
+    wet = lb.bounds(replace(model, dead=model.dead + uplift(model, level))).upper
+    assert wet == pytest.approx(load_factor(own, -0.75, water=level), rel=1e-6)
+    assert wet < 0.9 * lb.bounds(model).upper
+
+
+def test_another_program_with_the_least_ties():
+    """Three candidates; the least sum of their forces for 1.5 times the load that the bare arch carries."""
+    own, model = Bridge(), bridge()
+    required = 1.5 * load_factor(own, -0.75)
+    ours, pulls = zip(*(rod(own, k, 50e3) for k in (1, 2, 4)), strict=True)
+    found = least_ties(model, ours, required)
+    assert found.total == pytest.approx(least_pulls(own, -0.75, required, pulls), rel=1e-5)
 
 
 def test_another_program_with_passive_fill():
@@ -76,7 +124,7 @@ def test_another_program_with_passive_fill():
             2 / 3 * ((level - low) ** 3 - (level - high) ** 3) / ((level - low) ** 2 - (level - high) ** 2)
         )
         inwards = 1.0 if z2 > z1 else -1.0
-        pulls.append(((0.0, level - below), (inwards, 0.0), force, (0, 0, j), None))
+        pulls.append(((0.0, level - below), (inwards, 0.0), (0.0, force), (0, 0, j), None))
     model = bridge()
     fill = passive_fill(model, level, unit_weight=gamma, coefficient=K)
     found = lb.bounds(reinforced(model, *fill))
