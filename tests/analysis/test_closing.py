@@ -181,7 +181,7 @@ def test_a_path_in_one_half_is_followed_where_the_whole_one_is_given_up():
 
 
 def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
-    """The facade crushes at a corner of its yield surface; the path leaves 3e-8, repair of its stresses 4e-9."""
+    """The facade crushes at a corner of yield; the path leaves 3e-8, repair of its stresses 4e-9."""
     joint = lb.OrdunaLourenco(0.6, compressive_strength=0.3e6)
     door = [(1.2, 0.0, 0.8, 1.2)]
     model = lb.structures.facade(
