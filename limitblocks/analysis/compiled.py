@@ -1,7 +1,7 @@
-"""The programs of the bounds, solved: cvxpy compiles one of them, whose numbers then change in one solver.
+"""The programs of the bounds, solved: cvxpy compiles one of them, whose numbers then change.
 
 The program of the load factor and that of a mechanism that opens every joint, whose dual are stresses under
-the dead loads, have one matrix, but for the entries of the live load, which the second does without.
+the dead loads, have one matrix, but for the live load, which the second does without.
 """
 
 from __future__ import annotations
@@ -52,30 +52,41 @@ class Programs:
 
     @cached_property
     def _solver(self) -> clarabel.DefaultSolver:
-        A, b, c, dims = (self._data[key] for key in ("A", "b", "c", "dims"))
-        cones = [clarabel.ZeroConeT(dims.zero)] + [clarabel.NonnegativeConeT(dims.nonneg)] * (dims.nonneg > 0)
+        data = self._data
+        return self._made(data["A"], data["b"], data["c"], data["dims"].zero)
+
+    @cached_property
+    def _opener(self) -> clarabel.DefaultSolver:
+        """Without the live load: the column of its factor, or the equation that it does work."""
+        A, b, c, zero = (*(self._data[key] for key in ("A", "b", "c")), self._data["dims"].zero)
+        if isinstance(self.form, Stresses):
+            return self._made(A[:, 1:], b, c[1:], zero)
+        return self._made(A[1:], b[1:], c, 0)
+
+    def _made(self, A: Any, b: Array, c: Array, equations: int) -> clarabel.DefaultSolver:
+        dims, n = self._data["dims"], len(c)
+        cones = [clarabel.ZeroConeT(equations)] * (equations > 0)
+        cones += [clarabel.NonnegativeConeT(dims.nonneg)] * (dims.nonneg > 0)
         cones += [clarabel.SecondOrderConeT(size) for size in dims.soc]
-        n = len(c)
-        return clarabel.DefaultSolver(sparse.csc_matrix((n, n)), c, A, b, cones, self._options({}))
+        nothing = sparse.csc_matrix((n, n))
+        return clarabel.DefaultSolver(nothing, c, sparse.csc_matrix(A), b, cones, self._options({}))
 
     def _solved(self, amount: Array | None, solver: Solver) -> tuple[Array, Array]:
         """Variables and duals, NaN where there is no solution; without the live load for an `amount`."""
-        data, form = self._data, self.form
-        A, b, c = data["A"], data["b"], data["c"]
-        entries = A.data
-        if amount is not None:
-            entries = np.where(form.of_live(A), 0.0, entries)
-            b, c = form.opening(b, c, amount)
         try:
-            self._solver.update(A=entries, b=b, q=c, settings=self._options(solver.settings))
-            found = self._solver.solve()
-            v, w, status = np.array(found.x), np.array(found.z), str(found.status)
+            own = self._solver if amount is None else self._opener
+            changed = {} if amount is None else self.form.opening(amount)
+            own.update(settings=self._options(solver.settings), **changed)
+            found = own.solve()
         except (ValueError, ArithmeticError) as error:
-            v, w, status = c, b, f"{type(error).__name__}: {error}"
+            log.info("CLARABEL: %s: %s", type(error).__name__, error)
+            m, n = self._data["A"].shape
+            if amount is not None:
+                m, n = (m, n - 1) if isinstance(self.form, Stresses) else (m - 1, n)
+            return np.full(n, np.nan), np.full(m, np.nan)
+        v, w, status = np.array(found.x), np.array(found.z), str(found.status)
         log.info("CLARABEL: %s", status)
-        if status in NOTHING or ":" in status:
-            return np.full_like(c, np.nan), np.full_like(b, np.nan)
-        return v, w
+        return (np.full_like(v, np.nan), np.full_like(w, np.nan)) if status in NOTHING else (v, w)
 
     def _options(self, settings: Mapping[str, object]) -> clarabel.DefaultSettings:
         options = clarabel.DefaultSettings()

@@ -14,15 +14,12 @@ from typing import ClassVar
 
 import cvxpy as cp
 import numpy as np
-import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.analysis.programs import Program, in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, State
-
-Flags = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +34,11 @@ class Stresses:
     def equations(self) -> Mapping[str, object]:
         """Settings of Clarabel's linear equations.
 
-        With more rows than stresses pivots may vanish: its own replacement of those alone disturbs least.
+        Pivots of stresses may vanish: its own replacement of those alone disturbs least. Not so in a plane,
+        where as many rows as stresses act on each joint.
         """
-        added = 1e-14 if self.problem.F.shape[0] > self.problem.F.shape[1] else 1e-8
+        square = not self.refined and self.problem.F.shape[0] == self.problem.F.shape[1]
+        added = 1e-8 if square else 1e-14
         return {"static_regularization_constant": added, "iterative_refinement_enable": self.refined}
 
     def limit(self) -> Program:
@@ -51,16 +50,12 @@ class Stresses:
         rows = sparse.csr_array(sparse.hstack([nothing, p.F])) @ v + p.g
         return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *in_cone(rows, p.cones)]), (v,))
 
-    def of_live(self, A: sparse.csc_matrix) -> Flags:
-        """Which entries of the compiled matrix are of the live load."""
-        return np.asarray(np.arange(len(A.data)) < A.indptr[1])
-
-    def opening(self, b: Array, c: Array, amount: Array) -> tuple[Array, Array]:
+    def opening(self, amount: Array) -> Mapping[str, Array]:
         """Stresses that carry the dead loads with the largest sum of distances to yield times `amount`.
 
         Its dual is the mechanism that opens every joint by at least that (R,) at the least power.
         """
-        return b, np.append(0.0, -self.problem.F.T @ amount)
+        return {"q": -self.problem.F.T @ amount}
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -70,7 +65,7 @@ class Stresses:
     def opened(self, v: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
         """Stresses, rates and multipliers of a solution of `opening` and its duals."""
         n = len(self.problem.dead)
-        return v[1:], -w[:n], w[n:] + amount
+        return v, -w[:n], w[n:] + amount
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,13 +107,9 @@ class Rates:
         constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
         return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
-    def of_live(self, A: sparse.csc_matrix) -> Flags:
-        """Which entries of the compiled matrix are of the live load."""
-        return np.asarray(A.indices == 0)
-
-    def opening(self, b: Array, c: Array, amount: Array) -> tuple[Array, Array]:
+    def opening(self, amount: Array) -> Mapping[str, Array]:
         """The mechanism that opens every joint by at least `amount` (R,) at the least power."""
-        return np.append(0.0, -self.enough(amount)), c
+        return {"b": -self.enough(amount)}
 
     def limit_state(self, u: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -126,7 +117,7 @@ class Rates:
 
     def opened(self, u: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
         """Stresses, rates and multipliers of a solution of `opening` and its duals."""
-        return self.stresses(w[1:]), u, self.multipliers(u)
+        return self.stresses(w), u, self.multipliers(u)
 
     def multipliers(self, u: Array) -> Array:
         """Multipliers that follow the rates: dropped rows take half of what their cone has.

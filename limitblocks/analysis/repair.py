@@ -50,7 +50,7 @@ class Repair:
         first = (ROUGH,) if self.quick else ()
         if self.problem is not None and self.programs is not None:
             there = self._there(self.problem, self.programs.form.problem, amount)
-            for solver in (*first, NEARLY):
+            for solver in first or (NEARLY,):
                 found = self._at_once(self.problem, self.programs, there, solver)
                 if found is not None:
                     return found
