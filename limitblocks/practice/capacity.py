@@ -35,6 +35,7 @@ from limitblocks.practice.snapped import falls, snapped
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
+MOST = 50  # points a step asked for: a curve that snaps on and on has no end
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next one, the least and those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
@@ -82,7 +83,9 @@ def capacity_curve(
     SolveError
         As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
     """
-    _refuse(model, steps, largest)
+    checked_count("steps", steps, 2)
+    farthest(largest, "displacement")
+    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
     first = nonassociated(model)
     point = _control(model, first, control)
     points, ended = [], ""
@@ -97,22 +100,15 @@ def capacity_curve(
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
 
 
-def _refuse(model: Model, steps: int, largest: float) -> None:
-    checked_count("steps", steps, 2)
-    farthest(largest, "displacement")
-    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
-
-
 def _curve(
     model: Model, first: Nonassociated, control: Control, steps: int, largest: float
 ) -> Iterator[CapacityPoint | str]:
     """The points of the curve, then why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
-    whole = assembly.size
-    end = min(largest, whole)
+    end = min(largest, whole := assembly.size)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
-    while True:
+    for _ in range(MOST * steps):
         yield point
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
@@ -128,6 +124,7 @@ def _curve(
             yield found if isinstance(found, str) else _stopped(point)
             return
         before, (assembly, control, point) = point, found
+    yield f"{MOST * steps} points do not lead to an end"
 
 
 def _ahead(

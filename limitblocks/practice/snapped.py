@@ -29,7 +29,7 @@ def falls(assembly: Assembly) -> bool:
     corner penetrates and no contact slides that was pressed. It knows no bonds: what a tie, a dowel or a
     glued joint may hold is never said to fall.
     """
-    return not any(_holds(own) for own in assembly.contacts) and _steepest(assembly)[1] > FALLS
+    return not any(_holds(own) for own in assembly.contacts) and steepest(assembly)[1] > FALLS
 
 
 def _holds(own: Contact) -> bool:
@@ -52,7 +52,7 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
     """
     changes: tuple[str, ...] = ()
     for _ in range(ROUNDS):
-        step, power = _steepest(assembly)
+        step, power = steepest(assembly)
         if power <= FALLS:
             return assembly, changes
         found = moved_until_contact(assembly, step)
@@ -62,8 +62,8 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
     raise SolveError("the structure snaps, and where it comes to rest was not found")
 
 
-def _steepest(assembly: Assembly) -> tuple[Array, float]:
-    """Displacements (n, 6) in which the dead loads do most work, and it over the most they could do."""
+def steepest(assembly: Assembly) -> tuple[Array, float]:
+    """Return displacements (n, 6) in which the dead loads do most work, and its share of what they could."""
     model = assembly.model
     free = np.array([block.name not in model.supports for block in model.blocks])
     size = np.array([block.size for block in model.blocks])
