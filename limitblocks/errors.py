@@ -89,7 +89,7 @@ class NoEquilibrium(SolveError):
         shown = ", ".join(blocks[:8]) + (f" and {len(blocks) - 8} more" if len(blocks) > 8 else "")
         super().__init__(
             f"the dead loads alone cannot stand: {shown} would fall; "
-            + "; ".join(["check supports, missing interfaces and friction", *missing(left_out)])
+            + "; ".join(["check supports, missing interfaces, friction and strengths", *missing(left_out)])
         )
 
 

@@ -20,7 +20,7 @@ from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
-from limitblocks.shown import Viewed
+from limitblocks.shown import Viewed, many
 from limitblocks.written import write
 
 SCHEMA_VERSION = 1
@@ -152,8 +152,8 @@ class Model(Viewed):
         return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
-        kinds = f"{len(self.free_blocks)} blocks, {len(self.supports)} supports"
-        return f"model {self.name!r}: {kinds}, {len(self.interfaces)} interfaces"
+        free, supports = many(len(self.free_blocks), "block"), many(len(self.supports), "support")
+        return f"model {self.name!r}: {free}, {supports}, {many(len(self.interfaces), 'interface')}"
 
 
 def model_of(result: Any, model: Model | None = None) -> Model | None:
@@ -183,6 +183,11 @@ def _name_problems(model: Model) -> list[str]:
     names = [block.name for block in model.blocks]
     known, supports = set(names), set(model.supports)
     problems = [f"block name {name!r} is used {k} times" for name, k in Counter(names).items() if k > 1]
+    problems += [
+        f"support {name!r} is named {k} times; once is enough"
+        for name, k in Counter(model.supports).items()
+        if k > 1
+    ]
     problems += [f"support {name!r} is not a block of the model" for name in sorted(supports - known)]
     if not supports:
         problems.append("the model has no support; name at least one block that does not move")

@@ -12,6 +12,11 @@ from pathlib import Path
 from typing import Any
 
 
+def many(number: int, word: str) -> str:
+    """Return "1 block" or "2 blocks"."""
+    return f"{number} {word}{'s' * (number != 1)}"
+
+
 class Shown:
     """A line as its repr; in a notebook a small table and a picture."""
 

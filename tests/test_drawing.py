@@ -73,6 +73,12 @@ def test_views_have_the_overall_sizes():
     )  # as long as the base is drawn
 
 
+def test_titles_of_views_of_a_slender_structure_do_not_meet():
+    model = lb.structures.block(JOINT, width=0.5, height=5.0)
+    front, side = (label.x for label in elevations(model).labels if "seen along" in label.text)
+    assert side - front > 10 * len("Front, seen along +Y")  # a letter of 17 px is some 10 wide
+
+
 def test_courses_behind_one_another_are_drawn_once():
     model = lb.structures.wall(JOINT, length=8.0, courses=20)
     blocks = [group for group in elevations(model).groups if group.style != "dimension"]

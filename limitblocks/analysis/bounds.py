@@ -33,7 +33,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.proof import Proof
-from limitblocks.evidence.residuals import Residuals, bounds_residuals, static_residuals
+from limitblocks.evidence.residuals import Residual, Residuals, bounds_residuals, nearest, static_residuals
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
@@ -168,13 +168,13 @@ def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
 def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
+    tried: list[Residual] = []
     for pair in _all_pairs(problem, dead, tolerance, said):
-        worst = pair.residuals.worst
-        if worst.value <= tolerance:
+        tried.append(pair.residuals.worst)
+        if tried[-1].value <= tolerance:
             return pair
-        place = f" at {worst.where}" if worst.where else ""
-        said.append(f"{pair.solver}, {worst.name} residual {worst.value:.1e}{place}")
-    raise SolverFailure(f"no pair of bounds within {tolerance:g}: " + "; ".join(said))
+    best = [nearest(tried, "pair")] if tried else []
+    raise SolverFailure("; ".join([f"no pair of bounds within {tolerance:g}", *best, *dict.fromkeys(said)]))
 
 
 def _all_pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:

@@ -20,8 +20,9 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.polish import admissible, defect, diagonal_factors, polish
+from limitblocks.analysis.polish import admissible, defect, polish
 from limitblocks.arrays import Array
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
@@ -35,7 +36,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 @np.errstate(all="ignore")  # a state that ran away is not kept
-def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
+def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: int = LARGEST) -> State:
     """Return the solution that complementary pivots lead to, or the state of least residual met.
 
     Parameters
@@ -46,12 +47,14 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
         A state near a solution, dimensionless.
     until : float
         Residual that is small enough.
+    largest : int
+        Pairs that are not plain, beyond which no step is tried: their cost grows with the cube of it.
     """
     now, best, least = state, state, defect(flow, state)
     for delta in PROXIMAL:
         if least <= until:
             break
-        found = _step(flow, now, delta)
+        found = _step(flow, now, delta, largest)
         if found is None:
             break
         now = found
@@ -61,12 +64,12 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE) -> State:
     return best
 
 
-def _step(flow: Flow, now: State, delta: float) -> State | None:
+def _step(flow: Flow, now: State, delta: float, largest: int) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
     linear, found = _Linearised(flow, now, delta), None
     unsure = np.zeros(len(linear.pairs.slack), dtype=bool)
     for _ in range(WIDENED):
-        if np.count_nonzero(unsure) > LARGEST:
+        if np.count_nonzero(unsure) > largest:
             return None
         try:
             found = linear.solved(unsure)

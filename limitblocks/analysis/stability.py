@@ -25,7 +25,7 @@ from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
-from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, static_residuals
+from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import (
     Stability,
@@ -142,14 +142,14 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
         If no solver finds a state whose recomputed equilibrium residual is within 1e-8.
     """
     problem = model.problem
-    said = []
+    tried: list[Residual] = []
     for x, worst in _all_states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
             return min(MOST, _margin(problem, x))
-        said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
+        tried.append(worst)
     if falls(problem, problem.dead + load_factor * problem.units.live * problem.live):
         return -MOST
-    raise SolverFailure("how safely the loads stand is undecided: " + "; ".join(said))
+    raise SolverFailure(f"how safely the loads stand is undecided: {nearest(tried, 'state')}")
 
 
 def dead_load_state(problem: LimitProblem) -> Array:
@@ -166,15 +166,15 @@ def dead_load_state(problem: LimitProblem) -> Array:
 
 
 def _dead_load_state(problem: LimitProblem) -> Array:
-    said = []
+    tried: list[Residual] = []
     for x, worst in _all_states(problem, 0.0):
         if worst.value <= TOLERANCE:
             return read_only(x)
-        said.append(f"{worst.name} residual {worst.value:.1e} at {worst.where}")
+        tried.append(worst)
     fallen = falls(problem, problem.dead)
     if fallen:
         raise NoEquilibrium(fallen, problem.left_out)
-    raise SolverFailure("whether the dead loads stand is undecided: " + "; ".join(said))
+    raise SolverFailure(f"whether the dead loads stand is undecided: {nearest(tried, 'state')}")
 
 
 def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:

@@ -17,6 +17,7 @@ from limitblocks.model import Model
 _TITLES = {"xz": "Front, seen along +Y", "yz": "Side, seen along -X", "xy": "Plan, seen from above"}
 _LEFT, _RIGHT, _ABOVE, _BELOW = 95.0, 15.0, 40.0, 75.0  # room around a view for its title and dimensions
 _OFF, _TICK = 30.0, 7.0  # distance of a line of dimensions from the view, and half the length of its ends
+_TITLE = 220.0  # from the middle of a view to that of the next, so that their titles do not meet
 _TALLEST = 560.0  # of the views, user units
 _FINE = 3  # decimals, m, within which two polygons on the page are one
 
@@ -45,9 +46,11 @@ def elevations(model: Model) -> Sheet:
     scale = float(min(room / sum(across), _TALLEST / sum(up)))
     spare = (room - scale * sum(across)) / 2
     below = _ABOVE + scale * up[0] + _BELOW
+    middle = spare + _LEFT + scale * across[0] / 2
+    beside = max(middle + scale * across[0] / 2 + _RIGHT + _LEFT, middle + _TITLE - scale * across[1] / 2)
     corners = {
         "xz": (spare + _LEFT, _ABOVE),
-        "yz": (spare + _LEFT + scale * across[0] + _RIGHT + _LEFT, _ABOVE),
+        "yz": (beside, _ABOVE),
         "xy": (spare + _LEFT, below + _ABOVE),
     }
     groups: list[Group] = []

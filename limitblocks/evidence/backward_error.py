@@ -85,8 +85,8 @@ class BackwardError:
         )
 
 
-def backward_error(flow: Flow, state: State) -> BackwardError:
-    """Return the backward error of a dimensionless state.
+def backward_error(flow: Flow, state: State, most: float = np.inf) -> BackwardError:
+    """Return the backward error of a dimensionless state; infinite where it may be but is beyond `most`.
 
     The least of some levels of change is searched for at which the state is exact, see
     :func:`limitblocks.evidence.nearby.nearby`.
@@ -94,11 +94,11 @@ def backward_error(flow: Flow, state: State) -> BackwardError:
     parts = (state.load_factor, state.x, state.u, state.y)
     with np.errstate(all="ignore"):  # what is undefined is infinite
         given = Given(flow, state)
-        free = least(given) if all(np.isfinite(part).all() for part in parts) else None
+        free = least(given, most) if all(np.isfinite(part).all() for part in parts) else None
         if free is None:
             limits, turned, loads, moved = (Residual(*one) for one in UNKNOWN)
             return BackwardError(limits, turned, loads, moved, (), np.inf, None)
-        held = least(given, held=True) if moved_by(given, free).value > free.change else None
+        held = least(given, most, held=True) if moved_by(given, free).value > free.change else None
         both = [one for one in (free, held) if one]
         near = min(both, key=lambda one: _total(given, one))
         return _error(given, near, min(both, key=lambda one: one.change))
@@ -114,17 +114,19 @@ def checked_limit(limit: Any) -> float | None:
     return number
 
 
-def settled(flow: Flow, state: State, tolerance: float, limit: float | None) -> tuple[State, BackwardError]:
-    """Return the state that is told, and its backward error.
+def settled(
+    flow: Flow, state: State, tolerance: float, limit: float | None, most: float = np.inf
+) -> tuple[State, BackwardError]:
+    """Return the state that is told, and its backward error, infinite where it is beyond `most`.
 
     Where residuals are above the tolerance and a change of the model within `limit` is enough, it is the
     state with the exact mechanism; else the one given.
     """
-    error = backward_error(flow, state)
+    error = backward_error(flow, state, most)
     loose = mcp_residuals(flow, state).worst.value > tolerance
     if limit is None or error.exact is None or not loose or error.model > limit:
         return state, error
-    return error.exact, backward_error(flow, error.exact)
+    return error.exact, backward_error(flow, error.exact, most)
 
 
 def within(error: BackwardError, residuals: Residuals, tolerance: float, limit: float | None) -> bool:
@@ -137,16 +139,16 @@ def within(error: BackwardError, residuals: Residuals, tolerance: float, limit: 
     return limit is not None and stands and max(error.value, residuals["dissipation"]) <= limit
 
 
-def least(given: Given, held: bool = False) -> Nearby | None:
-    """The nearest exact problem of those found at the levels, from the least of them upwards.
+def least(given: Given, most: float = np.inf, *, held: bool = False) -> Nearby | None:
+    """The nearest exact problem of those found at the levels up to `most`, from the least of them upwards.
 
     Where the mechanism is `held` it must not move by more than the level, either.
     """
     best: Nearby | None = None
-    for level in LEVELS:
+    for level in LEVELS[: np.searchsorted(LEVELS, most, "right")]:
         if best is not None and best.change <= level:
             break
-        near = nearby(given, level)
+        near = nearby(given, level, held)
         if near is None or (held and moved_by(given, near).value > level) or not is_exact(near):
             continue
         best = near if best is None or near.change < best.change else best

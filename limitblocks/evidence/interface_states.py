@@ -18,7 +18,7 @@ from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, Mode
-from limitblocks.shown import Tabular
+from limitblocks.shown import Tabular, many
 
 MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
@@ -111,7 +111,7 @@ class InterfaceStates(Tabular):
     def __str__(self) -> str:
         counts = Counter(self.state)
         said = ", ".join(f"{count} {word}" for word, count in counts.most_common())
-        return f"states of {len(self.names)} interfaces: {said}"
+        return f"states of {many(len(self.names), 'interface')}: {said}"
 
 
 def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStates:

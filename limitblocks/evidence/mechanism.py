@@ -70,11 +70,11 @@ def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
         parts.append((places[edge], ray[:, None]))
         at_apex, around = places[near & apex], rays(cone.shape[1], APEX_DIRECTIONS)
         parts.append((at_apex, np.broadcast_to(around, (len(at_apex), *around.shape))))
-    return _columns(parts, len(rows))
+    return sparse_columns(parts, len(rows))
 
 
-def _columns(parts: list[tuple[Any, Array]], height: int) -> sparse.csr_array:
-    """Sparse columns from rows' places (k, size) and stacks of generators (k, count, size)."""
+def sparse_columns(parts: list[tuple[Any, Array]], height: int) -> sparse.csr_array:
+    """Return sparse columns from rows' places (k, size) and stacks of generators (k, count, size)."""
     data, row, column, width = [], [], [], 0
     for places, generators in parts:
         k, count, _ = generators.shape

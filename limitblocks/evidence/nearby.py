@@ -13,14 +13,16 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
+from limitblocks.evidence.multipliers import near_yield
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.places import places
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
-READILY = 10.0  # loads are known better than friction by this
-SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 ROUNDS = 4  # of stilling what would have to flow in another direction
+TURN = 1e-3  # flow that turns less readily than this is lost in rounding
+STILL = 1e-9  # what the rates of a place are worth in the load factor: below it the place is still
+SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
 
 class Nearby(NamedTuple):
@@ -92,12 +94,26 @@ class Given:
         return sizes
 
     @cached_property
+    def reach(self) -> Array:
+        """What the forces that act on the lesser block can do to each linear row and cone, (degree,)."""
+        p = self.flow.problem
+        weights = abs(p.F) @ self.acting
+        return np.asarray(np.bincount(p.cones.member, weights, minlength=p.cones.degree), dtype=float)
+
+    @cached_property
     def off(self) -> Array:
         """Least change of strength, or of forces by what acts, that takes each row to yield, (degree,)."""
         p, s = self.flow.problem, self.flow.problem.F @ self.state.x + self.flow.problem.g
-        lever = np.bincount(p.cones.member, weights=abs(p.F) @ self.acting, minlength=p.cones.degree)
-        apart = np.abs(p.cones.margin(s)) / np.where(lever > 0.0, lever, np.inf)
+        apart = np.abs(p.cones.margin(s)) / np.where(self.reach > 0.0, self.reach, np.inf)
         return np.asarray(np.minimum(np.minimum(np.abs(self.change), self.force[self.places[0]]), apart))
+
+    def still(self, u: Array) -> Flags:
+        """Which places do not move, by what their rates are worth in the load factor, (places,)."""
+        measure = Measure(self.flow.problem, self.state)
+        worth = np.abs(self.flow.problem.C @ u) * measure.pressed[self.flow.problem.stress_interface]
+        largest = np.zeros(len(self.force))
+        np.maximum.at(largest, self.places[1], worth)
+        return np.asarray(largest <= STILL * measure.power)
 
 
 class _Choice(NamedTuple):
@@ -108,30 +124,30 @@ class _Choice(NamedTuple):
     flows: Flags
 
 
-def nearby(given: Given, level: float) -> Nearby | None:
+def nearby(given: Given, level: float, held: bool = False) -> Nearby | None:
     """Return a problem of which the state may be exact, changed by about `level`; None if none is found.
 
     What is within `level` of yield, or carries no more than that, may flow; all else is still. The mechanism
-    is the nearest one.
+    is the nearest one; where it is `held`, rates are as dear as directions of flow.
     """
-    p, members = given.flow.problem, given.places[0]
+    p, state = given.flow.problem, given.state
     near = given.off <= level
     if (~near & (given.change > 0.0)).any():
         return None
-    held = np.where((given.force <= level)[given.places[1]], 0.0, given.state.x)
-    u, y = given.state.u, _aligned(p, given.G, held, given.state.y)
+    moves = np.where((given.force <= SLIGHT)[given.places[0]], level * given.reach, 0.0)
+    turn = max(level, TURN)
     best: Nearby | None = None
     for _ in range(ROUNDS):
-        mechanism = nearest_mechanism(p, given.G, u, y, near)
+        may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
+        mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
         if mechanism is None:
             break
-        u, y = mechanism
-        solved = _changed(given, u, y)
-        if best is None or solved.change < best.change:
-            best = solved
-        wild = (solved.turned > level)[members]
+        found = _changed(given, *mechanism)
+        if best is None or found.change < best.change:
+            best = found
+        wild = (found.turned > level)[given.places[0]]
         wild[: p.cones.linear] = False
-        if not wild.any():
+        if not (wild & near).any():
             break
         near = near & ~wild
     return best
@@ -142,7 +158,7 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     flow, state = given.flow, given.state
     p = flow.problem
     rates = np.sqrt(by_member(p, given.G, y).power(2).sum(axis=1))
-    flows = rates > NOISE * np.abs(p.C @ u).max(initial=0.0)
+    flows = (rates > NOISE * np.abs(p.C @ u).max(initial=0.0)) & ~given.still(u)[given.places[0]]
     choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), flows)
     x = _cheapest(given, choice)
     scaled, exact, G, angle, change = _flowing(given, x, choice)
@@ -162,8 +178,8 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
 def _cheapest(given: Given, choice: _Choice) -> Array:
     """Stresses (s,), place by place as they are, moved to where what flows yields, or none at all.
 
-    Each costs the largest change of limits, flow and loads of the place that it asks for; loads, which are
-    known better than friction, change only where that costs READILY less and the place carries little.
+    Each costs the largest change of limits, flow and loads of the place that it asks for; loads change only
+    where the place carries little.
     """
     members, stresses = given.places
     moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
@@ -173,7 +189,7 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
         *_, angle, change = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
         slight = (by == 0.0) | (given.force <= SLIGHT)
-        cost = np.maximum(angle, np.where(slight, READILY * by, np.inf))
+        cost = np.maximum(angle, np.where(slight, by, np.inf))
         np.maximum.at(cost, members, np.abs(change))
         costs.append(cost)
     return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])

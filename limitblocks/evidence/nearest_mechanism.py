@@ -6,66 +6,64 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
-from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.limits import Flags
+from limitblocks.arrays import Array
+from limitblocks.evidence.factors import diagonal_factors
+from limitblocks.evidence.multipliers import Multipliers
 from limitblocks.problem import LimitProblem
 
 REGULAR = 1e-13  # eps of the quasidefinite system
 REFINEMENTS = 6
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
-EXACT, SOLVED = 1e-12, 1e-6  # of the largest rate: what is left of the flow rule by rounding, and by a step
+EXACT, SOLVED = 1e-10, 1e-6  # of the largest rate: what may be left of the flow rule, at last and by a step
+NEGATIVE = 1e-12  # of the largest multiplier: less is rounding
 ROUNDS = 8  # steps, each without the rows whose multipliers turned negative
 
 
 def nearest_mechanism(
-    problem: LimitProblem, G: sparse.csr_array, u: Array, y: Array, flowing: Flags
+    problem: LimitProblem, G: sparse.csr_array, u: Array, y: Array, may: Multipliers, ease: float = 1.0
 ) -> tuple[Array, Array] | None:
     """Return u, y with C u + G^T y = 0, live . u = 1, near to those given; None if none is found.
 
-    Only the linear rows and cones `flowing` (degree,) have multipliers. Changes are measured by the size of
-    the multipliers, so that small ones keep their sign.
+    There are only the multipliers that `may` be. Changes are measured by the size of the multipliers, so that
+    small ones keep their sign, and by their ease; those of rates by `ease`.
     """
-    cones, n = problem.cones, problem.C.shape[1]
+    n, w = problem.C.shape[1], may.parts(problem.cones, y)
+    live = sparse.csr_array(problem.live[None, :])
+    strains = sparse.csr_array(G.T @ may.columns)
+    blocks: list[list[Any]] = [[problem.C, strains], [live, None]]
+    J = sparse.csr_array(sparse.block_array(blocks if len(w) else [row[:1] for row in blocks]))
+    right, kept = np.append(np.zeros(len(J.indptr) - 2), 1.0), np.ones(len(w), dtype=bool)
     for _ in range(ROUNDS):
-        y = np.where(flowing[cones.member], y, 0.0)
-        left = _left(problem, G, u, y)
-        if left > EXACT:
-            rows = np.flatnonzero(flowing[cones.member])
-            d = _least_change(problem, G, rows, u, y)
-            u, y = u + d[:n], y.copy()
-            y[rows] += d[n:]
-            left = _left(problem, G, u, y)
-            if not left <= SOLVED:
+        w = np.where(kept, w, 0.0)
+        left = right - J @ np.append(u, w)
+        if _share(left, u) > EXACT:
+            largest = float(np.abs(w).max(initial=0.0)) or 1.0
+            size = np.maximum(np.abs(w[may.ray]) / largest, LEAST_MULTIPLIER)
+            d = _least_change(J, left, np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0)))
+            u, w = u + d[:n], w + d[n:]
+            left = right - J @ np.append(u, w)
+            if not _share(left, u) <= SOLVED:
                 return None
-        negative = y[cones.heads] < 0.0
-        if left <= EXACT and not negative.any():
-            return u, y
-        flowing = flowing & ~negative
+        negative = may.along & (w < -NEGATIVE * np.abs(w).max(initial=0.0))
+        if _share(left, u) <= EXACT and not negative.any():
+            return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
+        kept &= ~negative[may.ray]
     return None
 
 
-def _left(problem: LimitProblem, G: sparse.csr_array, u: Array, y: Array) -> float:
+def _share(left: Array, u: Array) -> float:
     """What is left of Eqs (54) and (55), over the largest rate."""
-    flow = np.abs(problem.C @ u + G.T @ y).max()
-    return float(max(flow, abs(problem.live @ u - 1.0)) / (np.abs(u).max() or 1.0))
+    return float(np.abs(left).max() / (np.abs(u).max() or 1.0))
 
 
-def _least_change(problem: LimitProblem, G: sparse.csr_array, rows: Indices, u: Array, y: Array) -> Array:
-    """Least change of u and of the multipliers of `rows`, by their size, that satisfies Eqs (54), (55)."""
-    size = problem.cones.norm(y)[problem.cones.member][rows]
-    largest = size.max(initial=0.0)
-    unit = np.maximum(size / largest, LEAST_MULTIPLIER) if largest > 0.0 else np.ones(len(size))
-    live = sparse.csr_array(problem.live[None, :])
-    blocks: list[list[Any]] = [[problem.C, sparse.csr_array(G[rows].T)], [live, None]]
-    J = sparse.csr_array(sparse.block_array(blocks if len(size) else [row[:1] for row in blocks]))
-    columns = sparse.diags_array(np.append(np.ones(problem.C.shape[1]), unit))
+def _least_change(J: sparse.csr_array, r: Array, unit: Array) -> Array:
+    """Least change d, each part of it in its unit, with J d = r."""
+    columns = sparse.diags_array(unit)
     length = np.sqrt((J @ columns).power(2).sum(axis=1))
     scale = sparse.diags_array(1.0 / np.where(length > 0.0, length, 1.0))
-    r = -np.append(problem.C @ u + G.T @ y, problem.live @ u - 1.0)
     scaled = sparse.csr_array(scale @ J @ columns)
-    return np.asarray(columns @ least_solution(scaled, scale @ r, REGULAR, REFINEMENTS))
+    return unit * least_solution(scaled, np.asarray(scale @ r), REGULAR, REFINEMENTS)
 
 
 def least_solution(J: sparse.csr_array, r: Array, regular: float, refinements: int) -> Array:
@@ -76,7 +74,7 @@ def least_solution(J: sparse.csr_array, r: Array, regular: float, refinements: i
     m, n = J.shape
     eps = sparse.diags_array(np.full(m, -regular))
     K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = linalg.splu(K)
+    lu = diagonal_factors(K)
     right = np.concatenate([np.zeros(n), r])
     z = lu.solve(right)
     for _ in range(refinements):

@@ -15,6 +15,7 @@ from scipy import sparse
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.shown import many
 
 TOLERANCE = 1e-8  # largest residual of an answer
 
@@ -33,6 +34,13 @@ class Residual:
     def __str__(self) -> str:
         place = f" at {self.where}" if self.where else ""
         return f"{self.name} {self.value:.1e}{place} ({self.meaning})"
+
+
+def nearest(tried: Sequence[Residual], what: str) -> str:
+    """Return what is said of the best of all that was tried, each by its worst residual."""
+    best = min(tried, key=lambda one: one.value)
+    place = f" at {best.where}" if best.where else ""
+    return f"the best of {many(len(tried), what)} has the {best.name} residual {best.value:.1e}{place}"
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from limitblocks.geometry import given, polyhedron, surface
 from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
 
 _CORNERS = np.array([(x, y, z) for z in (-0.5, 0.5) for y in (-0.5, 0.5) for x in (-0.5, 0.5)])
+AXES = ("x", "y", "z")
 _WORDS = ("unit_weight", "layer", "material", "groups", "colour")
 _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
 
@@ -95,6 +96,38 @@ class Block:
         if sides.min() <= 0.0:
             given.wrong(name, f"size is {tuple(sides.tolist())}; all three dimensions must be positive")
         return cls(name, given.numbers(name, "at", at, (3,)) + _CORNERS * sides, _BOX_FACES, unit_weight)
+
+    @classmethod
+    def prism(
+        cls,
+        name: str,
+        outline: npt.ArrayLike,
+        between: npt.ArrayLike,
+        unit_weight: float | None = None,
+        along: str = "y",
+    ) -> Block:
+        """Return the prism of an outline (n, 2), m, `between` two places (2,) `along` an axis, m.
+
+        The outline is in the other two axes in the order of the alphabet, "y": X and Z, turning either way.
+
+        Raises
+        ------
+        GeometryError
+            The outline has no area or crosses itself, the places are not in order, or a number is not finite.
+        """
+        points = given.numbers(name, "outline", outline, (None, 2))
+        low, high = given.numbers(name, "between", between, (2,)).tolist()
+        if along not in AXES:
+            given.wrong(name, f"along is {along!r}; x, y or z is needed")
+        if not low < high:
+            given.wrong(name, f"between is ({low:g}, {high:g}); the lesser place comes first")
+        u, v = points.T
+        turn = float(u @ np.roll(v, -1) - v @ np.roll(u, -1)) * (-1.0 if along == "y" else 1.0)
+        points, n = points[::-1] if turn > 0.0 else points, len(points)
+        sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
+        faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
+        vertices = np.insert(np.tile(points, (2, 1)), AXES.index(along), np.repeat([low, high], n), axis=1)
+        return cls(name, vertices, faces, unit_weight)
 
     @cached_property
     def size(self) -> float:

@@ -4,20 +4,14 @@ from __future__ import annotations
 
 from dataclasses import MISSING, fields
 from inspect import getdoc
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeVar, Union, get_type_hints
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_type_hints
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model, model_validator
+from pydantic import ConfigDict, Discriminator, Field, Tag, create_model
 
+from limitblocks.io.block_documents import BlockDocument, Document, Many, Number, Place, Vector
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.io.units import Force, Length
 
-# far beyond any structure, and its powers are still finite
-Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
-Vector = tuple[Number, Number, Number]
-Place = tuple[Number, Number]
-T = TypeVar("T")
-#: A list of which the first fault is told; a file of a million zeros would take gigabytes of them otherwise.
-Many = Annotated[list[T], Field(fail_fast=True)]
 _BOUNDED: dict[Any, Any] = {
     float: Number,
     tuple[float, float]: Place,
@@ -25,61 +19,6 @@ _BOUNDED: dict[Any, Any] = {
     tuple[float, float, float] | None: Vector | None,
     tuple[str, ...]: Annotated[tuple[str, ...], Field(fail_fast=True)],
 }
-_ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}]}
-
-
-class Document(BaseModel):
-    """Part of a model file: no unknown keys, no conversion of types, finite numbers."""
-
-    model_config = ConfigDict(
-        extra="forbid",
-        strict=True,
-        allow_inf_nan=False,
-        use_attribute_docstrings=True,
-        protected_namespaces=(),  # of `model_`, which model_digest begins with
-    )
-
-
-class Box(Document):
-    """A box along the global axes."""
-
-    size: Vector
-    """Dimensions along X, Y, Z, m."""
-    at: Vector
-    """Centre, m."""
-
-
-class BlockDocument(Document):
-    """A rigid block: either vertices with faces, or a box."""
-
-    model_config = ConfigDict(json_schema_extra=_ONE_FORM)  # type: ignore[typeddict-item] # a schema is JSON
-
-    name: str
-    """Name, unique in the model."""
-    unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
-    """Weight per volume, N/m3; may be left out for supports."""
-    layer: str = ""
-    """Layer or group that it is on."""
-    material: str = ""
-    """What it is made of; a name in `materials` where the file has them."""
-    groups: Many[str] = []
-    """Groups that it belongs to."""
-    colour: Annotated[str, Field(pattern=r"^(#[0-9a-fA-F]{6})?$")] = ""
-    """Its colour in a drawing, as #rrggbb."""
-    vertices: Many[Vector] | None = None
-    """Vertices in global axes, m."""
-    faces: Many[Many[int]] | None = None
-    """Vertex indices (from 0) of each face, counter-clockwise seen from outside."""
-    box: Box | None = None
-
-    @model_validator(mode="after")
-    def _one_form(self) -> BlockDocument:
-        given = [key for key in ("vertices", "faces", "box") if getattr(self, key) is not None]
-        if given not in (["vertices", "faces"], ["box"]):
-            raise ValueError(
-                f"has {' and '.join(given) or 'no shape'}; expected either vertices and faces, or box"
-            )
-        return self
 
 
 class InterfaceDocument(Document):

@@ -17,7 +17,7 @@ import numpy as np
 from limitblocks.errors import MOST_PROBLEMS, ModelError, near
 
 if TYPE_CHECKING:
-    from limitblocks.io.documents import Document
+    from limitblocks.io.block_documents import Document
 
 __all__ = ["Faults", "named", "near", "validated"]
 

@@ -21,6 +21,7 @@ from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.placed import UNITS, Contents, Frame, frame
 from limitblocks.io.supports import LikelySupports, likely_supports
+from limitblocks.shown import many
 
 _FORMATS = {
     ".obj": "Wavefront OBJ",
@@ -121,8 +122,8 @@ class Look:
 
     def __str__(self) -> str:
         size = " x ".join(f"{side:.4g}" for side in self.size)
-        bad = f", {len(self.faults)} faults" if self.faults else ""
-        return f"{self.file}: {len(self.blocks)} blocks{bad}, {size} m"
+        bad = f", {many(len(self.faults), 'fault')}" if self.faults else ""
+        return f"{self.file}: {many(len(self.blocks), 'block')}{bad}, {size} m"
 
 
 def look(
@@ -198,7 +199,7 @@ def _look(
         units,
         up,
         (tuple(corners.min(axis=0).tolist()), tuple(corners.max(axis=0).tolist())),
-        f"{len(contacts.interfaces)} interfaces; {contacts.accuracy}",
+        f"{many(len(contacts.interfaces), 'interface')}; {contacts.accuracy}",
         marked,
         likely_supports(blocks),
         (*warnings, *_suspicious(blocks, corners, contacts)),

@@ -26,8 +26,8 @@ from limitblocks.mechanics.loads import self_weight, unit_vector
 from limitblocks.model import Model
 
 if TYPE_CHECKING:
+    from limitblocks.io.block_documents import BlockDocument
     from limitblocks.io.documents import (
-        BlockDocument,
         FindSettings,
         InterfaceDocument,
         ModelDocument,
@@ -154,6 +154,8 @@ def _unknown_names(document: ModelDocument) -> list[str]:
 def _block(document: BlockDocument) -> Block:
     if document.box is not None:
         block = Block.box(document.name, document.box.size, document.box.at)
+    elif document.prism is not None:
+        block = Block.prism(document.name, **document.prism.model_dump())
     else:
         block = Block(document.name, document.vertices, document.faces)  # type: ignore[arg-type]
     return block.labelled(unit_weight=document.unit_weight, **{key: getattr(document, key) for key in WORDS})

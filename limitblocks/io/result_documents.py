@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from limitblocks.io.documents import Document, Many, Number
+from limitblocks.io.block_documents import Document, Many, Number
 from limitblocks.problem import ASSOCIATED, Turning
 
 Six = tuple[Number, Number, Number, Number, Number, Number]

@@ -31,7 +31,20 @@ NEWTONS = {
 #: Powers of force and length in every number of a model file, by its key; (0, 0) has no unit.
 DIMENSIONS: dict[str, tuple[int, int]] = {
     **dict.fromkeys(
-        ("size", "at", "vertices", "centroid", "polygon", "level", "start", "end", "length"), (0, 1)
+        (
+            "size",
+            "at",
+            "vertices",
+            "centroid",
+            "polygon",
+            "level",
+            "start",
+            "end",
+            "length",
+            "outline",
+            "between",
+        ),
+        (0, 1),
     ),
     **dict.fromkeys(("force", "weight"), (1, 0)),
     "moment": (1, 1),

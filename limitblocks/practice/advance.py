@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,18 +10,21 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
-from limitblocks.mechanics.loads.load import Load
+from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
-from limitblocks.practice.rejoined import closed_up, meet, slid
+from limitblocks.practice.rejoined import closed_up, joined, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
+PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
 SECANTS = 4  # to where a contact closes; then steps are halved
 SHORTEST = 2.0**-20  # of a step: where a contact closes
+BESIDE = 1e-2  # of the size of a block: a point as far from it is not on it
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 
 
@@ -50,6 +54,21 @@ def refuse_left_behind(what: str, **loads: Load) -> None:
                     f"the {word} load has a {type(term).__name__}, which does not move with the blocks; a "
                     f"{what} needs weights, added masses, forces and moments"
                 )
+
+
+def control_point(model: Model, name: str, at: Sequence[float]) -> tuple[Block, Array]:
+    """Return the block of a name and a point (3,), m, on it; ModelError where it is none."""
+    named = {block.name: block for block in model.blocks}
+    if name not in named:
+        raise ModelError(f"control block {name!r} is not a block of the model")
+    block, point = named[name], np.array(vector(at, "control point"))
+    low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
+    if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
+        here, first, last = (triple(place.tolist()) for place in (point, low, high))
+        raise ModelError(
+            f"control point {here} is not on block {block.name!r}, which reaches from {first} to {last} m"
+        )
+    return block, point
 
 
 def advanced(assembly: Assembly, control: Control, rates: Array, step: float) -> Advanced | None:
@@ -86,7 +105,8 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
             meets &= ~closes
         if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
             now = [own.ways[:, 2] for own in goal.contacts]
-            return slid(goal, sliding), _changes(assembly, was, now, least)
+            there, said = slid(goal, sliding)
+            return there, _changes(assembly, was, now, least) + said
         closes &= meets
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
@@ -96,8 +116,15 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
 def touching(assembly: Assembly) -> Model:
     """Return the model without the interfaces that have opened all over: they carry nothing."""
     least = 10.0 * CLOSED * assembly.size
-    closed = [own.interface for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least]
-    return replace(assembly.model, interfaces=tuple(closed))
+    return joined(assembly, (own for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least))
+
+
+def pressed_in(assembly: Assembly, stress_resultants: Array) -> Assembly:
+    """Return the structure with the contacts that carry a force, of stress resultants (m, 6), marked."""
+    normal = -stress_resultants[:, 2]
+    pressed = (normal > PRESSED * normal.max()).tolist()
+    contacts = (replace(own, pressed=one) for own, one in zip(assembly.contacts, pressed, strict=True))
+    return replace(assembly, contacts=tuple(contacts))
 
 
 def carried_by(assembly: Assembly, model: Model, stress_resultants: Array) -> Array:

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
-from limitblocks.mechanics.loads.load import vector
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
@@ -22,7 +22,9 @@ from limitblocks.practice.advance import (
     advanced,
     carried,
     carried_by,
+    control_point,
     farthest,
+    pressed_in,
     refuse_left_behind,
     touching,
     velocity,
@@ -33,17 +35,13 @@ from limitblocks.practice.snapped import falls, snapped
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
+MOST = 50  # points a step asked for: a curve that snaps on and on has no end
 ZERO = 1e-8  # of the first load factor: it counts as none
-SECANT, HALVING = (
-    0.98,
-    0.5,
-)  # of a step that went beyond the zero: the most of the next one, and of those after
+SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next one, the least and those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
-PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
-HELD = 0.05  # of the first load factor, taken from the dead loads where they fall by themselves
 
 
 def capacity_curve(
@@ -85,7 +83,9 @@ def capacity_curve(
     SolveError
         As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
     """
-    _refuse(model, steps, largest)
+    checked_count("steps", steps, 2)
+    farthest(largest, "displacement")
+    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
     first = nonassociated(model)
     point = _control(model, first, control)
     points, ended = [], ""
@@ -100,22 +100,15 @@ def capacity_curve(
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
 
 
-def _refuse(model: Model, steps: int, largest: float) -> None:
-    checked_count("steps", steps, 2)
-    farthest(largest, "displacement")
-    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
-
-
 def _curve(
     model: Model, first: Nonassociated, control: Control, steps: int, largest: float
 ) -> Iterator[CapacityPoint | str]:
     """The points of the curve, then why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
-    whole = assembly.size
-    end = min(largest, whole)
+    end = min(largest, whole := assembly.size)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
-    while True:
+    for _ in range(MOST * steps):
         yield point
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
@@ -131,6 +124,7 @@ def _curve(
             yield found if isinstance(found, str) else _stopped(point)
             return
         before, (assembly, control, point) = point, found
+    yield f"{MOST * steps} points do not lead to an end"
 
 
 def _ahead(
@@ -151,7 +145,7 @@ def _ahead(
         way, left = found[2].displacement - point.displacement, found[2].load_factor
         if left >= -ZERO * scale or way <= JUMP * assembly.size or found[2].snapped:
             return found
-        step, most = way * min(most, point.load_factor / (point.load_factor - left)), HALVING
+        step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
 
 
 def _stopped(point: CapacityPoint) -> str:
@@ -181,7 +175,7 @@ def _advanced(
     there = _held(assembly, control, point, step)
     if there is None:
         return None
-    shift, loaded, result = _answered(touching(there.assembly), scale)
+    shift, loaded, result = _answered(touching(there.assembly))
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
     pressed = across(there.assembly, carried_by(there.assembly, loaded, result.stress_resultants))
     found = CapacityPoint(
@@ -195,10 +189,9 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
 
     def ahead(way: float) -> tuple[Advanced | None, bool]:
         there = advanced(assembly, control, point.result.displacement_rates, way)
-        return there, there is not None and falls(there.assembly, carries)
+        return there, there is not None and falls(there.assembly)
 
-    normal = -carried_by(assembly, point.model, point.result.stress_resultants)[:, 2]
-    carries = normal > PRESSED * normal.max()
+    assembly = pressed_in(assembly, carried_by(assembly, point.model, point.result.stress_resultants))
     there, fallen = ahead(step)
     low, high, held = 0.0, step, None
     way = EVENT * assembly.size
@@ -209,18 +202,24 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
         way = (low + high) / 2.0
     if held is not None or there is None or not fallen:
         return held or there
-    rest, changes = snapped(there.assembly, carries)
+    rest, changes = snapped(there.assembly)
     moved_on = carried(there.assembly, rest, there.control)
     return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 
 
-def _answered(model: Model, scale: float) -> tuple[float, Model, Nonassociated]:
-    """The answer; beyond the zero of the curve with a little of the live load taken from the dead loads."""
+def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
+    """The answer; where the dead loads alone fall, from the load factor of the least stresses."""
     try:
         return 0.0, model, nonassociated(model)
     except NoEquilibrium:
-        held = replace(model, dead=model.dead + (-HELD * scale) * model.live)
-        return HELD * scale, held, nonassociated(held)
+        problem = model.problem
+        least = NearestStresses(problem, problem.compliance)
+        found = least.find(np.zeros(len(problem.compliance)), np.zeros(len(problem.g)))
+        if found is None:
+            raise
+        shift = -found[0] / problem.units.live
+        held = replace(model, dead=model.dead + (-shift) * model.live)
+        return shift, held, nonassociated(held)
 
 
 def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:
@@ -229,7 +228,6 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     if not np.linalg.norm(push) > 0.0:
         raise ModelError("the live loads add up to no force; a capacity curve needs a direction")
     direction = read_only(push / np.linalg.norm(push))
-    place = {block.name: k for k, block in enumerate(model.blocks)}
     rates = result.displacement_rates
     if given is None:
         block = model.blocks[int((rates[:, :3] @ direction).argmax())]
@@ -237,10 +235,7 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]
     else:
-        name, at = given
-        if name not in place:
-            raise ModelError(f"control block {name!r} is not a block of the model")
-        block, point = model.blocks[place[name]], np.array(vector(at, "control point"))
+        block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
     largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
     if not velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:

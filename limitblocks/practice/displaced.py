@@ -37,6 +37,8 @@ class Contact:
         closed. A tie has its two anchors.
     axes_i, axes_j : Array, shape (3, 3)
         Its axes as they turn with block i and with block j.
+    pressed : bool
+        Whether it carried a force at the last answer: it does not slide while the structure falls.
     """
 
     interface: Interface
@@ -45,6 +47,7 @@ class Contact:
     on_j: Array
     axes_i: Array
     axes_j: Array
+    pressed: bool = False
 
     @cached_property
     def half_way(self) -> Array:

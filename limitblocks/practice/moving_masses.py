@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
+from limitblocks.mechanics.loads.load import along
 from limitblocks.model import Model
 
 STILL = 1e-6  # of the largest displacement: a mass below it does not move
@@ -73,7 +74,7 @@ def _masses(model: Model) -> Iterator[tuple[str, str, float, Array, Array]]:
             raise ModelError(f"the live load has a {type(term).__name__}; expected weights and added masses")
         own = np.array(term.direction)
         if abs(own[2]) > 1e-9 or (direction is not None and not np.allclose(own, direction)):
-            raise ModelError(f"the live load acts along {own.tolist()}; expected one horizontal direction")
+            raise ModelError(f"the live load acts {along(own.tolist())}; expected one horizontal direction")
         direction = own
         if isinstance(term, AddedMass):
             yield f"mass on {term.block}", term.block, factor * term.weight, np.array(term.at), own

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import lsmr
 
-from limitblocks.arrays import Array
-from limitblocks.errors import SolveError
-from limitblocks.geometry import find_interfaces
+from limitblocks.arrays import Array, Indices
+from limitblocks.errors import ModelError, SolveError
+from limitblocks.geometry import find_contacts
 from limitblocks.geometry.overlap import find_overlaps
+from limitblocks.model import Model
 from limitblocks.practice.displaced import (
     CLOSED,
     Assembly,
@@ -76,51 +78,71 @@ def rows_of(assembly: Assembly) -> sparse.csr_array:
 
 def meet(assembly: Assembly) -> bool:
     """Whether blocks that no interface joins overlap."""
-    blocks = assembly.model.blocks
+    pairs = _apart(assembly, 0.0)
+    points = [block.vertices for block in assembly.model.blocks]
+    return len(pairs) > 0 and bool(find_overlaps(assembly.model.blocks, points, pairs, MEETS * assembly.size))
+
+
+def _apart(assembly: Assembly, reach: float) -> Indices:
+    """Pairs of blocks (p, 2) that no interface joins and whose boxes come nearer than `reach`, m."""
+    points = [block.vertices for block in assembly.model.blocks]
     joined = {tuple(sorted(own.ends)) for own in assembly.contacts}
-    low, high = (np.array([end(block.vertices, axis=0) for block in blocks]) for end in (np.min, np.max))
-    inside = np.triu((low[:, None] < high[None]).all(axis=2) & (low[None] < high[:, None]).all(axis=2), 1)
-    pairs = np.array([pair for pair in np.argwhere(inside).tolist() if tuple(pair) not in joined])
-    points = [block.vertices for block in blocks]
-    return len(pairs) > 0 and bool(find_overlaps(blocks, points, pairs, MEETS * assembly.size))
+    low, high = (np.array([end(own, axis=0) for own in points]) for end in (np.min, np.max))
+    near = (low[:, None] < high[None] + reach).all(axis=2)
+    found = [pair for pair in np.argwhere(np.triu(near & near.T, 1)).tolist() if tuple(pair) not in joined]
+    return np.array(found, dtype=np.intp).reshape(-1, 2)
 
 
-def slid(assembly: Assembly, sliding: list[bool]) -> Assembly:
-    """Return the structure with the contacts that slide where block j now is, and their areas found anew.
+def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, ...]]:
+    """Return the structure with the contacts that slide where block j now is, and which were lost or found.
 
-    Faces that slide flat on one another get the area that they now share; an opened joint that slides keeps
-    its corners on block j.
-
-    Raises
-    ------
-    SolveError
-        If they share none any more, or in other parts.
+    Faces that slide flat on one another get the areas that they now share: one that shares none any more
+    carries nothing, and is left out. A block that slides onto a further face rests on that as well. An opened
+    joint that slides keeps its corners on block j.
     """
-    contacts = tuple(
-        _found_anew(assembly, own) if slides and not own.tied else own
-        for own, slides in zip(assembly.contacts, sliding, strict=True)
-    )
-    model = replace(assembly.model, interfaces=tuple(own.interface for own in contacts))
-    return Assembly(model, contacts)
+    kept: list[Contact] = []
+    flat: dict[tuple[int, int], list[Contact]] = {}
+    said = []
+    for own, slides in zip(assembly.contacts, sliding, strict=True):
+        if not slides or own.tied:
+            kept.append(own)
+        elif not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
+            moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
+            kept.append(replace(moved_on, interface=placed(moved_on)))
+        else:
+            shared = [] if own.ends in flat else _shared(assembly, own.ends, [own])
+            said += [] if shared or own.ends in flat else [f"{own.interface.name} slides off"]
+            kept += [replace(one, pressed=own.pressed) for one in shared]
+            flat.setdefault(own.ends, []).append(own)
+    for i, j in _apart(assembly, MEETS * assembly.size).tolist() if flat else ():
+        near = [one for ends, group in flat.items() if {i, j} & set(ends) for one in group]
+        shared = _shared(assembly, (i, j), near, MEETS) if near else []
+        kept += shared
+        said += [f"{shared[0].interface.name} touches"] if shared else []
+    return Assembly(joined(assembly, kept), tuple(kept)), tuple(said)
 
 
-def _found_anew(assembly: Assembly, own: Contact) -> Contact:
-    if not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
-        moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
-        return replace(moved_on, interface=placed(moved_on))
-    now = own.interface
+def joined(assembly: Assembly, contacts: Iterable[Contact]) -> Model:
+    """Return the model with these contacts alone; SolveError where they leave a block in the air."""
+    try:
+        return replace(assembly.model, interfaces=tuple(own.interface for own in contacts))
+    except ModelError as error:
+        raise SolveError(f"blocks have lost all that they rest on: {error}") from error
+
+
+def _shared(
+    assembly: Assembly, ends: tuple[int, int], like: list[Contact], exactly: float | None = None
+) -> list[Contact]:
+    """Contacts of two blocks, found anew, that are parallel to one of others and have its joint."""
     blocks = assembly.model.blocks
-    faces = find_interfaces([blocks[k] for k in own.ends], now.joint)
-    shared = [face for face in faces if _parallel(face.axes, now.axes)]
-    parts = [
-        one for one in assembly.contacts if one.ends == own.ends and _parallel(one.interface.axes, now.axes)
-    ]
-    if not shared:
-        raise SolveError(f"{now.block_j!r} slides off {now.block_i!r}")
-    if len(shared) != len(parts):
-        raise SolveError(f"{now.block_j!r} slides on {now.block_i!r} to an area of {len(shared)} parts")
-    return contact(shared[parts.index(own)], {block.name: k for k, block in enumerate(blocks)})
+    place = {block.name: k for k, block in enumerate(blocks)}
+    faces = find_contacts([blocks[k] for k in ends], None, gap=exactly, angle=exactly).interfaces
+    found = []
+    for face in faces:
+        joint = [own.interface.joint for own in like if _parallel(own.axes_i, face.axes)]
+        found += [contact(replace(face, joint=joint[0]), place)] if joint else []
+    return found
 
 
 def _parallel(axes: Array, others: Array) -> bool:
-    return bool(axes[2] @ others[2] > 1.0 - PARALLEL)
+    return bool(abs(axes[2] @ others[2]) > 1.0 - PARALLEL)

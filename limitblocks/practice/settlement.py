@@ -183,7 +183,8 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     others = [name for name in model.supports if name != support]
     if support not in model.supports:
         kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
-        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {model.supports}")
+        known = ", ".join(map(repr, model.supports))
+        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {known}")
     if not others:
         raise ModelError(
             f"settlement: {support!r} is the only support; the whole structure would move with it"

@@ -11,7 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.practice.advance import moved_until_contact
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact
 from limitblocks.practice.rejoined import rows_of
 
 linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
@@ -22,19 +22,14 @@ FALLS = 1e-6  # power of the dead loads over that of all of them through the lar
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
-def falls(assembly: Assembly, pressed: Truths) -> bool:
+def falls(assembly: Assembly) -> bool:
     """Whether no load factor holds the structure by forces where its contacts are closed.
 
     By Farkas' lemma there is then a motion in which the live load does no work, the dead loads do, and no
-    corner penetrates. It knows no bonds: what a tie, a dowel or a glued joint may hold is never said to fall.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    pressed : array of bool, shape (m,)
-        Contacts that carry a force: they do not slide.
+    corner penetrates and no contact slides that was pressed. It knows no bonds: what a tie, a dowel or a
+    glued joint may hold is never said to fall.
     """
-    return not any(_holds(own) for own in assembly.contacts) and _steepest(assembly, pressed)[1] > FALLS
+    return not any(_holds(own) for own in assembly.contacts) and steepest(assembly)[1] > FALLS
 
 
 def _holds(own: Contact) -> bool:
@@ -44,7 +39,7 @@ def _holds(own: Contact) -> bool:
     return bonded or isinstance(joint, Tie | Dowel | Guide)
 
 
-def snapped(assembly: Assembly, pressed: Truths) -> tuple[Assembly, tuple[str, ...]]:
+def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
     """Return where a structure that falls comes to rest, and the contacts that opened and closed.
 
     Each round goes along the steepest fall until a contact closes: a chain under compression is unstable,
@@ -57,18 +52,18 @@ def snapped(assembly: Assembly, pressed: Truths) -> tuple[Assembly, tuple[str, .
     """
     changes: tuple[str, ...] = ()
     for _ in range(ROUNDS):
-        step, power = _steepest(assembly, pressed)
+        step, power = steepest(assembly)
         if power <= FALLS:
             return assembly, changes
         found = moved_until_contact(assembly, step)
-        if found is None or len(found[0].contacts) != len(pressed):
+        if found is None:
             break
         assembly, changes = found[0], changes + found[1]
     raise SolveError("the structure snaps, and where it comes to rest was not found")
 
 
-def _steepest(assembly: Assembly, pressed: Truths) -> tuple[Array, float]:
-    """Displacements (n, 6) in which the dead loads do most work, and it over the most they could do."""
+def steepest(assembly: Assembly) -> tuple[Array, float]:
+    """Return displacements (n, 6) in which the dead loads do most work, and its share of what they could."""
     model = assembly.model
     free = np.array([block.name not in model.supports for block in model.blocks])
     size = np.array([block.size for block in model.blocks])
@@ -79,7 +74,8 @@ def _steepest(assembly: Assembly, pressed: Truths) -> tuple[Array, float]:
     gap = np.concatenate([own.ways[:, 2] for own in assembly.contacts])
     corners = [len(own.on_i) for own in assembly.contacts]
     rigid = ~np.repeat([own.tied for own in assembly.contacts], corners)
-    stuck = rigid & np.repeat(pressed, corners) & (gap <= 10.0 * CLOSED * assembly.size)
+    pressed = np.repeat([own.pressed for own in assembly.contacts], corners)
+    stuck = rigid & pressed & (gap <= 10.0 * CLOSED * assembly.size)
     along = np.flatnonzero(np.outer(stuck, [True, True, False]))
     reach = np.repeat(free, 6) * 1.0
     rests = sparse.csr_array(live.reshape(1, -1) / np.abs(live).max())

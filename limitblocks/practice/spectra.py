@@ -16,6 +16,7 @@ from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics.loads.load import number
 
 G = 9.81  # m/s2, as the code's examples take it
+MOST = 10.0  # of S, F0 and T_C in s, several times what the code has: more is a slip or another unit
 WIDEST = 1e6  # times the ground acceleration of the site: where that of a limit state is looked for
 
 
@@ -53,9 +54,9 @@ class Spectrum:
 
     def __post_init__(self) -> None:
         number(self.a_g, "a_g", "m/s2", above=0.0)
-        number(self.S, "S", "", above=0.0)
-        number(self.F0, "F0", "", least=2.2)
-        number(self.T_C, "T_C", "s", above=0.0)
+        number(self.S, "S", "", above=0.0, most=MOST)
+        number(self.F0, "F0", "", least=2.2, most=MOST)
+        number(self.T_C, "T_C", "s", above=0.0, most=MOST)
 
     @property
     def T_B(self) -> float:

@@ -18,9 +18,10 @@ from limitblocks.practice.displacement_check import displacement_check
 from limitblocks.practice.inputs import GIVEN, LC1, carried, given, remarks
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
 from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_acceleration
-from limitblocks.practice.verification_result import Inequality, Quantity, Verification
+from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
+MOST_FC = 2.0  # the code has 1 to 1.35
 MOST = 2.0 * G  # m/s2 of the ground: more is in another unit
 
 
@@ -89,17 +90,18 @@ def verification(
         raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
-    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0)
+    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
     place = Place(floor, number(elastic_period, "T_0", "s", least=0.0))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
-    found, a0, e = _oscillator(masses, alpha, confidence)
-    found += given(demand) + carried(place, demand)
+    sums, a0, e = _oscillator(masses, alpha, confidence)
+    found = steps("activation", sums)
+    found += steps("demand", [*given(demand), *carried(place, demand)])
     set_off = ground_acceleration(demand, place.acceleration, a0)
-    found += _linear(a0, demand, place, q, set_off)
+    found += steps("linear", _linear(a0, demand, place, q, set_off))
     checks = [Inequality("linear, SLV", a0, place.acceleration(demand) / q, "m/s2", SIMPLIFIED)]
     if damage_demand:
-        found += given(damage_demand, "SLD")
+        found += steps("demand", given(damage_demand, "SLD"))
         checks.append(
             Inequality("linear, SLD", a0, place.acceleration(damage_demand), "m/s2", _equation(place))
         )
@@ -109,12 +111,12 @@ def verification(
             G / (e * confidence),
         )
         for state, spectrum, given_xi in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
-            found += given(spectrum, state) if spectrum and state != "SLV" else []
             if spectrum:
+                found += steps("demand", given(spectrum, state)) if state != "SLV" else []
                 xi = number(given_xi, f"damping at {state}", "", above=0.0)
                 least = set_off if state == "SLV" else 0.0  # the text has it of SLV alone
                 more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
-                found += more
+                found += steps(state, more)
                 checks.append(check)
     said = remarks(model, collapse.displacement_rates, confidence)
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +15,10 @@ CLAIMED = (
     "Gazzetta itself; M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 "
     "(ties or other links that break, beams that slip off) and C8.7.1.2.1.9 (time histories)."
 )
+
+
+#: Steps of a verification: the mechanism, the earthquake, the checks.
+STEPS = ("activation", "demand", "linear", "SLV", "SLC")
 
 
 @dataclass(frozen=True)
@@ -29,6 +34,8 @@ class Quantity:
         SI; "" of a pure number.
     source : str
         Section that names it.
+    step : str
+        Of the verification; one of :data:`STEPS`.
     """
 
     symbol: str
@@ -37,6 +44,12 @@ class Quantity:
     value: float
     unit: str
     source: str
+    step: str = ""
+
+
+def steps(step: str, found: Iterable[Quantity]) -> list[Quantity]:
+    """Return quantities as those of a step."""
+    return [replace(one, step=step) for one in found]
 
 
 @dataclass(frozen=True)
@@ -99,7 +112,7 @@ class Verification(Result):
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each quantity."""
-        keys = ("symbol", "meaning", "formula", "value", "unit", "source")
+        keys = ("symbol", "meaning", "formula", "value", "unit", "source", "step")
         return [{key: getattr(one, key) for key in keys} for one in self.quantities]
 
     def to_dict(self) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Geometry of the barrier of cones: quotients, its metric, and the spread of products.
 
 Source: Alizadeh & Goldfarb (2003), Second-order cone programming, Mathematical Programming 95, Section 4.
+Vectors of a group of cones stand side by side, shape (size, count, ...): sums over a few rows are fast so.
 """
 
 from __future__ import annotations
@@ -12,32 +13,25 @@ from limitblocks.problem.cones import Cones
 
 
 def minkowski(a: Array, b: Array) -> Array:
-    """Return a0 b0 - az.bz of each cone, shapes (count, size, ...)."""
-    return np.asarray(a[:, 0] * b[:, 0] - (a[:, 1:] * b[:, 1:]).sum(axis=1))
-
-
-def inverse(cones: Cones, s: Array) -> Array:
-    """Return s^-1, with s o s^-1 the identity."""
-    inverted = np.empty_like(s)
-    inverted[: cones.linear] = 1.0 / s[: cones.linear]
-    for index in cones.groups:
-        v = s[index]
-        v = v / minkowski(v, v)[:, None]
-        v[:, 1:] *= -1.0
-        inverted[index] = v
-    return inverted
+    """Return a0 b0 - az.bz of each cone, shapes (size, count, ...)."""
+    return np.asarray(a[0] * b[0] - (a[1:] * b[1:]).sum(axis=0))
 
 
 def quotient(cones: Cones, s: Array, q: Array) -> Array:
-    """Return L(s)^-1 q: what times s is q."""
-    rows = np.empty_like(q)
+    """Return L(s)^-1 q: what times s is q; shape (R,), or (R, k) of columns."""
+    rows, s = np.empty_like(q), s.reshape(-1, *[1] * (q.ndim - 1))
     rows[: cones.linear] = q[: cones.linear] / s[: cones.linear]
     for index in cones.groups:
-        v, w = s[index], q[index]
-        first = minkowski(v, w) / minkowski(v, v)
-        rows[index[:, 0]] = first
-        rows[index[:, 1:]] = (w[:, 1:] - first[:, None] * v[:, 1:]) / v[:, :1]
+        rows[index.T] = _divided(s[index.T], q[index.T])
     return rows
+
+
+def _divided(v: Array, w: Array) -> Array:
+    """L(v)^-1 w of each cone, shapes (size, count, ...)."""
+    divided = np.empty_like(w)
+    divided[0] = minkowski(v, w) / minkowski(v, v)
+    divided[1:] = (w[1:] - divided[0] * v[1:]) / v[0]
+    return divided
 
 
 def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
@@ -50,12 +44,12 @@ def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
     s, y = np.empty_like(v), np.empty_like(v)
     s[k], y[k] = _halves(v[k], products[k])
     for index in cones.groups:
-        w, product = v[index], products[index[:, 0]]
-        size = np.linalg.norm(w[:, 1:], axis=1)
-        axis = w[:, 1:] / np.where(size > 0.0, size, 1.0)[:, None]
-        large, small = _halves(w[:, 0] + size, product), _halves(w[:, 0] - size, product)
+        w, product = v[index.T], products[index[:, 0]]
+        size = np.sqrt((w[1:] * w[1:]).sum(axis=0))
+        axis = w[1:] / np.where(size > 0.0, size, 1.0)
+        large, small = _halves(w[0] + size, product), _halves(w[0] - size, product)
         for vector, a, b in zip((s, y), large, small, strict=True):
-            vector[index] = np.column_stack([(a + b) / 2.0, ((a - b) / 2.0)[:, None] * axis])
+            vector[index.T] = np.vstack([(a + b) / 2.0, (a - b) / 2.0 * axis])
     return s, y
 
 
@@ -72,27 +66,29 @@ def slope(cones: Cones, s: Array, y: Array, rows: Array) -> Array:
     slopes = np.empty_like(rows)
     slopes[k] = rows[k] * (y[k] / s[k])[:, None]
     for index in cones.groups:
-        v, w, F = s[index][:, :, None], y[index][:, :, None], rows[index]
-        head = (w * F).sum(axis=1, keepdims=True)
-        tail = w[:, :1] * F[:, 1:] + w[:, 1:] * F[:, :1]
-        first = (v[:, :1] * head - (v[:, 1:] * tail).sum(axis=1, keepdims=True)) / minkowski(v, v)[:, None]
-        slopes[index] = np.concatenate([first, (tail - first * v[:, 1:]) / v[:, :1]], axis=1)
+        w, F = y[index.T][:, :, None], rows[index.T]
+        product = w[0] * F
+        product[0] = (w * F).sum(axis=0)
+        product[1:] += F[0] * w[1:]
+        slopes[index.T] = _divided(s[index.T][:, :, None], product)
     return slopes
 
 
-def relative(cones: Cones, v: Array, a: Array, b: Array) -> float:
-    """Return the product of two changes of v relative to v, in the Hessian of the barrier at v.
+def curvature(cones: Cones, v: Array, a: Array) -> Array:
+    """Return the Hessian of the barrier at v times a: a change relative to v, as a covector.
 
     The barrier is -log v of a row and -log(v0^2 - vz.vz) / 2 of a cone (Nesterov & Todd 1997).
     """
     k = slice(0, cones.linear)
-    total = float(np.sum(a[k] * b[k] / v[k] ** 2))
+    curved = np.empty_like(a)
+    curved[k] = a[k] / v[k] ** 2
     for index in cones.groups:
-        w, p, q = v[index], a[index], b[index]
+        w, p = v[index.T], a[index.T]
         size = minkowski(w, w)
-        along = 2.0 * minkowski(w, p) * minkowski(w, q) / size**2
-        total += float(np.sum(along - minkowski(p, q) / size))
-    return total
+        part = (2.0 * minkowski(w, p) / size * w - p) / size
+        part[1:] *= -1.0
+        curved[index.T] = part
+    return curved
 
 
 def spread(cones: Cones, s: Array, y: Array, target: Array) -> float:
@@ -100,8 +96,8 @@ def spread(cones: Cones, s: Array, y: Array, target: Array) -> float:
     k = slice(0, cones.linear)
     products = [s[k] * y[k] / target[k]]
     for index in cones.groups:
-        p, q, aim = s[index], y[index], target[index[:, 0]]
-        half = (p * q).sum(axis=1)
+        p, q, aim = s[index.T], y[index.T], target[index[:, 0]]
+        half = (p * q).sum(axis=0)
         both = minkowski(p, p) * minkowski(q, q)
         large = half + np.sqrt(np.maximum(half * half - both, 0.0))
         products += [large / aim, both / (large * aim)]

@@ -31,6 +31,7 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
     return Section(
         title="Adequacy with partial factors",
         own=True,
+        judges=True,
         meaning=FACTORED,
         headline=rounded_down(found.factor),
         quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",

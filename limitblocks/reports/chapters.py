@@ -55,6 +55,7 @@ OWN = (
     "It is the answer of the chapter {}. This report has no certified load factor of its model without "
     "dilatancy, and nothing is said about safety beyond what that chapter says."
 )
+JUDGED = "Safety: chapter {}: {} {}."
 UNCOMPARED = "Safety: the demand {:.4g} is not compared with anything."
 TIED = (("tie-stick", "tie, from anchor to anchor"),)
 VIEWED = (("still", "block that can move"), ("support", "support"))
@@ -128,8 +129,10 @@ def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapte
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
     said = verdict(found, labels.demand) if labels.demand is not None else None
+    judged = [JUDGED.format(one.title, one.headline, one.quantity) for one in sections if one.judges]
+    parts += [Text(words) for words in judged]
     if labels.demand is None:
-        parts.append(Text(UNDEMANDED))
+        parts += [] if judged else [Text(UNDEMANDED)]
     elif said is None:
         parts.append(Text(UNCOMPARED.format(labels.demand)))
     else:

@@ -21,6 +21,7 @@ from limitblocks.reports.words import (
     some,
     times,
 )
+from limitblocks.shown import many
 
 
 def facts(model: Model) -> dict[str, Any]:
@@ -89,7 +90,10 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Joints", times(known["joints"])),
         ("Weight of the free blocks", f"{known['weight'] / 1e3:.4g} kN"),
         ("Volume of the free blocks", f"{known['volume']:.4g} m³"),
-        *((f"Unit weight {row[0]}", f"{row[1]} blocks, {row[2]}, {row[3]}") for row in known["unit_weights"]),
+        *(
+            (f"Unit weight {row[0]}", f"{many(row[1], 'block')}, {row[2]}, {row[3]}")
+            for row in known["unit_weights"]
+        ),
         ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
         ("Dead load", some(known["dead"]) or "none"),
         ("Its resultant", known["dead_resultant"]),

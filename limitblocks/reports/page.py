@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from limitblocks.reports import assets
 from limitblocks.reports.document import Document
+from limitblocks.shown import many
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -85,8 +86,8 @@ def _summary(scene: dict[str, Any], moving: list[str]) -> str:
     """Return the picture in a sentence or two, for those who do not see it."""
     supports = len(scene["blocks"]["support"])
     free = len(scene["blocks"]["name"]) - supports
-    said = f"3D picture of {free} blocks on {supports} support{'s' * (supports > 1)}"
-    said += f" with {len(scene['interfaces']['i'])} interfaces"
+    said = f"3D picture of {many(free, 'block')} on {many(supports, 'support')}"
+    said += f" with {many(len(scene['interfaces']['i']), 'interface')}"
     if not moving:
         return said
     return f"{said}; mechanism and contact forces of: {', '.join(moving)}. The tables have the numbers."

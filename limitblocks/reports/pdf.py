@@ -149,8 +149,8 @@ def _table(part: Table) -> list[Any]:
     from reportlab.lib.colors import HexColor
     from reportlab.platypus import CondPageBreak, LongTable, Spacer
 
-    wide = len(part.heads) > 5
-    size = 6.0 if wide else 8.0
+    crowded = len(part.heads) > 5 and sum(_wanted(part, 8.0)) > _WIDE
+    size = 6.0 if crowded else 8.0
     numbers = [k in part.right for k in range(len(part.heads))]
     cells = [
         [
@@ -172,16 +172,22 @@ def _table(part: Table) -> list[Any]:
 
 def _widths(table: Table, size: float) -> list[float]:
     """Widths of the columns, points: as wide as their texts, the widest ones less where that is too much."""
-    from reportlab.pdfbase.pdfmetrics import stringWidth
-
-    columns = zip(*(table.heads, *([cell.text for cell in row] for row in table.rows)), strict=True)
-    wanted = [
-        max(stringWidth(latin(text), "Helvetica-Bold", size) for text in column) + _PADDING
-        for column in columns
-    ]
+    wanted = _wanted(table, size)
     left, widths = _WIDE, [0.0] * len(wanted)
     for rank, k in enumerate(sorted(range(len(wanted)), key=wanted.__getitem__)):
         widths[k] = min(wanted[k], left / (len(wanted) - rank))
         left -= widths[k]
-    widths[-1] += left  # what is to spare, so that the rules run across the page
+    words = [k for k in range(len(widths)) if k not in table.right]
+    widths[max(words, default=-1)] += left  # what is to spare, so that the rules run across the page
     return widths
+
+
+def _wanted(table: Table, size: float) -> list[float]:
+    """Widths at which no text of a column is broken, points."""
+    from reportlab.pdfbase.pdfmetrics import stringWidth
+
+    columns = zip(*(table.heads, *([cell.text for cell in row] for row in table.rows)), strict=True)
+    return [
+        max(stringWidth(latin(text), "Helvetica-Bold", size) for text in column) + _PADDING
+        for column in columns
+    ]

@@ -54,6 +54,8 @@ class Section:
         An upper estimate of it.
     own : bool
         Whether its headline is at the head of a report that has no load factor to design with.
+    judges : bool
+        Whether its headline says something about safety.
     compared : tuple of (str, str, str)
         Name, value and meaning of load factors to be put side by side.
     """
@@ -72,6 +74,7 @@ class Section:
     designs: tuple[tuple[float, str], ...] = ()
     upper: float | None = None
     own: bool = False
+    judges: bool = False
     compared: tuple[tuple[str, str, str], ...] = ()
 
 

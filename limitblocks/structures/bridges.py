@@ -143,7 +143,8 @@ def _pier_width(spans: int, given: float | None, least: float) -> float:
     if spans == 1:
         return 0.0
     if given is None or not least * (1 - 1e-12) <= given < np.inf:
-        refuse([f"pier width is {given!r}, expected at least {least:.4g} m, what the springings need"])
+        shown = "missing" if given is None else repr(given)
+        refuse([f"pier width is {shown}, expected at least {least:.4g} m, what the springings need"])
     return float(given or 0.0)
 
 

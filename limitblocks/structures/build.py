@@ -46,13 +46,7 @@ def prism(
     name: str, outline: npt.ArrayLike, depth: float, unit_weight: float | None = None, at: float = 0.0
 ) -> Block:
     """Prism along Y about y = `at` of a convex outline (n, 2) in X and Z, counter-clockwise seen from -Y."""
-    points = np.asarray(outline, dtype=float)
-    n = len(points)
-    x, z = np.tile(points, (2, 1)).T
-    y = np.repeat([at - depth / 2, at + depth / 2], n)
-    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
-    faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
-    return Block(name, np.column_stack([x, y, z]), faces, unit_weight)
+    return Block.prism(name, outline, (at - depth / 2, at + depth / 2), unit_weight)
 
 
 def span_box(

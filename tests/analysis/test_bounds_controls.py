@@ -248,8 +248,11 @@ def test_an_exception_of_the_solvers_does_not_reach_the_user(monkeypatch):
 
 
 def test_tolerance_is_obeyed():
-    with pytest.raises(lb.errors.SolverFailure):
+    with pytest.raises(lb.errors.SolverFailure) as caught_error:
         lb.bounds(structures.wall(lb.PointContact(0.6), length=0.8, courses=3), tolerance=1e-18)
+    said = str(caught_error.value)
+    assert said.startswith("no pair of bounds within 1e-18; the best of ")
+    assert said.count("residual") == 1
 
 
 def test_numbers_far_apart_and_singular_are_factorised():

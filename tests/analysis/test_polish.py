@@ -30,7 +30,7 @@ def noisy(state, size):
 @pytest.mark.parametrize("flow", FLOWS)
 def test_a_rough_state_is_polished_to_rounding(joint, flow, monkeypatch):
     # pivots may end where slack and multiplier of a row are both zero; the polish needs one that is not
-    monkeypatch.setattr(paths, "pivoted", lambda flow, state: state)
+    monkeypatch.setattr(paths, "pivoted", lambda flow, state, **_: state)
     monkeypatch.setattr(paths, "TRIED", 1e-3)
     problem = lb.structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)).problem
     rule = Flow(problem, **FLOWS[flow])

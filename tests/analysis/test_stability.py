@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis import stability as answers
 from limitblocks.analysis.falling import falling
 from limitblocks.analysis.unstressed import arising, joint_compliance
-from limitblocks.evidence.residuals import Residuals
+from limitblocks.errors import SolverFailure
+from limitblocks.evidence.residuals import Residual, Residuals
 from limitblocks.evidence.stability_result import arising_residuals, mechanism_residuals
 from limitblocks.problem import ASSOCIATED, Flow, State
 from limitblocks.structures.convex import hull
@@ -233,3 +235,14 @@ def test_result_is_one_line_and_plain_data():
     assert written["arising"] is None
     assert written["blocks"] == ["stone"]
     assert np.array(written["displacement_rates"]).shape == (3, 6)
+
+
+def test_undecided_says_once_how_near_the_best_state_came(monkeypatch):
+    tried = [(None, Residual("equilibrium", value, "", "a|b")) for value in (3e-5, 1e-7, 2e-6)]
+    monkeypatch.setattr(answers, "_all_states", lambda *_: iter(tried))
+    monkeypatch.setattr(answers, "falls", lambda *_: ())
+    model = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)
+    with pytest.raises(SolverFailure) as said:
+        answers.dead_load_state(model.problem)
+    best = "the best of 3 states has the equilibrium residual 1.0e-07 at a|b"
+    assert str(said.value) == f"whether the dead loads stand is undecided: {best}"

@@ -154,18 +154,28 @@ def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, m
     assert not lb.nonassociated(model, means=before, throw=False).converged
     found = lb.nonassociated(model, means=one)
     assert found.residuals.worst.value <= 1e-8
-    barrier, seed, _ = MEANS[means - 1]
+    barrier, seed, *_ = MEANS[means - 1]
     large = barrier.size > Barrier().size
     size = f"barrier {barrier.size:g}" + " (large barrier)" * large
     assert f"{size}, power {barrier.power:g}, seed {seed}" in found.how
     assert any("not that of the load path" in remark for remark in found.remarks) == large
 
 
+def test_a_path_that_winds_is_given_up():
+    begin = start(pushed("buttressed_wall", lb.OrdunaLourenco(0.7), (1, 1, 0)))
+    _, patient = track(*begin, seed=1, budget=300)
+    _, given_up = track(*begin, seed=1, budget=300, patience=100)
+    assert (patient.end, given_up.end) == ("budget", "winds")
+    assert given_up.factorisations < 250
+    falling = start(pushed("cantilever_stair", lb.OrdunaLourenco(0.7), (1, 0, 0)))
+    assert track(*falling, seed=1, budget=300, patience=100)[1].closed
+
+
 def test_pivots_close_a_path_of_which_only_compliance_is_left(monkeypatch):
     model = pushed("groin_vault", lb.OrdunaLourenco(0.7), (1, 1, 0))
     settings = {"means": [Means(Barrier(0.02, 2.0), 1, 420)], "throw": False}
     assert lb.nonassociated(model, **settings).converged
-    monkeypatch.setattr(tracking, "pivoted", lambda flow, state: state)
+    monkeypatch.setattr(tracking, "pivoted", lambda flow, state, **_: state)
     assert not lb.nonassociated(model, **settings).converged
 
 

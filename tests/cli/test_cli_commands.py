@@ -46,6 +46,12 @@ def test_bounds_prints_load_factor_residuals_and_meaning(file):
         assert part in result.stdout
 
 
+def test_a_control_point_needs_its_block(file):
+    result = run("capacity", file, "--point", "0.5,0,2")
+    assert result.exit_code == 2
+    assert "Invalid value for --block, --point: give both or neither" in result.stderr
+
+
 def test_bounds_as_json_is_json_and_nothing_else(file, tmp_path):
     output = tmp_path / "result.json"
     result = run("bounds", file, "--json", "--output", output)

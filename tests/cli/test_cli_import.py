@@ -31,7 +31,7 @@ def test_import_makes_a_model_file_that_can_be_analysed(obj, tmp_path):
         "note: nothing found beside the interfaces with these tolerances",
     ]
     model = lb.read(tmp_path / "two.json")
-    assert "1 blocks, 1 supports, 1 interfaces" in result.stdout
+    assert "1 block, 1 support, 1 interface" in result.stdout
     assert model.blocks[1].volume == pytest.approx(0.25)
     # a block half as wide as high rocks before it slides
     assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)

@@ -53,6 +53,13 @@ def test_a_block_that_slides_at_another_friction(share, slip):
     assert error.places[0][0] == error.limits.where
 
 
+def test_what_is_beyond_the_most_that_counts_is_not_looked_for():
+    model, claim = slid_at(0.99 * MU)
+    flow, state = flow_of(model, claim), state_of(model, claim)
+    assert backward_error(flow, state, most=1e-4).value == np.inf
+    assert backward_error(flow, state, most=0.1).value == pytest.approx(0.01, rel=1e-6)
+
+
 @pytest.mark.parametrize("share", [1 + 1e-4, 1 - 1e-4])
 def test_the_changed_friction_is_that_of_a_model_that_can_be_made(share):
     _, claim = slid_at(share * MU)
@@ -129,6 +136,32 @@ def test_a_joint_that_carries_next_to_nothing_counts_by_what_it_carries():
     x = state.x + 1e-9 * idle * np.random.default_rng(0).uniform(-1.0, 1.0, len(state.x))
     assert idle.any()
     assert backward_error(Flow(p), replace(state, x=x)).value <= 1e-7
+
+
+@pytest.mark.parametrize("name", ["corner", "vault"])
+def test_every_row_off_by_a_little_is_a_model_as_near(name):
+    """Forces off by 1e-5 of what acts, rates and multipliers by 1e-5 of the largest.
+
+    What is as good as still must not flow, and the flow of cones must turn less readily than it changes in
+    size: else it is .04 to 1.
+    """
+    joint = lb.OrdunaLourenco(0.6)
+    model = {
+        "corner": lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4),
+        "vault": lb.structures.barrel_vault(
+            joint, radius=1.5, thickness=0.4, length=1.8, courses=7, stones=3
+        ),
+    }[name]
+    model = replace(model, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    p, state = model.problem, state_of(model, lb.nonassociated(model, confirm=False))
+    acting = Given(Flow(p), state).acting
+    for seed in range(3):
+        random = np.random.default_rng(seed)
+        x = state.x + 1e-5 * acting * random.uniform(-1.0, 1.0, len(state.x))
+        u = state.u + 1e-5 * np.abs(state.u).max() * random.uniform(-1.0, 1.0, len(state.u))
+        y = state.y.copy()
+        y[p.cones.heads] += 1e-5 * p.cones.norm(y).max() * random.uniform(0.0, 1.0, p.cones.degree)
+        assert backward_error(Flow(p), State(state.load_factor, x, u, y)).model <= 2e-3
 
 
 def shaken(problem, state, size):

@@ -68,6 +68,32 @@ def test_triangular_prism():
     assert block.centroid == pytest.approx([1, 2 / 3, 3])
 
 
+@pytest.mark.parametrize("turn", [1, -1])
+@pytest.mark.parametrize(("along", "centre"), [("x", (3, 2, 1)), ("y", (2, 3, 1)), ("z", (2, 1, 3))])
+def test_prism_of_a_gable(along, centre, turn):
+    """A triangle of base 4 and height 3, whichever way it turns, from 2 to 4 along the axis."""
+    gable = Block.prism("gable", [(0, 0), (4, 0), (2, 3)][::turn], (2, 4), 19e3, along)
+    assert gable.volume == pytest.approx(4 * 3 / 2 * 2)
+    assert gable.centroid == pytest.approx(centre)
+    assert gable.weight == pytest.approx(19e3 * 12)
+
+
+@pytest.mark.parametrize(
+    ("outline", "between", "along", "message"),
+    [
+        ([(0, 0), (1, 0), (1, 1)], (1, 0), "y", r"between is \(1, 0\); the lesser place comes first"),
+        ([(0, 0), (1, 0), (1, 1)], (0, 1), "Y", "along is 'Y'; x, y or z is needed"),
+        ([(0, 0), (1, 0)], (0, 1), "y", "a polyhedron has at least 4|faces|vertices"),
+        ([(0, 0), (1, 1), (1, 0), (0, 1)], (0, 1), "y", ""),
+        ([(0, 0), (1, 0), (2, 0)], (0, 1), "y", ""),
+        ([(0, 0, 0)], (0, 1), "y", r"outline: shape \(1, 3\) given; shape \(n, 2\) is needed"),
+    ],
+)
+def test_prism_refuses(outline, between, along, message):
+    with pytest.raises(GeometryError, match=f"block 'stone': .*({message})"):
+        Block.prism("stone", outline, between, along=along)
+
+
 @settings(max_examples=40, deadline=None)
 @given(
     size=st.tuples(*[st.floats(0.05, 20.0)] * 3),

@@ -12,10 +12,14 @@ from limitblocks import units
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.io.units import DIMENSIONS, METRES, NEWTONS
 
+GROUND = [[-2.0, -0.2], [2.0, -0.2], [2.0, 0.0], [-2.0, 0.0]]
 SI = {
     "schema_version": 1,
     "blocks": [
-        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
+        {
+            "name": "ground",
+            "prism": {"outline": GROUND, "between": [-0.5, 0.5]},
+        },
         {"name": "left", "box": {"size": [0.5, 1.0, 2.2], "at": [-1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "right", "box": {"size": [0.5, 1.0, 2.2], "at": [1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.4]}, "unit_weight": 24e3},
@@ -53,7 +57,14 @@ def scaled(document, metre, newton):
         return [value / unit for value in values]
 
     for block in new["blocks"]:
-        block["box"] = {key: over(value, metre) for key, value in block["box"].items()}
+        if "box" in block:
+            block["box"] = {key: over(value, metre) for key, value in block["box"].items()}
+        else:
+            outline, between = block["prism"].values()
+            block["prism"] = {
+                "outline": [over(place, metre) for place in outline],
+                "between": over(between, metre),
+            }
         if "unit_weight" in block:
             block["unit_weight"] *= metre**3 / newton
     joint = new["joints"]["mortar"]
@@ -108,9 +119,12 @@ def test_millimetres_are_the_same_bits(tmp_path):
     document["joints"] = {"mortar": {"type": "PointContact", "friction": 0.6}}
     document["dead"] = [{"type": "SelfWeight"}]
     digest = read(document, tmp_path).digest
-    for block in document["blocks"]:
+    ground, *stones = document["blocks"]
+    outline = [[round(1000 * x) for x in place] for place in ground["prism"]["outline"]]
+    ground["prism"] = {"outline": outline, "between": [-500, 500]}
+    for block in stones:
         block["box"] = {key: [round(1000 * x) for x in value] for key, value in block["box"].items()}
-        block.pop("unit_weight", None)
+        block.pop("unit_weight")
     for block, weight in zip(document["blocks"][1:], (2e-5, 2e-5, 2.4e-5), strict=True):
         block["unit_weight"] = weight
     model = read(document | {"units": {"length": "mm"}}, tmp_path)

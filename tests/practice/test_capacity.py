@@ -115,10 +115,50 @@ def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
 
 
-def test_a_block_beyond_the_edge_shares_no_area_with_its_base():
-    there = moved(assembly_of(sliding_block()), np.array([[0.0] * 6, [1.5, 0, 0, 0, 0, 0]]))
-    with pytest.raises(lb.SolveError, match="'block' slides off 'base'"):
-        slid_on(there, [True])
+def test_a_block_beyond_the_edge_loses_its_contact():
+    """It falls where it has no other; where it has one it is held by that."""
+    way = np.zeros((3, 6))
+    way[2, 0] = 1.5
+    alone, held = sliding_block(), beside_a_wall()
+    with pytest.raises(lb.SolveError, match=r"lost all that they rest on: .*'block'"):
+        slid_on(moved(assembly_of(alone), way[1:]), [True])
+    there, said = slid_on(moved(assembly_of(held), way), [True, True])
+    assert said == ("base|block slides off",)
+    assert (
+        [own.interface.name for own in there.contacts]
+        == ["wall|block"]
+        == [own.name for own in there.model.interfaces]
+    )
+
+
+def beside_a_wall():
+    """The flat block beside a long wall that it slides along."""
+    base, block = sliding_block().blocks
+    wall = lb.Block.box("wall", (5, 1, 1), (0, 1, 0.5))
+    found = lb.find_interfaces([base, wall, block], lb.PointContact(0.1))
+    return lb.Model(
+        [base, wall, block], ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    )
+
+
+def test_a_block_that_slides_onto_another_rests_on_both():
+    """Two bases of 1 m side by side, the second 1 mm lower or not: it bears, or does not touch."""
+    for step, words in ((0.0, ("other|block touches",)), (1e-3, ())):
+        stones = [
+            lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+            lb.Block.box("other", (1, 1, 0.2), (1, 0, -0.1 - step)),
+            lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
+        ]
+        model = lb.Model(
+            stones, ["base", "other"], lb.find_interfaces([stones[0], stones[2]], lb.PointContact(0.1)),
+            lb.self_weight(), lb.mass_proportional((1, 0, 0)),
+        )  # fmt: skip
+        way = np.zeros((3, 6))
+        way[2, 0] = 0.3
+        there, said = slid_on(moved(assembly_of(model), way), [True])
+        areas = [np.ptp(own.interface.polygon, axis=0).prod() for own in there.contacts]
+        assert said == words
+        assert areas == pytest.approx([0.7, 0.3][: 1 + len(words)])
 
 
 def test_a_contact_in_two_parts_keeps_two_as_it_slides():
@@ -131,7 +171,7 @@ def test_a_contact_in_two_parts_keeps_two_as_it_slides():
     stones = [lb.Block.box("base", (9, 3, 1), (1.5, 0.5, -0.5)), table]
     found = lb.find_interfaces(stones, JOINTS[0])
     model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    there = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])
+    there, _ = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])
     centres = sorted(own.interface.centroid[0] for own in there.contacts)
     assert centres == pytest.approx([1.0, 3.0])
 
@@ -298,3 +338,35 @@ def test_a_joint_that_presses_across_its_gap_is_named():
     curve = CapacityCurve(tuple(points), control, None, "")
     assert curve.proven_to == 0.0
     assert "joints press across their gaps" in str(curve)
+
+
+@pytest.mark.parametrize("uphill", [True, False])
+def test_dead_loads_that_fall_are_held_by_some_of_the_live_load(uphill):
+    """A block on a slope beta steeper than friction: pushed up tan(beta + phi), down -tan(beta - phi)."""
+    slope, friction = np.radians(30), 0.2
+    turn = np.array([[np.cos(slope), 0, -np.sin(slope)], [0, 1, 0], [np.sin(slope), 0, np.cos(slope)]])
+    flat = sliding_block().blocks
+    stones = [lb.Block(own.name, own.vertices @ turn.T, own.faces, own.unit_weight) for own in flat]
+    found = lb.find_interfaces(stones, lb.PointContact(friction))
+    push = lb.mass_proportional((1 if uphill else -1, 0, 0))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), push)
+    shift, held, result = capacity._answered(model)
+    assert (shift < 0) == uphill
+    assert lb.check_mcp(held, result).passed
+    expected = np.tan(slope + np.arctan(friction)) if uphill else -np.tan(slope - np.arctan(friction))
+    assert result.load_factor - shift == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
+    """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
+    there = assembly_of(sliding_block())
+
+    def advanced_to(assembly, control, point, step, scale):
+        at = point.displacement + step
+        return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
+
+    monkeypatch.setattr(capacity, "_advanced", advanced_to)
+    point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
+    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0)
+    assert 0.15 <= found.displacement < 0.3

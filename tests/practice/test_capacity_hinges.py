@@ -8,6 +8,7 @@ from scipy.optimize import fsolve
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve
+from limitblocks.practice.advance import pressed_in
 from limitblocks.practice.displaced import assembly_of
 from limitblocks.practice.snapped import falls, snapped
 
@@ -106,7 +107,6 @@ def test_hinges_jump_and_no_joint_presses_across_its_gap(followed):
 def test_a_structure_that_is_held_does_not_snap():
     """Negative control: before the thrust reaches a fifth joint nothing falls."""
     arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=12)
-    held = np.ones(len(arch.interfaces), dtype=bool)
-    there = assembly_of(arch)
-    assert not falls(there, held)
-    assert snapped(there, held) == (there, ())
+    there = pressed_in(assembly_of(arch), -np.ones((len(arch.interfaces), 6)))
+    assert not falls(there)
+    assert snapped(there) == (there, ())

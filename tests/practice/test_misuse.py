@@ -1,5 +1,7 @@
 """Misuse of practice is one line that names the thing, its value and what would be right."""
 
+from dataclasses import replace
+
 import facades
 import pytest
 
@@ -48,6 +50,7 @@ def answer(facade):
         ({"demand": Spectrum(245.0, 1.2, 2.5, 0.5)}, "a_g is 245 m/s2, 25 g; expected at most 2 g"),
         ({"curve": "curve.json"}, "curve is a str, expected CapacityCurve"),
         ({"floor": MODE}, "floor is a FloorMode, expected Floor"),
+        ({"confidence": 13.5}, "FC is 13.5, expected a finite number >= 1 and <= 2"),
         ({"damping": 0.05}, "damping is 0.05, expected two numbers, at SLV and at SLC"),
         ({"elastic_period": -1.0}, "T_0 is -1.0, expected a finite number >= 0 in s"),
     ],
@@ -82,6 +85,16 @@ def test_verification(facade, answer, given, words):
         (lambda wall: uplift(wall, NAN), "level of the water is nan"),
         (lambda wall: adequacy(wall, 1.5), "factors is a float, expected PartialFactors"),
         (lambda wall: capacity_curve(wall, largest="1"), "largest is '1', expected a displacement > 0 in m"),
+        (lambda wall: capacity_curve(wall, control=("wall", (50, 0, 1))),
+         "control point (50, 0, 1) is not on block 'wall', which reaches from (-0.25, -0.5, 0) to"),
+        (lambda wall: Spectrum(2.45, 1.2, 2.5, 500.0),
+         "T_C is 500.0, expected a finite number > 0 and <= 10 in s"),
+        (lambda wall: Spectrum(-0.2 * 9.81, 1.2, 2.5, 0.5),
+         "a_g is -1.962, expected a finite number > 0 in m/s2"),
+        (lambda wall: settlement(wall, "wall", (0, 0, -1)),
+         "settlement: 'wall' is a free block; expected one of the supports 'ground'"),
+        (lambda wall: replace(wall, supports=["ground", "ground"]),
+         "support 'ground' is named 2 times; once is enough"),
         (lambda wall: settlement_to_collapse(wall, "ground", (0, 0, -1), step="1 cm"),
          "step is '1 cm', expected a finite number > 0 in m"),
         (lambda wall: settlement_to_collapse(wall, "ground", (0, 0, -1), accuracy="fine"),

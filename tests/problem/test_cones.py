@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from limitblocks.problem import Cones
-from limitblocks.problem.barrier import central
+from limitblocks.problem.barrier import central, curvature
 from limitblocks.problem.cones import rays
 
 CONES = Cones(2, ((2, 3), (1, 4)))
@@ -154,3 +154,20 @@ def test_central_pairs_differ_by_v_and_multiply_to_the_identity(v, product):
     np.testing.assert_allclose(CONES.product(s, y), products, atol=1e-9)
     assert CONES.margin(s).min() > 0.0
     assert CONES.margin(y).min() > 0.0
+
+
+@given(interior(), VECTORS)
+def test_curvature_is_that_of_the_logarithmic_barrier(v, a):
+    """The change along a of the gradient of -log v of rows and -log(t^2 - z.z) / 2 of cones."""
+
+    def gradient(w):
+        slope = np.concatenate([-1.0 / w[:2], np.zeros(len(w) - 2)])
+        for part in PARTS:
+            t, z = w[part][0], w[part][1:]
+            slope[part] = np.append(-t, z) / (t * t - z @ z)
+        return slope
+
+    h = 1e-6
+    expected = (gradient(v + h * a) - gradient(v - h * a)) / (2.0 * h)
+    size = np.abs(expected).max(initial=1.0)
+    np.testing.assert_allclose(curvature(CONES, v, a), expected, atol=1e-6 * size)

@@ -144,7 +144,7 @@ def _near(flow: Flow, tolerance: float, limit: float | None, state: State) -> bo
     """Whether a state is exact for a model within `limit`; False where there is none."""
     if limit is None:
         return False
-    nearest, error = settled(flow, state, tolerance, limit)
+    nearest, error = settled(flow, state, tolerance, limit, most=limit)
     return within(error, mcp_residuals(flow, nearest), tolerance, limit)
 
 

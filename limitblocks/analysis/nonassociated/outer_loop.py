@@ -33,6 +33,7 @@ from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State
+from limitblocks.shown import many
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,7 @@ def outer_loop(
         x = rounds.relaxation * frozen.x + (1.0 - rounds.relaxation) * x
     if closed:
         _, state, k = min(closed, key=lambda one: one[0])
-        return state, f"fixed point, {k} rounds"
+        return state, f"fixed point, {many(k, 'round')}"
     best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
     return best, f"fixed point, not closed in {len(met) - 1} rounds"
 

@@ -21,13 +21,14 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Point,
     distance,
     inner,
+    inners,
     moved,
     moved_on,
     residuals,
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked
+from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked, winds
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
@@ -42,6 +43,7 @@ CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
+PIVOTS = 200  # pairs of slack and multiplier that are not plain: more cost more than further steps
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
@@ -66,6 +68,7 @@ def track(
     barrier: Barrier | None = None,
     seed: int = 0,
     budget: int = BUDGET,
+    patience: int | None = None,
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
 ) -> tuple[State, Tracked]:
@@ -85,6 +88,8 @@ def track(
         Of the weights of the products.
     budget : int
         Factorisations.
+    patience : int, optional
+        Factorisations in which theta must fall to a third; a path that takes longer is given up.
     power : float
         Unit of the barrier's size, dimensionless.
     progress : callable, optional
@@ -97,18 +102,11 @@ def track(
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
+        walk.patience = patience
         end = walk.go()
         best = walk.best or walk.state
-    tracked = Tracked(
-        walk.path.barrier,
-        seed,
-        end,
-        defect(flow, best),
-        walk.factorisations,
-        walk.failures,
-        tuple(walk.points),
-    )
-    return best, tracked
+    counts = walk.factorisations, walk.failures, tuple(walk.points)
+    return best, Tracked(walk.path.barrier, seed, end, defect(flow, best), *counts)
 
 
 def state_of(z: Point) -> State:
@@ -118,6 +116,8 @@ def state_of(z: Point) -> State:
 
 class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
+
+    patience: int | None = None
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
         self.path, self.budget, self.progress = path, budget, progress
@@ -144,6 +144,8 @@ class Walk:
             while not self._closed():
                 if self.factorisations >= self.budget:
                     return "budget"
+                if winds(self.points, self.factorisations, self.patience):
+                    return "winds"
                 self._advance()
         except Lost as lost:
             return str(lost)
@@ -169,19 +171,21 @@ class Walk:
             self._retreat()
             return
         turn = replace(turn, theta=1.0)
-        length = np.sqrt(inner(self.path.cones, self.z, turn, turn))
-        if not (np.isfinite(length) and length > 0.0 and newton.sign):
+        square, along = inners(self.path.cones, self.z, turn, turn, step)
+        if not (np.isfinite(square) and square > 0.0):
             self._retreat()
             return
-        tangent = turn.scaled(self._heading(newton.sign, turn) / length)
-        correction = step.moved(-inner(self.path.cones, self.z, step, tangent), tangent)
-        if off <= 1.0 and self._returns(tangent):
-            self._retreat()
-        elif off > 1.0:
+        correction = step.moved(-along / square, turn)
+        if off > 1.0:
             self.correctors += 1
             self.z = moved(self.path, self.z, 1.0, correction)
+            return
+        sign = newton.sign
+        tangent = turn.scaled(self._heading(sign, turn) / np.sqrt(square))
+        if not sign or self._returns(tangent):
+            self._retreat()
         else:
-            self._accept(newton.sign, correction, tangent)
+            self._accept(sign, correction, tangent)
 
     def _heading(self, sign: float, turn: Point) -> float:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
@@ -233,7 +237,7 @@ class Walk:
         self.tried = AGAIN * z.theta
         self._keep(polish(self.path.flow, self.state, patience=1))  # a point costs less than more steps
         if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
-            self._keep(pivoted(self.path.flow, self.state))
+            self._keep(pivoted(self.path.flow, self.state, largest=PIVOTS))
         return self.left < TOLERANCE
 
     def _keep(self, state: State) -> None:

@@ -21,7 +21,7 @@ import numpy as np
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.arrays import Array
 from limitblocks.problem import Cones, Flow
-from limitblocks.problem.barrier import central, relative, spread
+from limitblocks.problem.barrier import central, curvature, spread
 
 LEAST_THETA = 0.05  # part of theta that a move leaves
 MOST_THETA = 3.0  # and its largest growth
@@ -167,5 +167,10 @@ def moved_on(path: Path, z: Point) -> Path:
 
 def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:
     """Return the product of two directions: mean of the relative changes of s and y, and that of theta."""
-    changes = relative(cones, z.s, a.s, b.s) + relative(cones, z.y, a.y, b.y)
-    return changes / cones.degree + a.theta * b.theta / z.theta**2
+    return inners(cones, z, a, b)[0]
+
+
+def inners(cones: Cones, z: Point, a: Point, *directions: Point) -> tuple[float, ...]:
+    """Return the products of one direction with others."""
+    s, y = curvature(cones, z.s, a.s), curvature(cones, z.y, a.y)
+    return tuple(float(s @ b.s + y @ b.y) / cones.degree + a.theta * b.theta / z.theta**2 for b in directions)

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.polish import diagonal_factors
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
 
 
@@ -185,3 +185,7 @@ class Layout:
     def per_stress(self, blocks: Array) -> Array:
         """Return what stands by interface (m, k, ...) as stresses (s, ...)."""
         return np.asarray(blocks[self.problem.stress_interface, self.stress_place])
+
+    def per_row(self, blocks: Array) -> Array:
+        """Return what stands by interface (m, r, ...) as rows (R, ...)."""
+        return np.asarray(blocks[self.problem.row_interface, self.row_place])

@@ -16,7 +16,7 @@ REFINED = 1e-4  # theta below which directions are refined: without it paths sta
 
 
 class _Columns(NamedTuple):
-    """Right-hand sides of the five equations, products over s, or directions by x, u, a, s, y: columns."""
+    """Right-hand sides of the five equations, or directions by x, u, a, s, y: columns."""
 
     flow: Array
     balance: Array
@@ -28,29 +28,31 @@ class _Columns(NamedTuple):
 class Newton:
     """Derivative J by (x, u, a, s, y), factorised: s and y go first, then x by interfaces.
 
-    What is left, [[-C^T H^-1 C, live], [live^T, 0]], couples the rates and the load factor. `sign` is that of
-    det J, but for a factor that is the same all along the path.
+    What is left, [[-C^T H^-1 C, live], [live^T, 0]], couples the rates and the load factor.
     """
 
     def __init__(self, path: Path, z: Point) -> None:
         self.path, self.z = path, z
         p, layout = path.flow.problem, path.layout
         self.GT = layout.potential(z.x)
-        stiff = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
-        H = layout.padding + layout.potential_parts(z.x) @ stiff
+        self.slopes = layout.by_interface(slope(p.cones, z.s, z.y, layout.yield_rows))
+        H = layout.padding + layout.potential_parts(z.x) @ self.slopes
         diagonal = np.arange(H.shape[1])
-        elastic = path.rho(z.theta) * path.elastic
-        H[:, diagonal, diagonal] += layout.per_interface(elastic)
-        self.stiff = sparse.csr_array(sparse.diags_array(elastic))
-        if not path.flow.constant:
-            t = path.flow.derivative(z.x, z.y).tocoo()
-            self.stiff = sparse.csr_array(self.stiff + t)
+        self.elastic = (path.rho(z.theta) * path.elastic)[:, None]
+        H[:, diagonal, diagonal] += layout.per_interface(self.elastic[:, 0])
+        self.turning = None if path.flow.constant else path.flow.derivative(z.x, z.y)
+        if self.turning is not None:
+            t = self.turning.tocoo()
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
-        self.flexibility = np.linalg.inv(H)
+        self.stiffness, self.flexibility = H, np.linalg.inv(H)
         C = layout.compatibility
         self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
-        self.sign = float(np.prod(np.sign(np.linalg.det(H)))) * _sign(self.lu)
+
+    @property
+    def sign(self) -> float:
+        """Sign of det J, but for a factor that is the same all along the path."""
+        return float(np.prod(np.sign(np.linalg.det(self.stiffness)))) * _sign(self.lu)
 
     def solve(self, *right: Equations) -> tuple[Point, ...]:
         """Return the directions d with J d = q for each q, refined once far down the path.
@@ -68,28 +70,35 @@ class Newton:
 
     def _eliminated(self, q: _Columns) -> _Columns:
         """Directions by x, u, a, s, y as columns."""
-        p, z, layout = self.path.flow.problem, self.z, self.path.layout
-        free = self._flexed(q.flow + self.GT @ (q.product + slope(p.cones, z.s, z.y, q.slack)))
+        p, layout = self.path.flow.problem, self.path.layout
+        free = self._flexed(q.flow + self.GT @ q.product)
         w = layout.solved(self.lu, np.vstack([q.balance + layout.balance @ free, q.work]))
         dx = free + self._flexed(p.C @ w[:-1])
-        ds = p.F @ dx - q.slack
-        return _Columns(dx, w[:-1], w[-1:], ds, q.product - slope(p.cones, z.s, z.y, ds))
+        fall = layout.per_row(self.slopes @ layout.per_interface(dx))
+        return _Columns(dx, w[:-1], w[-1:], p.F @ dx - q.slack, q.product - fall)
 
     def _left(self, q: _Columns, d: _Columns) -> _Columns:
         """What directions leave of q; slacks and products are exact."""
         p, layout = self.path.flow.problem, self.path.layout
-        flow = q.flow - self.stiff @ d.flow + p.C @ d.balance + self.GT @ d.product
+        flow = q.flow - self.elastic * d.flow + p.C @ d.balance + self.GT @ d.product
+        if self.turning is not None:
+            flow -= self.turning @ d.flow
         balance = q.balance + layout.balance @ d.flow - p.live[:, None] * d.work
         none = np.zeros_like(q.slack)
         return _Columns(flow, balance, q.work - p.live @ d.balance, none, none)
 
     def _columns(self, right: tuple[Equations, ...]) -> _Columns:
+        """Right-hand sides as columns; multipliers that products and slacks ask for in place of products."""
+        cones, z, slack = self.path.cones, self.z, np.column_stack([q.slack for q in right])
+        product = quotient(cones, z.s, np.column_stack([q.product for q in right]))
+        if slack.any():
+            product += slope(cones, z.s, z.y, slack)
         return _Columns(
             np.column_stack([q.flow for q in right]),
             np.column_stack([q.balance for q in right]),
             np.array([[q.work for q in right]]),
-            np.column_stack([q.slack for q in right]),
-            np.column_stack([quotient(self.path.cones, self.z.s, q.product) for q in right]),
+            slack,
+            product,
         )
 
     def _flexed(self, v: Array) -> Array:

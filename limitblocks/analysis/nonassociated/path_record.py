@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
@@ -40,6 +41,13 @@ class Progress(NamedTuple):
     load_factor: float
     sign: float
     factorisations: int
+
+
+def winds(points: Sequence[Progress], factorisations: int, patience: int | None) -> bool:
+    """Whether theta did not fall to a third in as many of the factorisations as there is patience for."""
+    since = factorisations - (patience or factorisations)
+    before = [point.theta for point in points if point.factorisations <= since]
+    return bool(before) and min(point.theta for point in points) > min(before) / 3.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -32,6 +32,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
+FAR = 1e-6  # residual of a path's end that its polish, which it has tried, does not mend
 Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -54,13 +55,15 @@ def first_to_solve(
 
     If there are further means, `half` comes second.
 
-    Of a large model a state that is near `enough` ends the search as well.
+    Of a large model a state that is near `enough` ends the search as well, but for the end of the first path.
     """
     met: list[tuple[State, str]] = []
     blocks, in_space = len(flow.problem.blocks), _in_space(flow)
     large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
     if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
         means = LARGE_PLANAR_MEANS
+    elif means is MEANS and half is no_half:  # in a plane or one half points cost little
+        means = tuple(one._replace(patience=None) for one in MEANS)
     ways = (
         _large_ways(flow, x0, scale, tolerance, record)
         if large
@@ -70,7 +73,7 @@ def first_to_solve(
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
-        if how.endswith(INTERRUPTED) or (large and enough(state)):
+        if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
@@ -110,7 +113,7 @@ def _ways(
         if one.barrier.size <= SMALL:
             yield tracked(one)
     larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
-    if means is LARGE_PLANAR_MEANS:
+    if means is LARGE_PLANAR_MEANS or _in_space(flow):
         yield from larger
     if _in_space(flow):
         yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
@@ -138,8 +141,9 @@ def _from_centroid(
 
 
 def _polished(flow: Flow, state: State, how: str) -> tuple[State, str]:
-    """The end of a path polished, unless the user stopped it."""
-    return state if how.endswith(INTERRUPTED) else polish(flow, state), how
+    """The end of a path polished, unless the user stopped it or a path of this very flow ended far off."""
+    done = how.endswith(INTERRUPTED) or (flow.constant and defect(flow, state) > FAR)
+    return state if done else polish(flow, state), how
 
 
 def _in_space(flow: Flow) -> bool:
@@ -150,13 +154,17 @@ def _in_space(flow: Flow) -> bool:
 def _large_ways(
     flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
-    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
+    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
+
+    That of the first comes without rounds as well: one half costs less, and follows the load path.
+    """
     nearest = NearestStresses(flow.problem, flow.problem.compliance)
     for one in LARGE_MEANS:
         state, how = _tracked(flow, x0, scale, one, record)
-        if how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance:
+        ended = how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance
+        if ended or one is LARGE_MEANS[0]:
             yield state, how
-        else:
+        if not ended:
             yield _in_rounds(flow, nearest, state, how, tolerance)
 
 

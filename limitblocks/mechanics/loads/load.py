@@ -80,16 +80,27 @@ def unit_vector(values: Sequence[float], word: str) -> Vector:
     return x / length, y / length, z / length
 
 
-def number(value: float, word: str, unit: str, *, least: float = -np.inf, above: float = -np.inf) -> float:
-    """Return `value` as a float; ModelError where it is not finite or too small."""
+def number(
+    value: float,
+    word: str,
+    unit: str,
+    *,
+    least: float = -np.inf,
+    above: float = -np.inf,
+    most: float = np.inf,
+) -> float:
+    """Return `value` as a float; ModelError where it is not finite, too small or too large."""
     try:
         real = float(value)
     except (TypeError, ValueError):
         real = np.nan
-    if np.isfinite(real) and real >= least and real > above:
+    if np.isfinite(real) and most >= real >= least and real > above:
         return real
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
-    raise ModelError(f"{word} is {value!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
+    wanted += f" and <= {most:g}" if most < np.inf else ""
+    short = float(f"{real:.12g}")  # -1.962, not -1.9620000000000002
+    shown = short if abs(real - short) > 0.0 else value
+    raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
 
 
 def along(direction: Sequence[float]) -> str:

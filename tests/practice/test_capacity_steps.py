@@ -1,0 +1,101 @@
+"""How far a step of a capacity curve goes: contacts that close, answers not found, falls, the end."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.arrays import read_only
+from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
+from limitblocks.practice.advance import moved_until_contact, pressed_in
+from limitblocks.practice.displaced import CLOSED, assembly_of, moved
+from limitblocks.practice.snapped import falls, snapped, steepest
+
+JOINT = lb.PointContact(0.6)
+
+
+@pytest.fixture(scope="module")
+def leaning():
+    """A block of .2 m x 1 m turned about its toe by .01, and the way there."""
+    model = lb.structures.block(JOINT, width=0.2, height=1.0)
+    rates = lb.nonassociated(model).displacement_rates
+    forth = rates * 0.01 / np.abs(rates[:, 4]).max()
+    return moved(assembly_of(model), forth), forth
+
+
+@pytest.mark.parametrize("share", [1.0 - 1e-4, 1.0 + 1e-4, 1.5])
+def test_a_step_ends_where_a_contact_closes(leaning, share):
+    """Moved back by more than the gap, and by so little less that its corner is a micrometre away."""
+    there, forth = leaning
+    goal, changes = moved_until_contact(there, -share * forth)
+    assert changes == ("base|block 1 closes",)
+    assert np.abs(goal.contacts[0].ways[:, 2]).max() <= CLOSED * goal.size
+
+
+def test_a_step_that_closes_nothing_is_whole(leaning):
+    there, forth = leaning
+    goal, changes = moved_until_contact(there, -0.5 * forth)
+    assert changes == ()
+    assert goal.contacts[0].ways[:, 2].max() == pytest.approx(0.2 * np.sin(0.005), rel=1e-3)
+
+
+def test_a_contact_without_force_is_not_pressed():
+    arch = lb.structures.arch(JOINT, radius=5.0, thickness=1.0, voussoirs=3)
+    forces = np.zeros((4, 6))
+    forces[:, 2] = -1.0, -1e-3, -1e-9, 0.0
+    assert [own.pressed for own in pressed_in(assembly_of(arch), forces).contacts] == [
+        True,
+        True,
+        False,
+        False,
+    ]
+
+
+def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(monkeypatch):
+    tried = []
+
+    def fails(assembly, control, point, step, scale):
+        tried.append(step)
+        raise lb.SolveError("none")
+
+    monkeypatch.setattr(capacity, "_advanced", fails)
+    there = assembly_of(lb.structures.block(JOINT, width=0.2, height=1.0))
+    control = Control("block 1", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    point = CapacityPoint(0.1, 0.2, 0.0, there.model, lb.nonassociated(there.model), ())
+    assert capacity._ahead(there, control, point, 0.05, 0.2) == "no checked answer beyond 0.1 m: none"
+    assert 1e-4 * there.size <= min(tried) < 2e-4 * there.size
+
+
+def test_a_round_of_a_fall_is_a_twentieth_of_a_block():
+    """Its centre half a micrometre beyond the edge it stays; .1 m beyond it falls, by no more than .05 m."""
+    for beyond in (0.1, 0.5 + 5e-7, 0.6):
+        stones = [
+            lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+            lb.Block.box("block", (1, 1, 0.3), (beyond, 0, 0.15), 20e3),
+        ]
+        model = lb.Model(
+            stones,
+            ["base"],
+            lb.find_interfaces(stones, JOINT),
+            lb.self_weight(),
+            lb.mass_proportional((0, 1, 0)),
+        )
+        there = pressed_in(assembly_of(model), -np.ones((1, 6)))
+        assert falls(there) == (beyond == 0.6)
+        way = steepest(there)[0] / [*[stones[1].size] * 3, 1, 1, 1]
+        if beyond == 0.6:
+            assert np.abs(way).max() == pytest.approx(0.05, rel=1e-6)
+        else:
+            assert snapped(there) == (there, ())
+
+
+def test_a_curve_without_an_end_is_ended(monkeypatch):
+    """A block that slides on and on, of which only a few points a step are followed."""
+    monkeypatch.setattr(capacity, "MOST", 2)
+    stones = [
+        lb.Block.box("base", (9, 1, 0.2), (4, 0, -0.1)),
+        lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.1))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, steps=2)
+    assert (curve.zero, curve.ended) == (None, "4 points do not lead to an end")
