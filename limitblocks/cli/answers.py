@@ -3,37 +3,69 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import wraps
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
 
 import typer
 
 from limitblocks.cli.errors import INTERRUPTED, interrupts, refuse_existing
+from limitblocks.cli.options import AsJson, Filed, Force, ResultFile
 from limitblocks.errors import NotConverged
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
 
 
+class Kept(NamedTuple):
+    """What becomes of an answer: printed as JSON, written as a result, filed in a report."""
+
+    as_json: AsJson = False
+    output: ResultFile = None
+    force: Force = False
+    filed: Filed = None
+
+
+NOTHING = Kept()
+
+
+def keeping(verb: Callable[..., None]) -> Callable[..., None]:
+    """Give a verb whose last parameter is `kept` the options of :class:`Kept` in its place."""
+    own = signature(verb, eval_str=True)
+    shown = [
+        Parameter(name, Parameter.KEYWORD_ONLY, default=Kept._field_defaults[name], annotation=hint)
+        for name, hint in get_type_hints(Kept, include_extras=True).items()
+    ]
+
+    @wraps(verb)
+    def run(**given: Any) -> None:
+        kept = Kept(**{one.name: given.pop(one.name) for one in shown})
+        verb(**given, kept=kept)
+
+    parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in own.parameters.values()]
+    run.__signature__ = own.replace(parameters=[*parameters[:-1], *shown])  # type: ignore[attr-defined]
+    run.__annotations__ = {one.name: one.annotation for one in (*parameters[:-1], *shown)}
+    return run
+
+
 def answer(
     solve: Callable[..., Any],
     file: Path,
-    as_json: bool,
-    output: Path | None,
-    force: bool,
-    filed: Path | None = None,
+    kept: Kept,
     beside: Sequence[Any] = (),
     animation: Path | None = None,
     **settings: Any,
 ) -> Any:
     """Solve the model in `file`, write and print the result; write the best state where it stopped early.
 
-    A report goes to `filed`, with the results `beside` this one, which may come about while it is solved;
-    its motion goes to `animation`.
+    A report goes to `kept.filed`, with the results `beside` this one, which may come about while it is
+    solved; its motion goes to `animation`.
     After Ctrl-C what there is until then is written, and the exit code is 130.
     """
     from limitblocks.io import read, write_result
 
+    as_json, output, force, filed = kept
     refuse_existing(output, force, file)
     if filed:
         from limitblocks.reports.files import suffix

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 import typer
 
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import answer
+from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.options import Force, ModelFile
 from limitblocks.cli.vectors import numbers
 
 Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
@@ -43,6 +43,7 @@ Filled = Annotated[
 ]
 
 
+@keeping
 def vehicle(
     model: ModelFile,
     axles: Axles,
@@ -53,10 +54,7 @@ def vehicle(
     first: First = None,
     last: Last = None,
     count: Places = 25,
-    filed: Filed = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
     with clean_errors():
@@ -67,7 +65,7 @@ def vehicle(
         loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)
         between = None if first is None or last is None else (first, last)
         settings: Any = {"deck": Deck(level, spread), "between": between, "positions": count}
-        answer(analyses.vehicle, model, as_json, output, force, filed, vehicle=loads, **settings)
+        answer(analyses.vehicle, model, kept, vehicle=loads, **settings)
 
 
 def backfill(

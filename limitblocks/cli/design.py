@@ -7,9 +7,9 @@ from typing import Annotated, Any
 import typer
 
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import answer
+from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.options import ModelFile
 
 Dead = Annotated[float, typer.Option("--gamma-g", help="Multiplies the dead loads.", show_default=False)]
 Live = Annotated[float, typer.Option("--gamma-q", help="Multiplies the live loads.", show_default=False)]
@@ -25,6 +25,7 @@ Ties = Annotated[
 Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
 
 
+@keeping
 def adequacy(
     model: ModelFile,
     dead: Dead,
@@ -33,10 +34,7 @@ def adequacy(
     friction: Friction = None,
     ties: Ties = None,
     associated: Associated = False,
-    filed: Filed = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the load factor with partial factors on loads and strengths; exit code 1 below one."""
     with clean_errors():
@@ -44,6 +42,6 @@ def adequacy(
 
         settings: Any = {"factors": PartialFactors(dead, live, strength, friction, ties)}
         settings |= {"without_dilatancy": not associated}
-        found = answer(analyses.adequacy, model, as_json, output, force, filed, **settings)
+        found = answer(analyses.adequacy, model, kept, **settings)
     if not found.satisfied:
         raise typer.Exit(1)

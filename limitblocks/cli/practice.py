@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import answer
+from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import Animation, AsJson, Filed, Force, ModelFile, ResultFile
+from limitblocks.cli.options import Animation, ModelFile
 from limitblocks.cli.vectors import numbers, vector
 
 if TYPE_CHECKING:
@@ -52,6 +52,7 @@ ElasticPeriod = Annotated[
 ]
 
 
+@keeping
 def settle(
     model: ModelFile,
     support: Support,
@@ -59,10 +60,7 @@ def settle(
     until_collapse: ToCollapse = False,
     largest: Farthest = float("inf"),
     animation: Animation = None,
-    filed: Filed = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the least reaction of a support that gives way, and how far the structure follows it."""
     with clean_errors():
@@ -71,9 +69,10 @@ def settle(
         if animation and not until_collapse:
             raise typer.BadParameter("give --until-collapse, too", param_hint="--animation")
         way |= {"largest": largest, "animation": animation} if until_collapse else {}
-        answer(solve, model, as_json, output, force, filed, **way)
+        answer(solve, model, kept, **way)
 
 
+@keeping
 def capacity(
     model: ModelFile,
     steps: Steps = 20,
@@ -81,9 +80,7 @@ def capacity(
     point: Point = None,
     largest: Largest = float("inf"),
     animation: Animation = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the load factor against the displacement of the mechanism, until it is zero."""
     with clean_errors():
@@ -91,9 +88,10 @@ def capacity(
             raise typer.BadParameter("give both or neither", param_hint="--block, --point")
         settings: Any = {"control": (block, point) if block else None, "steps": steps, "largest": largest}
         settings |= {"animation": animation}
-        answer(analyses.capacity, model, as_json, output, force, **settings)
+        answer(analyses.capacity, model, kept, **settings)
 
 
+@keeping
 def verify(
     model: ModelFile,
     ground: Ground,
@@ -107,10 +105,7 @@ def verify(
     damage: Damage = "",
     modes: Modes = None,
     elastic_period: ElasticPeriod = 0.0,
-    filed: Filed = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails.
 
@@ -137,7 +132,7 @@ def verify(
         from limitblocks.practice.spectra import G
         from limitblocks.practice.verification_result import without_curve
 
-        found = answer(solve, model, as_json, output, force, filed, beside)
+        found = answer(solve, model, kept, beside)
     if not all(one.satisfied for one in found.checks) or found.left_out:
         raise typer.Exit(1)
 

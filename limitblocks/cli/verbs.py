@@ -8,7 +8,7 @@ import typer
 
 from limitblocks.choices import Method, Turning
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import answer, show
+from limitblocks.cli.answers import Kept, answer, show
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import (
     Along,
@@ -37,7 +37,7 @@ def stability(
 ) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = answer(analyses.stability, model, as_json, output, force)
+        found = answer(analyses.stability, model, Kept(as_json, output, force))
     if not found.stands:
         raise typer.Exit(1)
 
@@ -51,7 +51,7 @@ def bounds(
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
-        answer(analyses.bounds, model, as_json, output, force, tolerance=tolerance)
+        answer(analyses.bounds, model, Kept(as_json, output, force), tolerance=tolerance)
 
 
 def nonassociated(
@@ -69,7 +69,7 @@ def nonassociated(
     with clean_errors():
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         flow |= {"method": method, "backward_error": backward_error}
-        answer(analyses.nonassociated, model, as_json, output, force, **flow)
+        answer(analyses.nonassociated, model, Kept(as_json, output, force), **flow)
 
 
 def path(
@@ -86,7 +86,7 @@ def path(
     with clean_errors():
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         snaps: Any = {"snaps": "along"} if along else {}
-        answer(analyses.path, model, as_json, output, force, **flow, **snaps)
+        answer(analyses.path, model, Kept(as_json, output, force), **flow, **snaps)
 
 
 def load_factor_range(
@@ -106,7 +106,7 @@ def load_factor_range(
     with clean_errors():
         settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
         settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
-        answer(analyses.load_factor_range, model, as_json, output, force, **settings)
+        answer(analyses.load_factor_range, model, Kept(as_json, output, force), **settings)
 
 
 def check(

@@ -94,7 +94,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
     order = np.argsort(found.positions)
     x, factors = found.positions[order], found.load_factors[order]
     rows = [
-        (f"{a:#.6g}", f"{b:#.6g}" if np.isfinite(b) else "unlimited", "worst" if a == found.position else "")
+        (f"{a:.3f}", f"{b:#.4g}" if np.isfinite(b) else "unlimited", "worst" if a == found.position else "")
         for a, b in zip(x.tolist(), factors.tolist(), strict=True)
     ]
     picture = mechanism_picture(found.model, found.bounds.displacement_rates)

@@ -53,9 +53,12 @@ def test_settle_until_collapse(tmp_path):
     assert "the settlement 0.01 m is reached" in run(*way, "--largest", 0.01).stdout
 
 
-def test_capacity(block):
-    done = run("capacity", block, "--steps", 3, "--block", "block 1", "--point", 0.2, 0.5, 1.0, "--json")
+def test_capacity(block, tmp_path):
+    filed = tmp_path / "curve.md"
+    at = ("--block", "block 1", "--point", 0.2, 0.5, 1.0)
+    done = run("capacity", block, "--steps", 3, *at, "--json", "--report", filed)
     assert done.exit_code == 0, done.output
+    assert "load factor zero at 0.196116 m" in filed.read_text()
     found = json.loads(done.stdout)
     assert found["zero"] == pytest.approx(0.196116, abs=5e-7)
 

@@ -225,7 +225,7 @@ def test_a_settlement_has_reactions_and_its_mechanism(reports):
 
 def test_the_worst_position_is_marked(reports, vehicle):
     shown = rows(reports[1], "Vehicle on the deck", "Load factor by position")
-    assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:#.6g}"]
+    assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:.3f}"]
 
 
 def test_a_report_without_a_load_factor_has_the_answer_at_its_head(beam, vehicle, settled):
