@@ -13,13 +13,11 @@ from functools import cached_property
 import numpy as np
 
 from limitblocks.analysis.certified import CLOSE, certified
-from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.limit_state import IN_HALF, limit_state
+from limitblocks.analysis.limit_state import IN_HALF, limit_state, programs_of
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -129,8 +127,7 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
 def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof] | None:
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
-    plane = in_plane(problem)
-    programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
+    plane, programs = in_plane(problem), programs_of(problem)
     dead = carried(problem, programs)
     if dead is None:
         return None

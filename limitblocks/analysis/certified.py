@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.forms import Rates
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
@@ -67,7 +68,8 @@ def certified(
     """
     own = own_units(problem, state)
     given, plane = own.dimensionless(problem.in_si(state)), None if whole else in_plane(problem)
-    repair = Repair(scaled(own), problem, programs) if plane is None else planar_repair(own, plane, programs)
+    ours = programs if programs is not None and isinstance(programs.form, Rates) else None
+    repair = Repair(scaled(own), problem, ours) if plane is None else planar_repair(own, plane, programs)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
         polished = plane is not None and plane.flat and patience is not None

@@ -7,7 +7,7 @@ stresses: for them the static program is the smallest. Figures: docs/solvers.md.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -16,7 +16,7 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.programs import Program, Solution, in_cone, static_program
+from limitblocks.analysis.programs import Program, in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, State
@@ -28,42 +28,44 @@ class Stresses:
 
     problem: Scaled
     patience: ClassVar[int] = 4  # of the polish: duals follow the flow rule as far as the solver has it
-    # stresses are free, pivots may vanish: Clarabel's own replacement of those alone disturbs least
-    equations: ClassVar[Mapping[str, object]] = {"static_regularization_constant": 1e-14}
+    refined: bool = True  # solutions of the linear equations, a third of the time; not needed in a plane
+
+    @property
+    def equations(self) -> Mapping[str, object]:
+        """Settings of Clarabel's linear equations.
+
+        Pivots of stresses may vanish: its own replacement of those alone disturbs least. Not so in a plane,
+        where as many rows as stresses act on each joint.
+        """
+        square = not self.refined and self.problem.F.shape[0] == self.problem.F.shape[1]
+        added = 1e-8 if square else 1e-14
+        return {"static_regularization_constant": added, "iterative_refinement_enable": self.refined}
 
     def limit(self) -> Program:
-        """Largest load factor in equilibrium within the yield set."""
-        return static_program(self.problem)
+        """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
+        p = self.problem
+        v = cp.Variable(1 + p.C.shape[0])
+        live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
+        balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
+        rows = sparse.csr_array(sparse.hstack([nothing, p.F])) @ v + p.g
+        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *in_cone(rows, p.cones)]), (v,))
 
-    def carrying(self) -> Program:
-        """Any stresses within yield that carry the dead loads. Variable: x."""
-        p, x = self.problem, cp.Variable(self.problem.C.shape[0])
-        inside = in_cone(p.F @ x + p.g, p.cones)
-        return Program(cp.Problem(cp.Minimize(0.0), [p.C.T @ x == p.dead, *inside]), (x,))
-
-    def opening(self, amount: Array) -> Program:
+    def opening(self, amount: Array) -> Mapping[str, Array]:
         """Stresses that carry the dead loads with the largest sum of distances to yield times `amount`.
 
         Its dual is the mechanism that opens every joint by at least that (R,) at the least power.
         """
-        p, x = self.problem, cp.Variable(self.problem.C.shape[0])
-        rows = p.F @ x + p.g
-        balance = p.dead - p.C.T @ x == 0  # so that its dual is u
-        return Program(cp.Problem(cp.Maximize(amount @ rows), [balance, *in_cone(rows, p.cones)]), (x,))
+        return {"q": -self.problem.F.T @ amount}
 
-    def limit_state(self, solution: Solution) -> State:
-        """The state of a solution of `limit`, NaN where there is none."""
-        (load_factor, x), (u, *rows) = solution.values, solution.duals
-        return State(float(load_factor), x, u, np.concatenate(rows))
+    def limit_state(self, v: Array, w: Array) -> State:
+        """The state of a solution of `limit` and its duals."""
+        n = len(self.problem.dead)
+        return State(float(v[0]), v[1:], -w[:n], w[n:])
 
-    def stresses(self, solution: Solution) -> Array:
-        """Stresses of a solution of `carrying`."""
-        return solution.values[0]
-
-    def mechanism(self, solution: Solution, amount: Array) -> tuple[Array, Array]:
-        """Rates and multipliers of a solution of `opening`."""
-        u, *rows = solution.duals
-        return u, np.concatenate(rows) + amount
+    def opened(self, v: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
+        """Stresses, rates and multipliers of a solution of `opening` and its duals."""
+        n = len(self.problem.dead)
+        return v, -w[:n], w[n:] + amount
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,30 +107,17 @@ class Rates:
         constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
         return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
-    def carrying(self) -> Program:
-        """No mechanism at all; its dual are stresses within yield that carry the dead loads. Variable: u."""
-        u = cp.Variable(self.B.shape[1])
-        return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), in_cone(self.B @ u, self.cones)), (u,))
+    def opening(self, amount: Array) -> Mapping[str, Array]:
+        """The mechanism that opens every joint by at least `amount` (R,) at the least power."""
+        return {"b": -self.enough(amount)}
 
-    def opening(self, amount: Array) -> Program:
-        """The mechanism that opens every joint by at least `amount` (R,) at the least power. Variable: u."""
-        u = cp.Variable(self.B.shape[1])
-        opened = in_cone(self.B @ u - self.enough(amount), self.cones)
-        return Program(cp.Problem(cp.Minimize(-self.problem.dead @ u), opened), (u,))
+    def limit_state(self, u: Array, w: Array) -> State:
+        """The state of a solution of `limit` and its duals."""
+        return State(-float(w[0]), self.stresses(w[1:]), u, self.multipliers(u))
 
-    def limit_state(self, solution: Solution) -> State:
-        """The state of a solution of `limit`, NaN where there is none."""
-        (u,), (work, *rows) = solution.values, solution.duals
-        return State(-float(work.ravel()[0]), self._stresses(rows), u, self.multipliers(u))
-
-    def stresses(self, solution: Solution) -> Array:
-        """Stresses of a solution of `carrying`."""
-        return self._stresses(solution.duals)
-
-    def mechanism(self, solution: Solution, amount: Array) -> tuple[Array, Array]:
-        """Rates and multipliers of a solution of `opening`."""
-        (u,) = solution.values
-        return u, self.multipliers(u)
+    def opened(self, u: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
+        """Stresses, rates and multipliers of a solution of `opening` and its duals."""
+        return self.stresses(w), u, self.multipliers(u)
 
     def multipliers(self, u: Array) -> Array:
         """Multipliers that follow the rates: dropped rows take half of what their cone has.
@@ -157,10 +146,11 @@ class Rates:
         """Multiplier of its head that does what that of a dropped row does."""
         return _only(self.problem.F[self.dropped]) / _only(self.problem.F[self.head])
 
-    def _stresses(self, rows: Sequence[Array]) -> Array:
+    def stresses(self, rows: Array) -> Array:
+        """Stresses of the kept rows (s,)."""
         stress, factor = self.entry
         x = np.empty(len(stress))
-        x[stress] = np.concatenate(rows) / factor
+        x[stress] = rows / factor
         return x
 
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.known import known
+from limitblocks.analysis.limit_state import programs_of
 from limitblocks.analysis.programs import NEARLY, ROUGH
-from limitblocks.analysis.scales import balanced, scaled
+from limitblocks.analysis.scales import balanced
 from limitblocks.arrays import Array, read_only
 from limitblocks.problem import LimitProblem
 
@@ -26,18 +26,18 @@ def carried(problem: LimitProblem, programs: Programs | None = None) -> Array | 
     problem : LimitProblem
         The whole problem.
     programs : Programs, optional
-        Compiled already: of the problem reduced by its mirror, if it has one.
+        Of :func:`~limitblocks.analysis.limit_state.programs_of`, where they are at hand.
     """
-    return known(problem, "stresses within yield", lambda: _carried(problem, programs))
+    return known(
+        problem, "stresses within yield", lambda: _carried(problem, programs or programs_of(problem))
+    )
 
 
-def _carried(problem: LimitProblem, programs: Programs | None) -> Array | None:
+def _carried(problem: LimitProblem, programs: Programs) -> Array | None:
     plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
-    if programs is None:
-        programs = Programs(form_of(scaled(problem if plane is None else plane.problem)))
     p = programs.form.problem
     for solver in (ROUGH, NEARLY):  # from 10,000 blocks the first stops too early
-        x = programs.stresses(solver)
+        x, _, _ = programs.opening(np.zeros(len(p.g)), solver)
         if not np.isfinite(x).all():
             return None
         x = p.stress * balanced(p, p.dead, x)

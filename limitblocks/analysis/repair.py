@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
 
 import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import Stresses, form_of
+from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.programs import NEARLY, ROUGH, Solver, solvers
 from limitblocks.analysis.scales import Projection, Scaled, compatible, compatible_with, scaled
 from limitblocks.arrays import Array, Indices
@@ -30,7 +29,7 @@ class Repair:
     problem: LimitProblem | None = None
     programs: Programs | None = None  # of that problem, compiled already
     quick: bool = True  # a mechanism that opens all joints about alike is found in few iterations
-    everywhere: ClassVar[float] = 0.1  # of the joint that lacks most: the least that a joint is opened
+    everywhere: float = 0.1  # of the joint that lacks most: the least that a joint is opened
 
     @cached_property
     def projection(self) -> Projection:
@@ -48,21 +47,30 @@ class Repair:
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,)."""
-        found = self._at_once(amount)
-        if found is not None:
-            return found
-        return opening(self.p, amount * self.p.row / self.p.load_factor, (ROUGH,) if self.quick else ())
+        first = (ROUGH,) if self.quick else ()
+        if self.problem is not None and self.programs is not None:
+            there = self._there(self.problem, self.programs.form.problem, amount)
+            for solver in first or (NEARLY,):
+                found = self._at_once(self.problem, self.programs, there, solver)
+                if found is not None:
+                    return found
+        return opening(self.p, amount * self.p.row / self.p.load_factor, first)
 
-    def _at_once(self, amount: Array) -> tuple[Array, Array] | None:
-        """The same by the programs at hand; None where they open not every joint."""
-        if self.problem is None or self.programs is None or isinstance(self.programs.form, Stresses):
-            return None
-        own, q, nothing = self.p.problem, self.programs.form.problem, np.zeros(len(self.p.stress))
-        given = self.problem.dimensionless(own.in_si(State(0.0, nothing, np.zeros(len(own.dead)), amount)))
+    def _there(self, problem: LimitProblem, q: Scaled, amount: Array) -> Array:
+        """The amount in units of the programs at hand: at least `everywhere` of the most, as units differ."""
+        own, nothing = self.p.problem, np.zeros(len(self.p.stress))
+        given = problem.dimensionless(own.in_si(State(0.0, nothing, np.zeros(len(own.dead)), amount)))
         there, heads = given.y * q.row / q.load_factor, q.cones.heads
-        there[heads] = np.maximum(there[heads] / there.max(), self.everywhere)  # units differ
-        u, y = self.programs.mechanism(there, ROUGH)
-        found = own.dimensionless(self.problem.in_si(q.in_problem(State(0.0, nothing, u, y))))
+        there[heads] = np.maximum(there[heads] / there.max(), self.everywhere)
+        return there
+
+    def _at_once(
+        self, problem: LimitProblem, programs: Programs, there: Array, solver: Solver
+    ) -> tuple[Array, Array] | None:
+        """The mechanism by the programs at hand; None where it opens not every joint."""
+        own, nothing = self.p.problem, np.zeros(len(self.p.stress))
+        _, u, y = programs.opening(there, solver)
+        found = own.dimensionless(problem.in_si(programs.form.problem.in_problem(State(0.0, nothing, u, y))))
         y = following(self.p, found.u, found.y)
         return (found.u, y) if own.cones.margin(y).min() > 0.0 else None
 
@@ -74,7 +82,11 @@ class PlanarRepair:
     whole: LimitProblem
     plane: Planar
     half: Repair
-    everywhere: float = Repair.everywhere
+
+    @property
+    def everywhere(self) -> float:
+        """Of the joint that lacks most: the least that a joint is opened."""
+        return self.half.everywhere
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -132,9 +144,8 @@ class PlanarRepair:
 def planar_repair(whole: LimitProblem, plane: Planar, programs: Programs | None) -> PlanarRepair:
     """Return the repairs in the plane or in one half, in units of the whole problem."""
     measured = plane.measured(whole)
-    if plane.flat:
-        return PlanarRepair(whole, measured, Repair(scaled(measured.problem), quick=False), 1e-2)
-    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), plane.problem, programs))
+    how = (False, 1e-2) if plane.flat else (True, Repair.everywhere)
+    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), plane.problem, programs, *how))
 
 
 def following(p: Scaled, u: Array, y: Array) -> Array:
@@ -153,7 +164,7 @@ def opening(p: Scaled, amount: Array, first: tuple[Solver, ...] = ()) -> tuple[A
     """
     programs = Programs(form_of(p))
     for solver in (*first, NEARLY, solvers(bool(p.cones.second_order))[0]):
-        u, y = programs.mechanism(amount, solver)
+        _, u, y = programs.opening(amount, solver)
         state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
         y = following(p, state.u, state.y)
         if p.cones.margin(y).min() > 0.0:  # not where it is NaN

@@ -22,7 +22,6 @@ NOISE = 1e-12  # of the largest rate of an interface: a flow below it is roundin
 ROUNDS = 4  # of stilling what would have to flow in another direction
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
 STILL = 1e-9  # what the rates of a place are worth in the load factor: below it the place is still
-READILY = 10.0  # loads are known better than friction by this
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
 
@@ -179,8 +178,8 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
 def _cheapest(given: Given, choice: _Choice) -> Array:
     """Stresses (s,), place by place as they are, moved to where what flows yields, or none at all.
 
-    Each costs the largest change of limits, flow and loads of the place that it asks for; loads, which are
-    known better than friction, change only where that costs READILY less and the place carries little.
+    Each costs the largest change of limits, flow and loads of the place that it asks for; loads change only
+    where the place carries little.
     """
     members, stresses = given.places
     moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
@@ -190,7 +189,7 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
         *_, angle, change = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
         slight = (by == 0.0) | (given.force <= SLIGHT)
-        cost = np.maximum(angle, np.where(slight, READILY * by, np.inf))
+        cost = np.maximum(angle, np.where(slight, by, np.inf))
         np.maximum.at(cost, members, np.abs(change))
         costs.append(cost)
     return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import clarabel
 import cvxpy as cp
 import numpy as np
 import pytest
@@ -236,7 +237,11 @@ def test_an_exception_of_the_solvers_does_not_reach_the_user(monkeypatch):
     def fail(*_, **__):
         raise cp.SolverError("numbers that no user understands")
 
+    def refuse(*_):
+        raise ValueError("numbers that no user understands")
+
     monkeypatch.setattr(cp.Problem, "solve", fail)
+    monkeypatch.setattr(clarabel, "DefaultSolver", refuse)
     with pytest.raises(lb.errors.SolverFailure) as caught_error:
         lb.bounds(structures.block(lb.PointContact(0.6), width=0.5, height=1.0))
     assert caught_error.value.__cause__ is None

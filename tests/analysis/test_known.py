@@ -10,6 +10,7 @@ import cvxpy as cp
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis.compiled import Programs
 from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.analysis.stability import dead_load_state
@@ -27,14 +28,19 @@ def column(push=(1.0, 0.0, 0.0)):
 
 @pytest.fixture
 def programs(monkeypatch):
-    """Programs that cvxpy was asked to solve."""
-    solved, solve = [], cp.Problem.solve
+    """Programs that cvxpy, or a solver that it compiled for, was asked to solve."""
+    solved, solve, directly = [], cp.Problem.solve, Programs._solved
 
     def counted(self, *settings, **named):
         solved.append(self)
         return solve(self, *settings, **named)
 
+    def counted_too(self, *numbers):
+        solved.append(self)
+        return directly(self, *numbers)
+
     monkeypatch.setattr(cp.Problem, "solve", counted)
+    monkeypatch.setattr(Programs, "_solved", counted_too)
     return solved
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.closing import closed
+from limitblocks.analysis.nonassociated.closing import NEAR, closed
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
@@ -23,6 +23,7 @@ from limitblocks.analysis.nonassociated.means import (
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, ROUNDS, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
@@ -32,7 +33,6 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
-FAR = 1e-6  # residual of a path's end that its polish, which it has tried, does not mend
 Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -101,7 +101,7 @@ def _ways(
     """Polished ends of one way after the other, and which way it was."""
 
     def tracked(one: Means) -> tuple[State, str]:
-        return _polished(flow, *_tracked(flow, x0, scale, one, record))
+        return _polished(flow, *_tracked(flow, x0, scale, one, record), tolerance)
 
     first = tracked(means[0])
     yield first
@@ -136,14 +136,20 @@ def _from_centroid(
     if way.endswith(INTERRUPTED):
         yield near, way
     for one in TURNED_MEANS:
-        state, how = _polished(flow, *_tracked(flow, near.x, scale, one, record, TURNED_SOFTENING))
+        end = _tracked(flow, near.x, scale, one, record, TURNED_SOFTENING)
+        state, how = _polished(flow, *end, tolerance)
         yield state, f"from the solution that twists about the centroid, {how}"
 
 
-def _polished(flow: Flow, state: State, how: str) -> tuple[State, str]:
-    """The end of a path polished, unless the user stopped it or a path of this very flow ended far off."""
-    done = how.endswith(INTERRUPTED) or (flow.constant and defect(flow, state) > FAR)
-    return state if done else polish(flow, state), how
+def _polished(flow: Flow, state: State, how: str, tolerance: float) -> tuple[State, str]:
+    """The end of a path polished, or closed by pivots where it is near, unless the user stopped it.
+
+    A path of this very flow has tried the polish of an end that is farther off.
+    """
+    left = defect(flow, state)
+    if how.endswith(INTERRUPTED) or (flow.constant and left > NEAR):
+        return state, how
+    return polish(flow, pivoted(flow, state) if flow.constant and left > tolerance else state), how
 
 
 def _in_space(flow: Flow) -> bool:
