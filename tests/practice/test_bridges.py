@@ -83,7 +83,7 @@ def test_another_program_with_a_tie(prestress):
 
 
 def test_another_program_with_a_prestress_that_is_too_large():
-    """A rod at the fifth voussoirs that pulls 100 kN and no less: the arch carries less than with a slack one."""
+    """A rod at the fifth voussoirs that pulls 100 kN and no less: less load than with a slack one."""
     own, model = Bridge(), bridge()
     tight, pull = rod(own, 4, 1e5 + 1, 1e5)
     slack, _ = rod(own, 4, 1e5 + 1)
