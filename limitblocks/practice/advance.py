@@ -94,7 +94,7 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     rigid = np.concatenate([np.full(len(own.on_i), not own.tied) for own in assembly.contacts])
     share, before, trials = 1.0, np.concatenate(was), 0
     while share >= SHORTEST:
-        goal, left = closed_up(moved(assembly, share * displacements), held, sliding)
+        goal, left = closed_up(moved(assembly, share * displacements), held, sliding, displacements)
         gap = np.concatenate([own.ways[:, 2] for own in goal.contacts])
         meets = rigid & (gap < -least)
         closes = rigid & (before > least) & (gap < np.minimum(TOUCH * assembly.size, 0.1 * before))

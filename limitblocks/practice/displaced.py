@@ -55,9 +55,30 @@ class Contact:
         return half_way(self.axes_i, self.axes_j)
 
     @cached_property
+    def on_face_i(self) -> Truths:
+        """Which corners of block j rest on the face of block i, shape (k,); the others are of i on that of j.
+
+        A corner rests on that of both faces off which it is farther: the separating axis of convex bodies.
+        """
+        way = self.on_j - self.on_i
+        return np.asarray(way @ self.axes_i[2] >= way @ self.axes_j[2])
+
+    @cached_property
+    def axes(self) -> Array:
+        """Axes of each corner, shape (k, 3, 3): two half way between both blocks, then normal to the face."""
+        normal = np.where(self.on_face_i[:, None], self.axes_i[2], self.axes_j[2])
+        sides = np.broadcast_to(self.half_way[:2], (len(normal), 2, 3))
+        return np.concatenate([sides, normal[:, None]], axis=1)
+
+    @cached_property
+    def rest(self) -> Array:
+        """Corners that rest on a face, global axes, m, shape (k, 3)."""
+        return np.where(self.on_face_i[:, None], self.on_j, self.on_i)
+
+    @cached_property
     def ways(self) -> Array:
-        """Way from the corners on i to those on j, local axes, m, shape (k, 3); the gap comes last."""
-        return np.asarray((self.on_j - self.on_i) @ self.half_way.T)
+        """Way from the corners on i to those on j along their axes, m, shape (k, 3); the gap comes last."""
+        return np.asarray(np.einsum("kab,kb->ka", self.axes, self.on_j - self.on_i))
 
     @property
     def tied(self) -> bool:

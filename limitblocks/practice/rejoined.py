@@ -29,20 +29,35 @@ ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
 PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
 
 
-def closed_up(assembly: Assembly, held: list[Truths], sliding: list[bool]) -> tuple[Assembly, float]:
+def closed_up(
+    assembly: Assembly, held: list[Truths], sliding: list[bool], along: Array | None = None
+) -> tuple[Assembly, float]:
     """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
 
-    `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide.
+    `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide. The way back
+    along the displacements `along`, shape (n, 6), is barred; what then cannot but open opens: rates tell of
+    the first order of a motion alone.
     """
-    wanted = np.concatenate(
-        [
-            np.stack([own & (not slides)] * 2 + [own], axis=1)
-            for own, slides in zip(held, sliding, strict=True)
-        ]
-    )
+    normal = np.concatenate(held)
+    stuck = np.repeat(~np.array(sliding, dtype=bool), [len(own) for own in held])
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
     scale[[block.name in assembly.model.supports for block in assembly.model.blocks]] = 0.0
+    barred = np.zeros((0, scale.size)) if along is None else scale.reshape(1, -1) * along.reshape(1, -1)
+    barred = barred / np.maximum(np.linalg.norm(barred, axis=1, keepdims=True), 1e-300)
+    while True:
+        wanted = np.stack([normal & stuck, normal & stuck, normal], axis=1)
+        goal, way, left = _closed(assembly, wanted, scale, barred)
+        opens = normal & (way[:, 2] > max(0.5 * way.max(), CLOSED * assembly.size))
+        if along is None or not opens.any():
+            return goal, left
+        normal &= ~opens
+
+
+def _closed(
+    assembly: Assembly, wanted: Truths, scale: Array, barred: Array
+) -> tuple[Assembly, Array, float]:
+    """Newton's method for the ways `wanted`, shape (k, 3): the structure, its ways and the largest, m."""
     left = np.inf
     for _ in range(ROUNDS):
         way = np.where(wanted, np.concatenate([own.ways for own in assembly.contacts]), 0.0)
@@ -50,23 +65,24 @@ def closed_up(assembly: Assembly, held: list[Truths], sliding: list[bool]) -> tu
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
         rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
-        step = lsmr(rows, -way[wanted], atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
+        rows, lack = sparse.vstack([rows, barred]), np.append(-way[wanted], np.zeros(len(barred)))
+        step = lsmr(rows, lack, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
-    return assembly, left
+    return assembly, way, left
 
 
 def rows_of(assembly: Assembly) -> sparse.csr_array:
     """Return the rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     parts = [
-        (sign, own.ends[side], points, own.half_way)
+        (sign, own.ends[side], own.rest, own.axes)
         for own in assembly.contacts
-        for side, sign, points in ((0, -1.0, own.on_i), (1, 1.0, own.on_j))
+        for side, sign in ((0, -1.0), (1, 1.0))
     ]
     data, rows, columns, start = [], [], [], 0
     for number, (sign, k, points, axes) in enumerate(parts):
         turn = np.cross((points - centres[k])[:, None, :], axes)  # a . (w x r) = w . (r x a)
-        values = sign * np.concatenate([np.broadcast_to(axes, turn.shape), turn], axis=2)
+        values = sign * np.concatenate([axes, turn], axis=2)
         data.append(values.ravel())
         rows.append(np.repeat(start + np.arange(3 * len(points)), 6))
         columns.append(np.tile(6 * k + np.arange(6), 3 * len(points)))
@@ -94,11 +110,11 @@ def _apart(assembly: Assembly, reach: float) -> Indices:
 
 
 def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, ...]]:
-    """Return the structure with the contacts that slide where block j now is, and which were lost or found.
+    """Return the structure with the contacts that slide where they now are, and which were lost or found.
 
     Faces that slide flat on one another get the areas that they now share: one that shares none any more
     carries nothing, and is left out. A block that slides onto a further face rests on that as well. An opened
-    joint that slides keeps its corners on block j.
+    joint that slides keeps the corners that rest on a face.
     """
     kept: list[Contact] = []
     flat: dict[tuple[int, int], list[Contact]] = {}
@@ -107,7 +123,8 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
         if not slides or own.tied:
             kept.append(own)
         elif not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
-            moved_on = replace(own, on_i=own.on_j - own.ways[:, 2:] * own.half_way[2])
+            gap, of_j = own.ways[:, 2:] * own.axes[:, 2], own.on_face_i[:, None]
+            moved_on = replace(own, on_i=own.rest - of_j * gap, on_j=own.rest + ~of_j * gap)
             kept.append(replace(moved_on, interface=placed(moved_on)))
         else:
             shared = [] if own.ends in flat else _shared(assembly, own.ends, [own])
