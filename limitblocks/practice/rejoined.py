@@ -35,14 +35,16 @@ def closed_up(
     """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
 
     `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide. The way back
-    along the displacements `along`, shape (n, 6), is barred; what then cannot but open opens: rates tell of
-    the first order of a motion alone.
+    along the displacements `along`, shape (n, 6), is barred unless a support led the motion; what then cannot
+    but open opens: rates tell of the first order of a motion alone.
     """
     normal = np.concatenate(held)
     stuck = np.repeat(~np.array(sliding, dtype=bool), [len(own) for own in held])
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
-    scale[[block.name in assembly.model.supports for block in assembly.model.blocks]] = 0.0
+    supports = [block.name in assembly.model.supports for block in assembly.model.blocks]
+    scale[supports] = 0.0
+    along = None if along is None or along[supports].any() else along
     barred = np.zeros((0, scale.size)) if along is None else scale.reshape(1, -1) * along.reshape(1, -1)
     barred = barred / np.maximum(np.linalg.norm(barred, axis=1, keepdims=True), 1e-300)
     while True:
