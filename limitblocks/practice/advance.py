@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
@@ -16,16 +15,14 @@ from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
-from limitblocks.practice.rejoined import closed_up, joined, meet, slid
+from limitblocks.practice.rejoined import closed_up, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
-PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
 TOUCH = 1e-5  # of the size of the structure: a corner that comes as near closes
 SECANTS = 4  # to where a contact closes; then steps are halved
 SHORTEST = 2.0**-20  # of a step: where a contact closes
 BESIDE = 1e-2  # of the size of a block: a point as far from it is not on it
-NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,41 +108,6 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
     return None
-
-
-def touching(assembly: Assembly) -> Model:
-    """Return the model without the interfaces that have opened all over: they carry nothing."""
-    least = 10.0 * CLOSED * assembly.size
-    return joined(assembly, (own for own in assembly.contacts if own.tied or own.ways[:, 2].min() <= least))
-
-
-def pressed_in(assembly: Assembly, stress_resultants: Array) -> Assembly:
-    """Return the structure with the contacts that carry a force, of stress resultants (m, 6), marked."""
-    normal = -stress_resultants[:, 2]
-    pressed = (normal > PRESSED * normal.max()).tolist()
-    contacts = (replace(own, pressed=one) for own, one in zip(assembly.contacts, pressed, strict=True))
-    return replace(assembly, contacts=tuple(contacts))
-
-
-def carried_by(assembly: Assembly, model: Model, stress_resultants: Array) -> Array:
-    """Return the stress resultants (m, 6) of all contacts from those of the model of what touches."""
-    place = {id(own): Q for own, Q in zip(model.interfaces, stress_resultants, strict=True)}
-    return np.array([place.get(id(own.interface), np.zeros(6)) for own in assembly.contacts])
-
-
-def across(assembly: Assembly, stress_resultants: Array) -> tuple[str, ...]:
-    """Return the opened joints whose normal force acts off their closed corners, as sentences."""
-    said, least = [], 1e-6 * np.abs(stress_resultants[:, 2]).max()
-    for own, Q in zip(assembly.contacts, stress_resultants, strict=True):
-        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
-        closed = gap <= 10.0 * CLOSED * assembly.size
-        if own.tied or closed.all() or not -Q[2] > least:
-            continue
-        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
-        shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
-        if not closed.any() or shut.distance(pressed) > NEAR * size:
-            said.append(f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm")
-    return tuple(said)
 
 
 def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:

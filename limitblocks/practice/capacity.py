@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import read_only
-from limitblocks.errors import ModelError, NoEquilibrium, SolveError
+from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
@@ -18,20 +16,18 @@ from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
     STILL,
     Advanced,
-    across,
     advanced,
     carried,
-    carried_by,
     control_point,
     farthest,
-    pressed_in,
     refuse_left_behind,
-    touching,
     velocity,
 )
+from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.snapped import falls, snapped
+from limitblocks.practice.touching import pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
@@ -105,6 +101,7 @@ def _curve(
 ) -> Iterator[CapacityPoint | str]:
     """The points of the curve, then why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
+    assembly = pressed_in(assembly, list(range(len(model.interfaces))), first.stress_resultants)
     end = min(largest, whole := assembly.size)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
@@ -175,13 +172,12 @@ def _advanced(
     there = _held(assembly, control, point, step)
     if there is None:
         return None
-    shift, loaded, result = _answered(touching(there.assembly))
+    goal, shift, loaded, result, pressed = answered(there.assembly)
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
-    pressed = across(there.assembly, carried_by(there.assembly, loaded, result.stress_resultants))
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )
-    return there.assembly, there.control, found
+    return goal, there.control, found
 
 
 def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: float) -> Advanced | None:
@@ -191,7 +187,6 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
         there = advanced(assembly, control, point.result.displacement_rates, way)
         return there, there is not None and falls(there.assembly)
 
-    assembly = pressed_in(assembly, carried_by(assembly, point.model, point.result.stress_resultants))
     there, fallen = ahead(step)
     low, high, held = 0.0, step, None
     way = EVENT * assembly.size
@@ -205,21 +200,6 @@ def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: floa
     rest, changes = snapped(there.assembly)
     moved_on = carried(there.assembly, rest, there.control)
     return Advanced(rest, moved_on, there.changes + changes, snapped=True)
-
-
-def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
-    """The answer; where the dead loads alone fall, from the load factor of the least stresses."""
-    try:
-        return 0.0, model, nonassociated(model)
-    except NoEquilibrium:
-        problem = model.problem
-        least = NearestStresses(problem, problem.compliance)
-        found = least.find(np.zeros(len(problem.compliance)), np.zeros(len(problem.g)))
-        if found is None:
-            raise
-        shift = -found[0] / problem.units.live
-        held = replace(model, dead=model.dead + (-shift) * model.live)
-        return shift, held, nonassociated(held)
 
 
 def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:

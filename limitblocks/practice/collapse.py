@@ -12,11 +12,12 @@ from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import Advanced, across, advanced, farthest, refuse_left_behind
+from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.settlement import Settlement, settlement, settling
+from limitblocks.practice.touching import across
 
 STEP = 0.01  # of the size of the structure: the largest step
 FIRST = 1e-3  # the same: the first one
@@ -144,7 +145,8 @@ def _way(
 def _point(at: float, answer: Settlement, there: Advanced) -> SettlementPoint:
     end = answer.result or answer.bounds
     forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of the guide
-    return SettlementPoint(at, answer, there.changes, across(there.assembly, forces))
+    pressed = across(there.assembly, forces, list(range(len(forces))))
+    return SettlementPoint(at, answer, there.changes, tuple(pressed.values()))
 
 
 def _rates(found: Settlement) -> Array:

@@ -56,9 +56,7 @@ def closed_up(
         normal &= ~opens
 
 
-def _closed(
-    assembly: Assembly, wanted: Truths, scale: Array, barred: Array
-) -> tuple[Assembly, Array, float]:
+def _closed(assembly: Assembly, wanted: Truths, scale: Array, barred: Array) -> tuple[Assembly, Array, float]:
     """Newton's method for the ways `wanted`, shape (k, 3): the structure, its ways and the largest, m."""
     left = np.inf
     for _ in range(ROUNDS):
@@ -67,7 +65,10 @@ def _closed(
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
         rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
-        rows, lack = sparse.vstack([rows, barred]), np.append(-way[wanted], np.zeros(len(barred)))
+        rows, lack = (
+            sparse.vstack([rows, sparse.csr_array(barred)]),
+            np.append(-way[wanted], np.zeros(len(barred))),
+        )
         step = lsmr(rows, lack, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
     return assembly, way, left

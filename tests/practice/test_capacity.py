@@ -13,15 +13,17 @@ from limitblocks.practice import (
     CapacityCurve,
     CapacityPoint,
     Control,
+    answered,
     capacity,
     capacity_curve,
     reinforced,
     tie,
 )
-from limitblocks.practice.advance import across, advanced
+from limitblocks.practice.advance import advanced
 from limitblocks.practice.displaced import assembly_of, moved
 from limitblocks.practice.rejoined import closed_up
 from limitblocks.practice.rejoined import slid as slid_on
+from limitblocks.practice.touching import across
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -332,7 +334,10 @@ def test_a_joint_that_presses_across_its_gap_is_named():
     result = lb.nonassociated(arch)
     control = capacity._control(arch, result, None)
     there = advanced(assembly_of(arch), control, result.displacement_rates, 0.45)
-    pressed = across(there.assembly, lb.nonassociated(there.assembly.model).stress_resultants)
+    pressed = across(
+        there.assembly, lb.nonassociated(there.assembly.model).stress_resultants, list(range(13))
+    )
+    pressed = tuple(pressed.values())
     assert "presses across a gap of" in pressed[0]
     points = [CapacityPoint(d, 0.2, 0.0, arch, result, (), words) for d, words in ((0.0, ()), (0.1, pressed))]
     curve = CapacityCurve(tuple(points), control, None, "")
@@ -350,7 +355,7 @@ def test_dead_loads_that_fall_are_held_by_some_of_the_live_load(uphill):
     found = lb.find_interfaces(stones, lb.PointContact(friction))
     push = lb.mass_proportional((1 if uphill else -1, 0, 0))
     model = lb.Model(stones, ["base"], found, lb.self_weight(), push)
-    shift, held, result = capacity._answered(model)
+    shift, held, result = answered._answered(model)
     assert (shift < 0) == uphill
     assert lb.check_mcp(held, result).passed
     expected = np.tan(slope + np.arctan(friction)) if uphill else -np.tan(slope - np.arctan(friction))

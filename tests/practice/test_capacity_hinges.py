@@ -8,9 +8,9 @@ from scipy.optimize import fsolve
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve
-from limitblocks.practice.advance import pressed_in
 from limitblocks.practice.displaced import assembly_of
 from limitblocks.practice.snapped import falls, snapped
+from limitblocks.practice.touching import pressed_in
 
 QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
 
@@ -107,6 +107,8 @@ def test_hinges_jump_and_no_joint_presses_across_its_gap(followed):
 def test_a_structure_that_is_held_does_not_snap():
     """Negative control: before the thrust reaches a fifth joint nothing falls."""
     arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=12)
-    there = pressed_in(assembly_of(arch), -np.ones((len(arch.interfaces), 6)))
+    there = pressed_in(
+        assembly_of(arch), list(range(len(arch.interfaces))), -np.ones((len(arch.interfaces), 6))
+    )
     assert not falls(there)
     assert snapped(there) == (there, ())

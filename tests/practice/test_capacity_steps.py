@@ -6,9 +6,10 @@ import pytest
 import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
-from limitblocks.practice.advance import moved_until_contact, pressed_in
+from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.displaced import CLOSED, assembly_of, moved
 from limitblocks.practice.snapped import falls, snapped, steepest
+from limitblocks.practice.touching import pressed_in
 
 JOINT = lb.PointContact(0.6)
 
@@ -42,7 +43,7 @@ def test_a_contact_without_force_is_not_pressed():
     arch = lb.structures.arch(JOINT, radius=5.0, thickness=1.0, voussoirs=3)
     forces = np.zeros((4, 6))
     forces[:, 2] = -1.0, -1e-3, -1e-9, 0.0
-    assert [own.pressed for own in pressed_in(assembly_of(arch), forces).contacts] == [
+    assert [own.pressed for own in pressed_in(assembly_of(arch), [0, 1, 2, 3], forces).contacts] == [
         True,
         True,
         False,
@@ -79,7 +80,7 @@ def test_a_round_of_a_fall_is_a_twentieth_of_a_block():
             lb.self_weight(),
             lb.mass_proportional((0, 1, 0)),
         )
-        there = pressed_in(assembly_of(model), -np.ones((1, 6)))
+        there = pressed_in(assembly_of(model), [0], -np.ones((1, 6)))
         assert falls(there) == (beyond == 0.6)
         way = steepest(there)[0] / [*[stones[1].size] * 3, 1, 1, 1]
         if beyond == 0.6:

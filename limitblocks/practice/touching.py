@@ -1,0 +1,88 @@
+"""What of the contacts of a displaced structure touches, and where their forces act."""
+
+from __future__ import annotations
+
+from collections.abc import Set
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import centroids, longest_side
+from limitblocks.model import Model
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact
+from limitblocks.practice.rejoined import joined
+
+PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
+NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
+STRIP = 1e-2  # of the size of a joint: what is left of one on its closed corners; solved where 1e-3 is not
+
+
+def touching(assembly: Assembly, narrow: Set[int] = frozenset()) -> tuple[Model, list[int]]:
+    """Return the model of what touches, and the contacts that its interfaces are of.
+
+    Those that have opened all over carry nothing. Of those numbered `narrow` the closed corners are left.
+    """
+    least = 10.0 * CLOSED * assembly.size
+    kept = [k for k, own in enumerate(assembly.contacts) if own.tied or own.ways[:, 2].min() <= least]
+    found = joined(assembly, [assembly.contacts[k] for k in kept])
+    if not narrow:
+        return found, kept
+    left = (
+        narrowed(assembly.contacts[k], assembly.size) if k in narrow else own
+        for k, own in zip(kept, found.interfaces, strict=True)
+    )
+    return replace(found, interfaces=tuple(left)), kept
+
+
+def narrowed(own: Contact, size: float) -> Interface:
+    """Return the strip of an opened joint along its closed corners."""
+    polygon, closed = own.interface.polygon, own.ways[:, 2] <= 10.0 * CLOSED * size
+    shut = shapely.MultiPoint(polygon[closed]).convex_hull
+    corners = shapely.points(polygon)
+    on = shapely.get_coordinates(shapely.get_point(shapely.shortest_line(shut, corners), 0))
+    off = polygon - on
+    far = np.linalg.norm(off, axis=1, keepdims=True)
+    strip = on + off * np.minimum(STRIP * np.abs(polygon).max() / np.maximum(far, 1e-300), 1.0)
+    middle = centroids(strip[None])[0]
+    first = int(longest_side(strip[None], own.interface.axes[None, :2])[0]) + 1
+    strip = np.roll(strip - middle, -first, axis=0)
+    s1 = (strip[0] - strip[-1]) / np.linalg.norm(strip[0] - strip[-1])
+    turn = np.array([s1, [-s1[1], s1[0]]])
+    axes = own.interface.axes
+    return replace(
+        own.interface,
+        centroid=read_only(own.interface.centroid + middle @ axes[:2]),
+        axes=read_only(np.concatenate([turn @ axes[:2], axes[2:]])),
+        polygon=read_only(strip @ turn.T),
+    )
+
+
+def pressed_in(assembly: Assembly, kept: list[int], stress_resultants: Array) -> Assembly:
+    """Return the structure with the contacts that carry a force marked, from stress resultants (m, 6)."""
+    normal = np.zeros(len(assembly.contacts))
+    normal[kept] = -stress_resultants[:, 2]
+    pressed = (normal > PRESSED * normal.max()).tolist()
+    contacts = (replace(own, pressed=one) for own, one in zip(assembly.contacts, pressed, strict=True))
+    return replace(assembly, contacts=tuple(contacts))
+
+
+def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dict[int, str]:
+    """Return sentences on the opened joints whose normal force acts off their closed corners, by number.
+
+    `stress_resultants`, shape (m, 6), are those of the contacts `kept`, on their whole faces.
+    """
+    said, least = {}, 1e-6 * np.abs(stress_resultants[:, 2]).max()
+    for k, Q in zip(kept, stress_resultants, strict=True):
+        own = assembly.contacts[k]
+        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
+        closed = gap <= 10.0 * CLOSED * assembly.size
+        if own.tied or closed.all() or not -Q[2] > least:
+            continue
+        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
+        shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
+        if not closed.any() or shut.distance(pressed) > NEAR * size:
+            said[k] = f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm"
+    return said
