@@ -31,6 +31,7 @@ import numpy as np
 import limitblocks as lb
 
 BEHIND, FRONT, BETWEEN = 0.2, 0.5, 0.6  # m1, m2, m3
+CHECKED = 1e-8  # a path on which the joint between slips to the end ends at a limit of V: a right answer, too
 
 
 def main(folder="output"):
@@ -39,12 +40,12 @@ def main(folder="output"):
     print(found)
     for answer in found.answers:
         print(f"{answer.load_factor:.4f}  {answer.origin.value}: {answer.solution.how}")
-    expected = by_hand()
-    print(f"by hand: {expected[0]:.6f} to {expected[1]:.6f}")
+    expected = least, most = by_hand()
+    print(f"by hand: {least:.6f} to {most:.6f}")
     picture(Path(folder), found, expected)
     return {
         "certified less by hand": np.subtract(found.certified, expected),
-        "reached within": float(expected[0] < found.reached[0] < found.reached[1] < expected[1]),
+        "reached within": float(least - CHECKED <= found.reached[0] < found.reached[1] <= most + CHECKED),
         "worst residual": max(answer.check.worst.value for answer in found.answers),
         "wedged": float(found.wedging.wedged),
     }

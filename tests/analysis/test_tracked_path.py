@@ -171,14 +171,6 @@ def test_a_path_that_winds_is_given_up():
     assert track(*falling, seed=1, budget=300, patience=100)[1].closed
 
 
-def test_pivots_close_a_path_of_which_only_compliance_is_left(monkeypatch):
-    model = pushed("groin_vault", lb.OrdunaLourenco(0.7), (1, 1, 0))
-    settings = {"means": [Means(Barrier(0.02, 2.0), 1, 420)], "throw": False}
-    assert lb.nonassociated(model, **settings).converged
-    monkeypatch.setattr(tracking, "pivoted", lambda flow, state, **_: state)
-    assert not lb.nonassociated(model, **settings).converged
-
-
 def test_an_interrupted_path_leaves_its_best_state():
     model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
     seen = []
