@@ -236,8 +236,8 @@ def test_a_facade_of_37_blocks(joint, push):
 
 
 def test_a_corner_rests_on_the_face_off_which_it_is_farther():
-    """A block turned by phi about its edge that then slides by s: inwards its corner is on the ground, outwards
-    the edge of the ground on its face, s sin(phi) below; half way between both faces it would be neither."""
+    """A block turned by phi about its edge then slides by s: inwards its corner is on the ground, outwards
+    the edge of the ground is on its face, s tan(phi) above that corner."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)
     phi, s = 0.1, 0.03
     edge = model.interfaces[0].centroid[0] + B / 2
@@ -249,7 +249,7 @@ def test_a_corner_rests_on_the_face_off_which_it_is_farther():
         arm = model.blocks[k].centroid - about
         rates[k, 4] = phi
         start = moved(assembly_of(model), rates)
-        off = about + [slide, 0, level] - (start.model.blocks[k].centroid + turn @ -arm)
+        off = about + np.array([slide, 0, level]) - (start.model.blocks[k].centroid + turn @ -arm)
         shift = np.zeros_like(rates)
         shift[k, :3] = off
         there = moved(start, shift).contacts[0]
