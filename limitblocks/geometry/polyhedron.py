@@ -145,8 +145,8 @@ def shape_fault(points: Array, edges: Mesh, size: float, body: Shape) -> str:
         return f"the volume is zero ({body.volume:.3g} m3 for a size of {size:.3g} m); a block has a volume"
     if body.volume < 0.0:
         return (
-            f"the volume is negative ({body.volume:.3g} m3): the faces point inward; "
-            "list the vertices of each face counter-clockwise seen from outside"
+            f"the volume is negative ({body.volume:.3g} m3): the faces point inward, or a vertex is out of "
+            "place; list the vertices of each face counter-clockwise seen from outside"
         )
     areas = np.sqrt(np.einsum("ij,ij->i", body.area_vectors, body.area_vectors))
     if areas.min() <= ZERO_TOLERANCE * size**2:

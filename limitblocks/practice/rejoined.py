@@ -50,7 +50,7 @@ def closed_up(
     while True:
         wanted = np.stack([normal & stuck, normal & stuck, normal], axis=1)
         goal, way, left = _closed(assembly, wanted, scale, barred)
-        opens = normal & (way[:, 2] > max(0.5 * way.max(), CLOSED * assembly.size))
+        opens = normal & (way[:, 2] > CLOSED * assembly.size)
         if along is None or not opens.any():
             return goal, left
         normal &= ~opens

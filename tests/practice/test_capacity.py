@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from few_blocks import sliding_block, toe_corner
 from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.loads import added_mass, pressure
 from limitblocks.practice import (
-    CapacityCurve,
     CapacityPoint,
     Control,
     answered,
@@ -19,20 +19,10 @@ from limitblocks.practice import (
     reinforced,
     tie,
 )
-from limitblocks.practice.advance import advanced, moved_until_contact
-from limitblocks.practice.displaced import assembly_of, moved
-from limitblocks.practice.rejoined import closed_up
-from limitblocks.practice.rejoined import slid as slid_on
-from limitblocks.practice.touching import STRIP, across, narrowed
+from limitblocks.practice.displaced import assembly_of
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
-
-
-def toe_corner(model, height=H):
-    """The upper corner above the toe."""
-    vertices = model.free_blocks[0].vertices
-    return vertices[(vertices[:, 0] > 0) & (vertices[:, 2] > height / 2)][0]
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
@@ -86,27 +76,6 @@ def test_block_that_slides_off_its_base_tips_over_the_edge():
     assert first.load_factor == pytest.approx((0.5 - first.displacement) / (h / 2), rel=1e-6)
 
 
-def sliding_block(friction=0.1, size=1.0):
-    """A flat block on a base of the same plan: it slides before it rocks."""
-    stones = [
-        lb.Block.box("base", (size, size, 0.2), (0, 0, -0.1)),
-        lb.Block.box("block", (size, size, 0.3), (0, 0, 0.15), 20e3),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(friction))
-    return lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-
-
-def test_a_block_that_slides_goes_over_the_edge_and_no_farther():
-    """At friction mu until its centre is mu h / 2 from the edge; beyond the edge it needs no push."""
-    curve = capacity_curve(sliding_block(), steps=4)
-    slid = curve.displacements < 0.5 - 0.1 * 0.15
-    assert slid.sum() > 2
-    assert curve.load_factors[slid] == pytest.approx(0.1, rel=1e-9)
-    assert np.diff(curve.displacements).max() < 1.2 / 4
-    assert curve.load_factors[~slid].max() < 0.1
-    assert 0.5 < curve.zero < 0.5 + 0.1 * 0.3 + 1e-9  # its top turns ahead of its centre by no more
-
-
 def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     """From one corner of a square to the other, a way longer than its side: it slides for ever."""
     stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
@@ -115,67 +84,6 @@ def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     curve = capacity_curve(lb.Model(stones, ["base"], found, lb.self_weight(), push), steps=2)
     assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
     assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
-
-
-def test_a_block_beyond_the_edge_loses_its_contact():
-    """It falls where it has no other; where it has one it is held by that."""
-    way = np.zeros((3, 6))
-    way[2, 0] = 1.5
-    alone, held = sliding_block(), beside_a_wall()
-    with pytest.raises(lb.SolveError, match=r"lost all that they rest on: .*'block'"):
-        slid_on(moved(assembly_of(alone), way[1:]), [True])
-    there, said = slid_on(moved(assembly_of(held), way), [True, True])
-    assert said == ("base|block slides off",)
-    assert (
-        [own.interface.name for own in there.contacts]
-        == ["wall|block"]
-        == [own.name for own in there.model.interfaces]
-    )
-
-
-def beside_a_wall():
-    """The flat block beside a long wall that it slides along."""
-    base, block = sliding_block().blocks
-    wall = lb.Block.box("wall", (5, 1, 1), (0, 1, 0.5))
-    found = lb.find_interfaces([base, wall, block], lb.PointContact(0.1))
-    return lb.Model(
-        [base, wall, block], ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0))
-    )
-
-
-def test_a_block_that_slides_onto_another_rests_on_both():
-    """Two bases of 1 m side by side, the second 1 mm lower or not: it bears, or does not touch."""
-    for step, words in ((0.0, ("other|block touches",)), (1e-3, ())):
-        stones = [
-            lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
-            lb.Block.box("other", (1, 1, 0.2), (1, 0, -0.1 - step)),
-            lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
-        ]
-        model = lb.Model(
-            stones, ["base", "other"], lb.find_interfaces([stones[0], stones[2]], lb.PointContact(0.1)),
-            lb.self_weight(), lb.mass_proportional((1, 0, 0)),
-        )  # fmt: skip
-        way = np.zeros((3, 6))
-        way[2, 0] = 0.3
-        there, said = slid_on(moved(assembly_of(model), way), [True])
-        areas = [np.ptp(own.interface.polygon, axis=0).prod() for own in there.contacts]
-        assert said == words
-        assert areas == pytest.approx([0.7, 0.3][: 1 + len(words)])
-
-
-def test_a_contact_in_two_parts_keeps_two_as_it_slides():
-    """A table on two feet of 1 m x 1 m: each keeps its own area, and none counts twice."""
-    outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
-    n = len(outline)
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    faces = [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *(side[::-1] for side in sides)]
-    table = lb.Block("table", [(x, y, z) for y in (0, 1) for x, z in outline], faces, 20e3)
-    stones = [lb.Block.box("base", (9, 3, 1), (1.5, 0.5, -0.5)), table]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    there, _ = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])
-    centres = sorted(own.interface.centroid[0] for own in there.contacts)
-    assert centres == pytest.approx([1.0, 3.0])
 
 
 def test_mass_and_tie_move_with_the_block():
@@ -232,80 +140,12 @@ def test_a_facade_of_37_blocks(joint, push):
     assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
     assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
     assert curve.load_factors[-1] < 0.96 * curve.load_factors[0]
+    if joint is JOINTS[0]:  # with the paper's it may rise: the load factor is not unique
+        assert (np.diff(curve.load_factors) < 1e-7).all()
+        assert (
+            curve.load_factors[-1] < (1 - 0.05 / 0.6) * curve.load_factors[0]
+        )  # straight to .6 m
     assert curve.points[1].changes
-
-
-def test_a_corner_rests_on_the_face_off_which_it_is_farther():
-    """A block turned by phi about its edge then slides by s: inwards its corner is on the ground, outwards
-    the edge of the ground is on its face, s tan(phi) above that corner."""
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    phi, s = 0.1, 0.03
-    edge = model.interfaces[0].centroid[0] + B / 2
-    for slide, level in ((-s, 0.0), (s, -s * np.tan(phi))):
-        about = np.array([edge, 0.0, model.interfaces[0].centroid[2]])
-        rates = np.zeros((len(model.blocks), 6))
-        k = model.blocks.index(model.free_blocks[0])
-        turn = np.array([[np.cos(phi), 0, np.sin(phi)], [0, 1, 0], [-np.sin(phi), 0, np.cos(phi)]])
-        arm = model.blocks[k].centroid - about
-        rates[k, 4] = phi
-        start = moved(assembly_of(model), rates)
-        off = about + np.array([slide, 0, level]) - (start.model.blocks[k].centroid + turn @ -arm)
-        shift = np.zeros_like(rates)
-        shift[k, :3] = off
-        there = moved(start, shift).contacts[0]
-        assert np.sort(np.abs(there.ways[:, 2]))[:2] == pytest.approx([0.0, 0.0], abs=1e-12)
-        assert there.on_face_i.all() == (slide < 0)
-
-
-def test_what_opens_at_second_order_opens():
-    """A column tilts by phi about its toe; beside it, off a step of its height h, the stone on it slides out
-    and lifts by about h phi^2 / 2: of the first order it only slides."""
-    stones = [
-        lb.Block.box("ground", (4, 4, 0.2), (0, 0, -0.1)),
-        lb.Block.box("step", (1, 1, 0.4), (-0.5, -0.5, 0.2), 1.0),
-        lb.Block.box("column", (1, 1, 0.4), (-0.5, 0.5, 0.2), 1.0),
-        lb.Block.box("top", (1, 2, 0.4), (-0.5, 0, 0.6), 1.0),
-    ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    phi, rates = 0.01, np.zeros((4, 6))
-    for k in (2, 3):
-        rates[k] = *np.cross((0, 1, 0), stones[k].centroid), 0, 1, 0
-    there, changes = moved_until_contact(assembly_of(model), phi * rates)
-    assert "step|top opens" in changes
-    gap = next(own for own in there.contacts if own.interface.name == "step|top").ways[:, 2].min()
-    assert gap == pytest.approx(0.4 * np.tan(phi) * np.sin(phi) - 0.4 * (1 - np.cos(phi)), rel=1e-3)
-    moves = there.model.blocks[2].vertices - stones[2].vertices
-    assert np.abs(moves).max() == pytest.approx(phi, rel=1e-2)  # it did not go back
-
-
-def test_a_joint_narrowed_to_its_closed_corners():
-    """A block turned about its edge keeps a strip of a hundredth of the half width there."""
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    rates = lb.nonassociated(model).displacement_rates
-    there = moved_until_contact(assembly_of(model), 0.01 * rates / np.abs(rates).max())[0]
-    own, strip = there.contacts[0], narrowed(there.contacts[0], there.size)
-    shut = own.ways[:, 2] < 1e-9
-    width, depth = np.sort(np.ptp(strip.polygon, axis=0))
-    assert (width, depth) == pytest.approx((STRIP * np.abs(own.interface.polygon).max(), 1.0), rel=1e-9)
-    corners = strip.centroid + strip.polygon @ strip.axes[:2]
-    for corner in own.on_j[shut]:
-        assert np.linalg.norm(corners - corner, axis=1).min() < 1e-12
-    assert abs(strip.polygon.mean(axis=0)).max() < 1e-12
-    assert abs(strip.polygon[0] - strip.polygon[-1])[1] < 1e-12  # its longest side lies along the first axis
-
-
-def test_gap_left_by_a_coarse_step_is_seen_and_closed():
-    """Negative control: first-order motion opens or overlaps the corners that it holds; closing mends it."""
-    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=9)
-    rates = lb.nonassociated(arch).displacement_rates
-    step = rates * 0.1 / np.abs(rates[:, :3]).max()
-    there = moved(assembly_of(arch), step)
-    held = [np.abs(own.ways[:, 2]) < 0.01 for own in there.contacts]
-    off = max(np.abs(own.ways[h]).max() for own, h in zip(there.contacts, held, strict=True) if h.any())
-    assert off > 1e-4
-    _, left = closed_up(there, held, [False] * len(held))
-    assert left < 1e-12
 
 
 @pytest.mark.parametrize(
@@ -349,20 +189,6 @@ def test_blocks_that_meet_stop_the_curve():
     assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
 
 
-def test_a_gap_that_closes_is_not_stepped_over():
-    """A block turned by hand, then moved back by more than its gap: the step ends at the gap."""
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    result = lb.nonassociated(model)
-    forth = result.displacement_rates * 0.01 / np.abs(result.displacement_rates).max()
-    leaning = moved(assembly_of(model), forth)
-    back = replace(result, displacement_rates=-forth)
-    corner, along = toe_corner(leaning.model), read_only(np.array([-1.0, 0, 0]))
-    control, point = Control("block 1", corner, along), CapacityPoint(0.0, 0.2, 0.0, leaning.model, back, ())
-    goal, _, found = capacity._advanced(leaning, control, point, 1.5 * 0.01, 0.2)
-    assert 0.0 < found.displacement < 0.0101
-    assert goal.contacts[0].ways[:, 2].min() > -1e-7
-
-
 def test_a_tie_that_yields_on_the_way_to_zero():
     """The load factor falls ever faster, and the secant steps beyond its zero: few points all the same."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)
@@ -388,23 +214,6 @@ def test_a_curve_that_rises_goes_on_by_longer_steps():
     before, point = (CapacityPoint(d, a, 0.0, model, result, ()) for d, a in ((0.0, 0.2), (0.001, 0.21)))
     control = Control("block 1", toe_corner(model), read_only(np.array([1.0, 0, 0])))
     assert capacity._next_step(assembly_of(model), control, (before, point), 20) == pytest.approx(0.01)
-
-
-def test_a_joint_that_presses_across_its_gap_is_named():
-    """Beyond where the hinges of an arch move, opened joints of its first mechanism are pressed."""
-    arch = lb.structures.arch(JOINTS[0], radius=5.0, thickness=1.0, voussoirs=12)
-    result = lb.nonassociated(arch)
-    control = capacity._control(arch, result, None)
-    there = advanced(assembly_of(arch), control, result.displacement_rates, 0.45)
-    pressed = across(
-        there.assembly, lb.nonassociated(there.assembly.model).stress_resultants, list(range(13))
-    )
-    pressed = tuple(pressed.values())
-    assert "presses across a gap of" in pressed[0]
-    points = [CapacityPoint(d, 0.2, 0.0, arch, result, (), words) for d, words in ((0.0, ()), (0.1, pressed))]
-    curve = CapacityCurve(tuple(points), control, None, "")
-    assert curve.proven_to == 0.0
-    assert "joints press across their gaps" in str(curve)
 
 
 @pytest.mark.parametrize("uphill", [True, False])
