@@ -59,7 +59,7 @@ def certified(
     close : float
         Width of an interval that needs no polish.
     patience : int, optional
-        Of the polish; in a plane it comes first. Left out: it is thorough.
+        Of the polish. Left out: it is thorough.
     programs : Programs, optional
         Compiled already: of the problem reduced by its mirror, if it has one.
     whole : bool
@@ -71,11 +71,8 @@ def certified(
     repair = Repair(scaled(own), problem, ours) if plane is None else planar_repair(own, plane, programs)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(own, repair, dead * problem.stress_units / own.stress_units)
-        polished = plane is not None and plane.flat and patience is not None
-        if polished:
-            given = _polished(own, plane, given, patience)
         found, proof = mixture.proven(given)
-        if not (polished or proof.width <= close):
+        if proof.width > close:
             closer, better = mixture.proven(_polished(own, plane, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
