@@ -116,7 +116,9 @@ class Prover:
             upper=float(upper),
             static=_why("lower bound", "stresses", p, static),
             kinematic=_why("upper bound", "multipliers", p, kinematic)
-            or ("" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"),
+            or (
+                "" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"
+            ),
         )
 
 

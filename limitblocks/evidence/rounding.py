@@ -36,7 +36,9 @@ class Products:
     @cached_property
     def count(self) -> int:
         """The most products that are summed in a row."""
-        return int(sum(np.bincount(A.tocoo().row, minlength=A.shape[0]) for A in self.matrices).max(initial=0))
+        return int(
+            sum(np.bincount(A.tocoo().row, minlength=A.shape[0]) for A in self.matrices).max(initial=0)
+        )
 
     def of(self, vectors: tuple[Array, ...], *addends: Array) -> tuple[Array, Array]:
         """Return the sums as computed, the addends among them, and the most that each row is off by."""
