@@ -26,33 +26,34 @@ UP = 1.0 + 2.0**-30  # pays for a million roundings of a sum of nonnegative numb
 class Products:
     """Sums of the products of some matrices with as many vectors, and the most that each row is off by."""
 
-    matrices: tuple[sparse.sparray, ...]
+    matrices: tuple[sparse.csr_array, ...]
 
     @cached_property
-    def sizes(self) -> tuple[sparse.sparray, ...]:
+    def sizes(self) -> tuple[sparse.csr_array, ...]:
         """The sizes of their entries."""
-        return tuple(_with_data(A, size_of(A.data)) for A in self.matrices)
+        return tuple(
+            sparse.csr_array((size_of(A.data), A.indices, A.indptr), shape=A.shape) for A in self.matrices
+        )
 
     @cached_property
     def count(self) -> int:
         """The most products that are summed in a row."""
-        return int(
-            sum(np.bincount(A.tocoo().row, minlength=A.shape[0]) for A in self.matrices).max(initial=0)
-        )
+        return int(np.sum([np.diff(A.indptr) for A in self.matrices], axis=0).max(initial=0))
 
     def of(self, vectors: tuple[Array, ...], *addends: Array) -> tuple[Array, Array]:
         """Return the sums as computed, the addends among them, and the most that each row is off by."""
-        value = sum(A @ v for A, v in zip(self.matrices, vectors, strict=True))
-        size = sum(A @ size_of(v) for A, v in zip(self.sizes, vectors, strict=True))
+        value = size = np.zeros(self.matrices[0].shape[0])
+        for A, absolute, v in zip(self.matrices, self.sizes, vectors, strict=True):
+            value, size = value + A @ v, size + absolute @ size_of(v)
         for addend in addends:
             value, size = value + addend, size + size_of(addend)
         error = _error(self.count + 2 * len(addends) + 2, size)
-        return np.asarray(value), np.where(size == 0.0, 0.0, error)  # nothing is added: it is exact
+        return value, np.where(size == 0.0, 0.0, error)  # nothing is added: it is exact
 
 
 def size_of(values: Array) -> Array:
     """Sizes of numbers, those that are not zero at least so large that no product of two underflows."""
-    return np.where(values != 0.0, np.maximum(np.abs(values), LEAST), 0.0)
+    return np.asarray(np.where(values != 0.0, np.maximum(np.abs(values), LEAST), 0.0))
 
 
 def scalar_product(a: Array, b: Array) -> tuple[float, float]:
@@ -67,7 +68,3 @@ def products(A: Array, B: Array) -> tuple[Array, Array]:
 
 def _error(count: int, size: Any) -> Any:
     return UP * UP * count * EPS * size + count * TINY
-
-
-def _with_data(A: Any, data: Array) -> Any:
-    return type(A)((data, A.indices, A.indptr), shape=A.shape)
