@@ -18,6 +18,7 @@ from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
 from limitblocks.analysis.limit_state import IN_HALF, limit_state, programs_of
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
@@ -67,6 +68,7 @@ class _Pair:
         return bounds_residuals(Flow(self.problem, ASSOCIATED), self.state, self.upper)
 
 
+@one_thread
 def bounds(
     model: Model, *, tolerance: float = TOLERANCE, progress: Callable[[str], None] | None = None
 ) -> Bounds:

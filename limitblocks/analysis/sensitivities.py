@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.unique import Yielding
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
@@ -35,6 +36,7 @@ NOTHING = 1e-6  # of the largest derivative: less is rounding
 Field = Callable[[Array], Array]
 
 
+@one_thread
 def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
     """Return the derivatives of the associated load factor by the data of the model.
 
@@ -82,6 +84,7 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
     )
 
 
+@one_thread
 def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float = STEP) -> float:
     """Return the derivative of the associated load factor as all points r move to r + t field(r), at t = 0.
 

@@ -140,6 +140,11 @@ class LimitProblem:
     centroids: Array
     left_out: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        # scipy sorts entries in place where it first needs to: sums would come in another order from then on
+        for part in (self.C, self.F, self.G, self.resultants):
+            part.sum_duplicates()
+
     @cached_property
     def stress_interface(self) -> Indices:
         """Interface of each generalised stress, shape (s,)."""

@@ -11,8 +11,8 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.certified import RESERVE
 from limitblocks.evidence.proof import Proof, proof_of
-from limitblocks.evidence.reach import carried_to_supports, made_up
-from limitblocks.evidence.rounding import product, products, scalar_product
+from limitblocks.evidence.reach import Kinematic, Static
+from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import State
 
@@ -40,7 +40,7 @@ def scattered(*shape):
 def test_error_of_a_product_is_bounded():
     for _ in range(40):
         A, v, w = scattered(5, 17), scattered(17), scattered(5)
-        value, off = product(sparse.csr_array(A), v, w)
+        value, off = Products((sparse.csr_array(A),)).of((v,), w)
         for k in range(5):
             error = abs(exact(A[k], v) + Fraction(w[k]) - Fraction(value[k]))
             assert error <= Fraction(off[k])
@@ -59,13 +59,13 @@ def test_error_of_small_matrices_is_bounded():
 
 def test_cancelling_product_is_not_called_exact():
     A = sparse.csr_array(np.array([[1e16, 1.0, -1e16]]))
-    value, off = product(A, np.ones(3))
+    value, off = Products((A,)).of((np.ones(3),))
     assert abs(value[0] - 1.0) <= off[0]
     assert off[0] > 0.0
 
 
 def test_product_of_nothing_is_exact():
-    value, off = product(sparse.csr_array(np.array([[1.0, 0.0]])), np.array([0.0, 3.0]))
+    value, off = Products((sparse.csr_array(np.array([[1.0, 0.0]])),)).of((np.array([0.0, 3.0]),))
     assert value[0] == off[0] == 0.0
 
 
@@ -107,7 +107,7 @@ def test_what_is_carried_to_the_supports_is_bounded(model):
     for _ in range(20):
         unbalanced = np.abs(scattered(len(p.blocks), 6))
         load = (unbalanced * RANDOM.uniform(-1, 1, unbalanced.shape)).ravel()
-        found = carried_to_supports(p, unbalanced, tree)
+        found = Static(p, tree).carried(unbalanced)
         assert not found[~own].any()
         exact_change = along_tree(p, C, own, tree, load)
         assert (np.abs(exact_change) <= found[own] * (1 + 1e-9)).all()
@@ -131,7 +131,7 @@ def test_what_is_made_up_is_bounded(model):
     for _ in range(20):
         defect = np.abs(scattered(p.F.shape[1]))
         strain = defect * RANDOM.uniform(-1, 1, defect.shape)
-        found = made_up(p, defect)
+        found = Kinematic(p).made_up(defect)
         needed = np.linalg.pinv(p.F.toarray().T) @ strain
         assert (np.abs(needed) <= found * (1 + 1e-9) + 1e-9 * np.abs(needed).max()).all()
 
