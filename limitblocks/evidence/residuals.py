@@ -86,7 +86,8 @@ def residual(
 ) -> Residual:
     """Largest size of `values` over `scale` as a residual, and the place in `where` of it.
 
-    `of` numbers the places of the values; left out, there is one for each. Nothing over nothing is zero; something over nothing, and NaN, is infinite.
+    `of` numbers the places of the values; left out, there is one for each. Nothing over nothing is zero;
+    something over nothing, and NaN, is infinite.
     """
     size, scale = np.abs(np.atleast_1d(values)), np.broadcast_to(scale, np.shape(np.atleast_1d(values)))
     shares = np.where(size == 0.0, 0.0, np.inf)
@@ -181,7 +182,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
                 f"yield function times multiplier, Eq. (59), {POWER}",
                 measure.power,
                 p.interfaces,
-            k,
+                k,
             ),
             residual(
                 "dissipation",

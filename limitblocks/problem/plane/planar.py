@@ -75,7 +75,9 @@ class Planar:
         """Return the same for the whole problem in other units of force."""
         old, problem = self.problem, self.problem.measured(whole.units.block_force[self.blocks])
 
-        def changed(matrix: sparse.csr_array, unit: Callable[[LimitProblem, Units], Array]) -> sparse.csr_array:
+        def changed(
+            matrix: sparse.csr_array, unit: Callable[[LimitProblem, Units], Array]
+        ) -> sparse.csr_array:
             rows = unit(whole, self.units) / unit(whole, whole.units)
             columns = unit(problem, problem.units) / unit(problem, old.units)
             return in_units(matrix, rows, columns)
