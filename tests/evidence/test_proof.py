@@ -104,7 +104,11 @@ def test_tree_takes_short_ways_with_much_room(model):
 def carrying(request, model):
     """A structure, and one of many steps to the supports."""
     joint = model.interfaces[0].joint
-    return model if request.param == "lintel" else structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=27)
+    return (
+        model
+        if request.param == "lintel"
+        else structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=27)
+    )
 
 
 def test_what_is_carried_to_the_supports_is_bounded(carrying):
