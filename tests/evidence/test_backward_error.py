@@ -10,7 +10,7 @@ from true_claims import DEPTH, MU, TRUE, B, H, changed, moving, sliding, state_o
 import limitblocks as lb
 from limitblocks.evidence import backward_error as module
 from limitblocks.evidence.backward_error import backward_error
-from limitblocks.evidence.nearby import Given
+from limitblocks.evidence.given_state import Given
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, turning_of
 
