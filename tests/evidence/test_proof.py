@@ -10,6 +10,7 @@ from scipy import sparse
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.certified import RESERVE
+from limitblocks.arrays import same_rows
 from limitblocks.evidence.proof import Proof, proof_of
 from limitblocks.evidence.reach import Kinematic, Static
 from limitblocks.evidence.rounding import Products, products, scalar_product
@@ -99,8 +100,19 @@ def test_tree_takes_short_ways_with_much_room(model):
         assert (shortest <= ways(spanning_tree(p, RANDOM.random(len(room))), 1.0 / room) * (1 + 1e-12)).all()
 
 
-def test_what_is_carried_to_the_supports_is_bounded(model):
-    p = model.problem
+@pytest.fixture(scope="module", params=["lintel", "long way"])
+def carrying(request, model):
+    """A structure, and one of many steps to the supports."""
+    joint = model.interfaces[0].joint
+    return (
+        model
+        if request.param == "lintel"
+        else structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=27)
+    )
+
+
+def test_what_is_carried_to_the_supports_is_bounded(carrying):
+    p = carrying.problem
     tree = spanning_tree(p, RANDOM.random(len(p.interfaces)))
     own = np.isin(p.stress_interface, tree.interface)
     C = p.C.toarray()[own]
@@ -124,6 +136,28 @@ def along_tree(p, C, own, tree, load):
         rest = rest - C[rows].T @ part
     assert np.abs(rest).max() <= 1e-9 * np.abs(load).max()
     return change
+
+
+def test_what_leads_over_a_joint_that_carries_nothing_is_not_bounded():
+    p = structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=9).problem
+    tree = spanning_tree(p, np.ones(len(p.interfaces)))
+    last = int(np.flatnonzero(tree.depth == 2)[0])
+    broken = replace(
+        p, C=sparse.csr_array(sparse.diags_array(1.0 * (p.stress_interface != tree.interface[last])) @ p.C)
+    )
+    behind = next(k for k in range(len(p.blocks)) if tree.parent[k] == last)
+    for block, bounded in ((behind, False), (last, False), (int(tree.parent[last]), True)):
+        unbalanced = np.zeros((len(p.blocks), 6))
+        unbalanced[block, 2] = 1.0
+        assert np.isfinite(Static(p, tree).carried(unbalanced)).all()
+        assert np.isfinite(Static(broken, tree).carried(unbalanced)).all() == bounded
+
+
+def test_rows_are_classed_by_their_numbers():
+    rows = np.array([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0 + 1e-13], [2.0, 0.5]])
+    for within, expected in ((0.0, [0, 1, 0, 3, 4]), (1e-12, [0, 1, 0, 0, 4])):
+        first, of = same_rows(rows, within)
+        assert first[of].tolist() == expected
 
 
 def test_what_is_made_up_is_bounded(model):
@@ -253,12 +287,12 @@ def wedged(joint):
 
 
 def test_opening_mechanism_exists_where_nothing_can_be_wedged():
-    from limitblocks.analysis.repair import opening
     from limitblocks.analysis.scales import scaled
+    from limitblocks.analysis.splitting import Splitting
 
     def opens(model):
         p = scaled(model.problem)
-        return bool(np.isfinite(opening(p, p.cones.identity)[0]).all())
+        return Splitting(p).mechanism(p.cones.identity) is not None
 
     assert not opens(wedged(lb.OrdunaLourenco(0.6)))  # pressed between the walls
     assert not opens(wedged(lb.PointContact(0.6)))
