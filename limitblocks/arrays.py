@@ -16,3 +16,22 @@ def read_only(values: Any) -> Array:
     array = np.array(values, dtype=np.float64)
     array.flags.writeable = False
     return array
+
+
+def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
+    """The first of each class of rows (K, d) that agree within a distance, and the class of each (K,).
+
+    Rows are sorted by one number each; those that disagree with the first of theirs are classes of their own.
+    """
+    mix = np.cos(np.arange(values.shape[1]) ** 2 + 1.0)  # numbers without a pattern: unlike rows differ
+    key, size = values @ mix, np.abs(values).sum(axis=1)
+    order = np.argsort(key, kind="stable")
+    apart = (within * values.shape[1] + 4.0 * np.finfo(float).eps * size)[order[1:]]
+    new = ~(np.diff(key[order]) <= apart)
+    label = np.empty(len(values), dtype=np.int64)
+    label[order] = np.concatenate([[0], np.cumsum(new)])[: len(values)]
+    first = np.unique(label, return_index=True)[1]
+    odd = ~(np.abs(values - values[first[label]]) <= within).all(axis=1)
+    label[odd] = len(first) + np.arange(int(odd.sum()))
+    _, first, label = np.unique(label, return_index=True, return_inverse=True)
+    return np.asarray(first), np.asarray(label).ravel()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -15,6 +15,7 @@ from weakref import WeakValueDictionary
 import numpy as np
 from scipy import sparse
 
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, missing
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.joints.base import joint_of
@@ -96,15 +97,29 @@ class Model(Viewed):
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the document less tolerances and what was left out; same models have the same."""
-        document = {key: value for key, value in self.to_dict().items() if key not in _BESIDE}
-        text = json.dumps(document, sort_keys=True)
-        found = hashlib.sha256(text.encode()).hexdigest()
+        """SHA-256 of the document less tolerances and what was left out; same models have the same.
+
+        Of its text, with the shapes of arrays, and then of their bytes, little endian.
+        """
+        numbers: list[Array] = []
+
+        def shape(array: Array) -> tuple[int, ...]:
+            numbers.append(array.ravel())
+            return array.shape
+
+        document = {key: value for key, value in self._document(shape).items() if key not in _BESIDE}
+        sha = hashlib.sha256(json.dumps(document, sort_keys=True).encode())
+        sha.update(np.concatenate(numbers).astype("<f8").tobytes())
+        found = sha.hexdigest()
         _MODELS[found] = self
         return found
 
     def to_dict(self) -> dict[str, Any]:
         """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
+        return self._document(np.ndarray.tolist)
+
+    def _document(self, written: Callable[[Array], Any]) -> dict[str, Any]:
+        """The document, its coordinates as `written`."""
         kinds = {id(interface.joint): interface for interface in self.interfaces}
         joint = {own: joint_of(interface) for own, interface in kinds.items()}
         joints = {each: f"joint {k + 1}" for k, each in enumerate(dict.fromkeys(joint.values()))}
@@ -117,7 +132,7 @@ class Model(Viewed):
             "blocks": [
                 {
                     "name": block.name,
-                    "vertices": block.vertices.tolist(),
+                    "vertices": written(block.vertices),
                     "faces": [list(face) for face in block.faces],
                     "unit_weight": block.unit_weight,
                     **{key: word for key in _WORDS if (word := getattr(block, key))},
@@ -130,9 +145,9 @@ class Model(Viewed):
                 {
                     "block_i": interface.block_i,
                     "block_j": interface.block_j,
-                    "centroid": interface.centroid.tolist(),
-                    "axes": interface.axes.tolist(),
-                    "polygon": interface.polygon.tolist(),
+                    "centroid": written(interface.centroid),
+                    "axes": written(interface.axes),
+                    "polygon": written(interface.polygon),
                     "joint": joints[joint[id(interface.joint)]],
                 }
                 for interface in self.interfaces

@@ -11,16 +11,14 @@ from functools import cached_property
 
 import numpy as np
 
-from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import Rates
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
 from limitblocks.analysis.scales import scaled
+from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array
-from limitblocks.evidence.proof import Proof, own_units, proof_of, room_of
-from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
-from limitblocks.evidence.spanning_tree import spanning_tree
+from limitblocks.evidence.proof import Proof, Prover, own_units
+from limitblocks.evidence.reach import Reach
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 from limitblocks.problem.plane import Planar
 
@@ -41,7 +39,7 @@ def certified(
     *,
     close: float = CLOSE,
     patience: int | None = None,
-    programs: Programs | None = None,
+    splitting: Splitting | None = None,
     whole: bool = False,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
@@ -60,23 +58,20 @@ def certified(
     close : float
         Width of an interval that needs no polish.
     patience : int, optional
-        Of the polish; in a plane it comes first. Left out: it is thorough.
-    programs : Programs, optional
-        Compiled already: of the problem reduced by its mirror, if it has one.
+        Of the polish. Left out: it is thorough.
+    splitting : Splitting, optional
+        Of the problem, reduced by its mirror if it has one, where it is at hand.
     whole : bool
         Whether to make no use of a mirror.
     """
     own = own_units(problem, state)
     given, plane = own.dimensionless(problem.in_si(state)), None if whole else in_plane(problem)
-    ours = programs if programs is not None and isinstance(programs.form, Rates) else None
-    repair = Repair(scaled(own), problem, ours) if plane is None else planar_repair(own, plane, programs)
+    splitting = splitting or Splitting(scaled(problem if plane is None else plane.problem))
+    repair = Repair(splitting, own) if plane is None else planar_repair(own, plane, splitting)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        mixture = _Mixture(problem, own, repair, dead * problem.stress_units / own.stress_units)
-        polished = plane is not None and plane.flat and patience is not None
-        if polished:
-            given = _polished(own, plane, given, patience)
+        mixture = _Mixture(own, repair, dead * problem.stress_units / own.stress_units)
         found, proof = mixture.proven(given)
-        if not (polished or proof.width <= close):
+        if proof.width > close:
             closer, better = mixture.proven(_polished(own, plane, given, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
     return problem.dimensionless(own.in_si(found)), proof
@@ -86,7 +81,6 @@ def certified(
 class _Mixture:
     """States mixed with a little of strictly admissible ones, in units of `own`."""
 
-    problem: LimitProblem
     own: LimitProblem
     repair: Repair | PlanarRepair
     dead: Array
@@ -95,7 +89,7 @@ class _Mixture:
     def proven(self, state: State) -> tuple[State, Proof]:
         """Both sides proven with the least part of strict states; as they were where none does."""
         x, y = self.repair.balanced(state.load_factor, state.x), self.repair.following(state.u, state.y)
-        reach = kinematic_reach(self.own, state.u, y)
+        reach = self.prover.kinematic.reach(state.u, y)
         static, (kinematic, v, z) = self._static_part(state.load_factor, x), self._opened(reach)
         for _ in range(ROUNDS):
             a, u = state.load_factor, state.u
@@ -105,7 +99,7 @@ class _Mixture:
             if kinematic <= MOST:
                 work = 1.0 + kinematic * float(self.own.live @ v)  # of the live load, Eq. (55)
                 mixed = replace(mixed, u=(u + kinematic * v) / work, y=(y + kinematic * z) / work)
-            proof = self._proof(mixed)
+            proof = self.prover.proof(mixed, RESERVE)
             again = (bool(proof.static) and static <= MOST, bool(proof.kinematic) and kinematic <= MOST)
             if not any(again):
                 break
@@ -118,14 +112,15 @@ class _Mixture:
         """The stresses strictly within yield, in equilibrium with the dead loads to rounding."""
         return self.repair.balanced(0.0, self.dead)
 
-    def _proof(self, state: State) -> Proof:
-        own = self.own
-        return proof_of(self.problem, own.in_si(state), self.inner * own.stress_units, RESERVE)
+    @cached_property
+    def prover(self) -> Prover:
+        """In these units: no digit changes in others."""
+        return Prover(self.own, self.inner)
 
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
         own = self.own
-        reach = static_reach(own, load_factor, x, spanning_tree(own, room_of(own, self.inner)))
+        reach = self.prover.static.reach(load_factor, x)
         lack = _lack(reach)
         gain = (own.cones.margin(own.F @ self.inner + own.g) - reach.room)[lack > 0.0]
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)

@@ -11,20 +11,20 @@ Milgrom & Segal 2002, Econometrica 70): what changes is the assembly of C, F, g 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from limitblocks.analysis.one_thread import one_thread
+from limitblocks.analysis.shape import Field, moved
 from limitblocks.analysis.unique import Yielding
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
 from limitblocks.geometry import Interface
-from limitblocks.geometry.polygon import centroids
 from limitblocks.joints.base import joint_of
 from limitblocks.model import Model
 from limitblocks.problem import LimitProblem, State
@@ -32,9 +32,8 @@ from limitblocks.problem import LimitProblem, State
 STEP = 1e-5  # relative change of a datum in the difference of two assemblies
 NOTHING = 1e-6  # of the largest derivative: less is rounding
 
-Field = Callable[[Array], Array]
 
-
+@one_thread
 def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
     """Return the derivatives of the associated load factor by the data of the model.
 
@@ -82,6 +81,7 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
     )
 
 
+@one_thread
 def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float = STEP) -> float:
     """Return the derivative of the associated load factor as all points r move to r + t field(r), at t = 0.
 
@@ -113,33 +113,6 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
     _, si = _given(model, bounds)
     ahead, back = (_lagrangian(moved(model, field, t).problem, si) for t in (step, -step))
     return (ahead - back) / (2.0 * step)
-
-
-def moved(model: Model, field: Field, t: float) -> Model:
-    """Return the model with the corners of blocks and interfaces moved by t field(r)."""
-    blocks = [
-        replace(block, vertices=block.vertices + t * np.asarray(field(block.vertices)))
-        for block in model.blocks
-    ]
-    return replace(model, blocks=blocks, interfaces=[_carried(i, field, t) for i in model.interfaces])
-
-
-def _carried(interface: Interface, field: Field, t: float) -> Interface:
-    """The interface with its corners moved, its first axis turned as little as its plane."""
-    corners = interface.centroid + interface.polygon @ interface.axes[:2]
-    corners = corners + t * np.asarray(field(corners))
-    middle = corners.mean(axis=0)
-    arms = corners - middle
-    normal = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
-    normal /= np.linalg.norm(normal)
-    first = interface.axes[0] - (interface.axes[0] @ normal) * normal
-    first /= np.linalg.norm(first)
-    axes = np.stack([first, np.cross(normal, first), normal])
-    flat = arms @ axes[:2].T
-    centre = centroids(flat)
-    return replace(
-        interface, centroid=middle + centre @ axes[:2], axes=axes, polygon=read_only(flat - centre)
-    )
 
 
 def _given(model: Model, bounds: Bounds) -> tuple[LimitProblem, State]:

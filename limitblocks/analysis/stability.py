@@ -14,6 +14,7 @@ from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.known import known
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.programs import (
     ROUNDS,
     Program,
@@ -41,6 +42,7 @@ MOST = 1.0  # of the force of each interface: a structure that can be wedged at 
 WEDGED = 1e4  # mean of the rows in their units: a self-stress without bounds leaves no digits to the loads
 
 
+@one_thread
 def stability(model: Model) -> Stability:
     """Say whether the structure stands under its dead loads alone, with the states that prove it.
 
@@ -119,6 +121,7 @@ def _answer(
     )
 
 
+@one_thread
 def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """Return the largest least distance to yield of all states in equilibrium, over the interfaces' forces.
 

@@ -15,6 +15,7 @@ from limitblocks import structures
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.joints import DEFAULT, Friction, JointName, Slip, Strength, make_joint
 from limitblocks.cli.options import LIVE, Force
+from limitblocks.cli.progress import of_stages
 from limitblocks.cli.vectors import Command, vector
 
 new = typer.Typer(
@@ -61,7 +62,8 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
             joint = make_joint(values["joint"], values["friction"], **options)
             file = values["output"] or Path(f"{make.__name__}.json")
             refuse_existing(file, values["force"])
-            model = make(joint=joint, **given)
+            with of_stages(f"making {make.__name__}"):
+                model = make(joint=joint, **given)
             typer.echo(f"{model.save(file, overwrite=values['force'])}: {model}")
 
     parameters = {**own, **common}

@@ -15,7 +15,8 @@ import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import real_number
-from limitblocks.evidence.nearby import Given, Nearby, nearby
+from limitblocks.evidence.given_state import Given
+from limitblocks.evidence.nearby import Nearby, nearby
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, mcp_residuals, residual
 from limitblocks.problem import Flow, State
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.shown import Result, Shown
+from limitblocks.shown import Result, Shown, many
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -132,9 +132,9 @@ class LoadPath(Result):
         ]
 
     def __str__(self) -> str:
-        snaps = f", {len(self.snaps)} snaps" if self.snaps else ""
+        snaps = f", {many(len(self.snaps), 'snap')}" if self.snaps else ""
         remarks = "".join(f"; {remark}" for remark in self.remarks)
-        return f"load path of {len(self.steps)} steps{snaps}: {self.collapse}{remarks}"
+        return f"load path of {many(len(self.steps), 'step')}{snaps}: {self.collapse}{remarks}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""

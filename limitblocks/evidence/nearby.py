@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.limits import Flags, Limits
+from limitblocks.arrays import Array
+from limitblocks.evidence.given_state import Given
+from limitblocks.evidence.limits import Flags
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.multipliers import near_yield
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
-from limitblocks.problem.places import places
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
-ROUNDS = 4  # of stilling what would have to flow in another direction
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
-STILL = 1e-9  # what the rates of a place are worth in the load factor: below it the place is still
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
 
@@ -47,75 +44,6 @@ class Nearby(NamedTuple):
         return max(float(np.abs(part).max(initial=0.0)) for part in (self.limits, self.turned, self.loads))
 
 
-@dataclass(frozen=True, eq=False)
-class Given:
-    """A state whose backward error is asked for, with what does not depend on the answer."""
-
-    flow: Flow
-    state: State
-
-    @cached_property
-    def G(self) -> sparse.csr_array:
-        """The flow at the state."""
-        return self.flow.matrix(self.state.x)
-
-    @cached_property
-    def limits(self) -> Limits:
-        """Strengths of the rows."""
-        return Limits(self.flow.problem)
-
-    @cached_property
-    def change(self) -> Array:
-        """Relative change of strength that takes each linear row and cone to yield, (degree,)."""
-        return self.limits.changes(self.state.x)
-
-    @cached_property
-    def places(self) -> tuple[Indices, Indices]:
-        """Place of each linear row and cone (degree,) and of each stress (s,)."""
-        return places(self.flow.problem)
-
-    @cached_property
-    def force(self) -> Array:
-        """Force at each place over what acts on the lesser block; infinite where rows need it, (places,)."""
-        p, force = self.flow.problem, self.largest(self.state.x)
-        force[self.places[0][p.cones.margin(p.g) != 0.0]] = np.inf  # without a force these rows do not yield
-        return force
-
-    @cached_property
-    def acting(self) -> Array:
-        """What acts on the lesser block of the interface of each stress, (s,)."""
-        return Measure(self.flow.problem, self.state).interface[self.flow.problem.stress_interface]
-
-    def largest(self, x: Array) -> Array:
-        """Largest size of stresses (s,) over what acts on the lesser block, (places,)."""
-        members, stresses = self.places
-        sizes = np.zeros(max(members.max(initial=0), stresses.max()) + 1)
-        np.maximum.at(sizes, stresses, np.abs(x) / self.acting)
-        return sizes
-
-    @cached_property
-    def reach(self) -> Array:
-        """What the forces that act on the lesser block can do to each linear row and cone, (degree,)."""
-        p = self.flow.problem
-        weights = abs(p.F) @ self.acting
-        return np.asarray(np.bincount(p.cones.member, weights, minlength=p.cones.degree), dtype=float)
-
-    @cached_property
-    def off(self) -> Array:
-        """Least change of strength, or of forces by what acts, that takes each row to yield, (degree,)."""
-        p, s = self.flow.problem, self.flow.problem.F @ self.state.x + self.flow.problem.g
-        apart = np.abs(p.cones.margin(s)) / np.where(self.reach > 0.0, self.reach, np.inf)
-        return np.asarray(np.minimum(np.minimum(np.abs(self.change), self.force[self.places[0]]), apart))
-
-    def still(self, u: Array) -> Flags:
-        """Which places do not move, by what their rates are worth in the load factor, (places,)."""
-        measure = Measure(self.flow.problem, self.state)
-        worth = np.abs(self.flow.problem.C @ u) * measure.pressed[self.flow.problem.stress_interface]
-        largest = np.zeros(len(self.force))
-        np.maximum.at(largest, self.places[1], worth)
-        return np.asarray(largest <= STILL * measure.power)
-
-
 class _Choice(NamedTuple):
     """Rates and multipliers of the changed problem, and which linear rows and cones flow."""
 
@@ -136,21 +64,9 @@ def nearby(given: Given, level: float, held: bool = False) -> Nearby | None:
         return None
     moves = np.where((given.force <= SLIGHT)[given.places[0]], level * given.reach, 0.0)
     turn = max(level, TURN)
-    best: Nearby | None = None
-    for _ in range(ROUNDS):
-        may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
-        mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
-        if mechanism is None:
-            break
-        found = _changed(given, *mechanism)
-        if best is None or found.change < best.change:
-            best = found
-        wild = (found.turned > level)[given.places[0]]
-        wild[: p.cones.linear] = False
-        if not (wild & near).any():
-            break
-        near = near & ~wild
-    return best
+    may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
+    mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
+    return None if mechanism is None else _changed(given, *mechanism)
 
 
 def _changed(given: Given, u: Array, y: Array) -> Nearby:

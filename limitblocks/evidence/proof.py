@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
-from limitblocks.evidence.reach import Reach, kinematic_reach, static_reach
+from limitblocks.evidence.reach import Kinematic, Reach, Static
 from limitblocks.evidence.rounding import EPS, TINY, UP, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import LimitProblem, State
@@ -83,19 +84,42 @@ def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0
     :mod:`limitblocks.evidence.reach`.
     """
     p = own_units(problem, problem.dimensionless(si))
-    state = p.dimensionless(si)
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # what is undefined proves nothing
-        tree = spanning_tree(p, room_of(p, dead / p.stress_units))
-        static = static_reach(p, state.load_factor, state.x, tree).times(reserve)
-        kinematic = kinematic_reach(p, state.u, state.y).times(reserve)
+    return Prover(p, dead / p.stress_units).proof(p.dimensionless(si), reserve)
+
+
+@dataclass(frozen=True, eq=False)
+class Prover:
+    """Proofs of states of one problem, dimensionless; `dead` (s,) as in :func:`proof_of`."""
+
+    problem: LimitProblem
+    dead: Array
+
+    @cached_property
+    def static(self) -> Static:
+        """The reach of stresses."""
+        return Static(self.problem, spanning_tree(self.problem, room_of(self.problem, self.dead)))
+
+    @cached_property
+    def kinematic(self) -> Kinematic:
+        """The reach of multipliers."""
+        return Kinematic(self.problem)
+
+    @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is undefined proves nothing
+    def proof(self, state: State, reserve: float = 1.0) -> Proof:
+        """Prove what the state shows."""
+        p = self.problem
+        static = self.static.reach(state.load_factor, state.x).times(reserve)
+        kinematic = self.kinematic.reach(state.u, state.y).times(reserve)
         upper = _upper(p, state, kinematic, reserve) / p.units.live if kinematic.proven else np.inf
-    return Proof(
-        lower=float(si.load_factor) if static.proven else -np.inf,
-        upper=float(upper),
-        static=_why("lower bound", "stresses", p, static),
-        kinematic=_why("upper bound", "multipliers", p, kinematic)
-        or ("" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"),
-    )
+        return Proof(
+            lower=float(state.load_factor) / p.units.live if static.proven else -np.inf,
+            upper=float(upper),
+            static=_why("lower bound", "stresses", p, static),
+            kinematic=_why("upper bound", "multipliers", p, kinematic)
+            or (
+                "" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"
+            ),
+        )
 
 
 def own_units(problem: LimitProblem, state: State) -> LimitProblem:

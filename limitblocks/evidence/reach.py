@@ -11,12 +11,13 @@ exactly; a state in floating point does neither, but is shown to lie near one th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.rounding import EPS, UP, product, products
+from limitblocks.arrays import Array, Indices, same_rows
+from limitblocks.evidence.rounding import EPS, UP, Products, products, size_of
 from limitblocks.evidence.spanning_tree import Tree
 from limitblocks.problem import LimitProblem
 
@@ -44,60 +45,112 @@ class Reach:
         return Reach(reserve * self.need, self.room, reserve * self.change)
 
 
-def static_reach(problem: LimitProblem, load_factor: float, x: Array, tree: Tree) -> Reach:
-    """Return how far stresses in exact equilibrium with dead + load_factor live may lie from x (s,)."""
-    p, push = problem, load_factor * problem.live
-    residual, off = product(sparse.csr_array(p.C.T), -x, p.dead, push)
-    unbalanced = (np.abs(residual) + off + EPS * np.abs(push)) * UP
-    change = carried_to_supports(p, unbalanced.reshape(-1, 6), tree)
-    s, off = product(p.F, x, p.g)
-    return Reach(*_in_cones(p, s, (abs(p.F) @ change + off) * UP), change)
+@dataclass(frozen=True, eq=False)
+class Static:
+    """How far stresses in exact equilibrium may lie from computed ones, by a tree of interfaces."""
+
+    problem: LimitProblem
+    tree: Tree
+
+    def reach(self, load_factor: float, x: Array) -> Reach:
+        """Of stresses x (s,) that shall balance dead + load_factor live."""
+        p, push = self.problem, load_factor * self.problem.live
+        residual, off = self._balance.of((-x,), p.dead, push)
+        unbalanced = (np.abs(residual) + off + EPS * np.abs(push)) * UP
+        change = self.carried(unbalanced.reshape(-1, 6))
+        s, off = self._rows.of((x,), p.g)
+        return Reach(*_in_cones(p, s, (self._rows.sizes[0] @ change + off) * UP), change)
+
+    def carried(self, unbalanced: Array) -> Array:
+        """Bound the size of stresses (s,) that carry forces within +-`unbalanced` (n, 6) along the tree."""
+        places, right, share, ways = self._ways
+        force = size_of(unbalanced)
+        for block, behind, transfer in ways:
+            np.add.at(force, behind, np.einsum("kij,kj->ki", transfer, force[block]))
+            force *= UP
+        change = np.zeros(self.problem.C.shape[0] + 1)
+        change[places] = np.einsum("kij,kj->ki", np.abs(right), _exactly(force, share)) * UP
+        if (force[~np.isfinite(share)] > 0.0).any():  # it cannot be carried, nor what it puts on others
+            change[:] = np.inf
+        return change[:-1]
+
+    @cached_property
+    def _balance(self) -> Products:
+        return Products((sparse.csr_array(self.problem.C.T),))
+
+    @cached_property
+    def _rows(self) -> Products:
+        return Products((self.problem.F,))
+
+    @cached_property
+    def _ways(self) -> tuple[Indices, Array, Array, list[tuple[Indices, Indices, Array]]]:
+        """Stresses (n, S) of the tree's interfaces, what of them a force on the block needs, and the ways.
+
+        Each of the ways has blocks, those 2^k steps behind, and how much (6, 6) of a force gets there: with T
+        one step, 1 + T + T^2 + ... = (1 + T) (1 + T^2) (1 + T^4) ...
+        """
+        places, on_block, on_parent = _tree_matrices(self.problem, self.tree)
+        right, share = _right_inverse(on_block)  # stresses that put a force on the block
+        behind, off = products(on_parent, right)
+        more = np.where(np.isfinite(share), share, 0.0)[:, None, None]
+        transfer, parent = size_of((np.abs(behind) + off) @ (np.eye(6) + more) * UP * UP), self.tree.parent
+        ways = []
+        while (parent >= 0).any():
+            k = np.flatnonzero(parent >= 0)
+            ways.append((k, parent[k], transfer[k]))
+            beyond = np.where(parent >= 0, parent[parent], -1)
+            k = np.flatnonzero(beyond >= 0)
+            twice = np.zeros_like(transfer)
+            twice[k] = size_of(transfer[parent[k]] @ transfer[k] * UP)
+            parent, transfer = beyond, twice
+        return places, right, share, ways
 
 
-def kinematic_reach(problem: LimitProblem, u: Array, y: Array) -> Reach:
-    """Return how far multipliers that satisfy the associated flow rule exactly with u may lie from y (R,)."""
-    both = sparse.csr_array(sparse.hstack([problem.C, problem.F.T]))
-    strain, off = product(both, np.concatenate([u, y]))
-    change = made_up(problem, (np.abs(strain) + off) * UP)
-    return Reach(*_in_cones(problem, y, change), change)
+@dataclass(frozen=True, eq=False)
+class Kinematic:
+    """How far multipliers that satisfy the associated flow rule exactly may lie from computed ones."""
 
+    problem: LimitProblem
 
-def carried_to_supports(problem: LimitProblem, unbalanced: Array, tree: Tree) -> Array:
-    """Bound the size of stresses (s,) that carry forces within +-`unbalanced` (n, 6) along the tree."""
-    places, on_block, on_parent = _tree_matrices(problem, tree)
-    right, share = _right_inverse(on_block)  # stresses that put a force on the block
-    behind, off = products(on_parent, right)
-    behind = (np.abs(behind) + off) * UP
-    force = unbalanced.copy()
-    for depth in range(int(tree.depth.max()), 0, -1):
-        k = np.flatnonzero(tree.depth == depth)
-        force[k] = _exactly(force[k], share[k])
-        inner = k[tree.parent[k] >= 0]
-        np.add.at(force, tree.parent[inner], np.einsum("kij,kj->ki", behind[inner], force[inner]))
-        force *= UP
-    change = np.zeros(problem.C.shape[0] + 1)
-    change[places] = np.einsum("kij,kj->ki", np.abs(right), force) * UP
-    return change[:-1]
+    def reach(self, u: Array, y: Array) -> Reach:
+        """Of multipliers y (R,) that shall follow the rates u."""
+        strain, off = self._flow.of((u, y))
+        change = self.made_up((np.abs(strain) + off) * UP)
+        return Reach(*_in_cones(self.problem, y, change), change)
 
+    def made_up(self, defect: Array) -> Array:
+        """Bound the size of multipliers (R,) with F^T dy within +-`defect` (s,), interface by interface."""
+        change = np.zeros(len(self.problem.g))
+        for rows, columns, kind, right, share in self._inverses:
+            strain = _exactly(defect[columns], share[kind])
+            change[rows] = np.einsum("kij,kj->ki", np.abs(right)[kind], strain) * UP
+        return change
 
-def made_up(problem: LimitProblem, defect: Array) -> Array:
-    """Bound the size of multipliers (R,) with F^T dy within +-`defect` (s,), interface by interface."""
-    p, m = problem, len(problem.interfaces)
-    rows, row = _places(p.row_interface, m)
-    columns, column = _places(p.stress_interface, m)
-    F, change = p.F.tocoo(), np.zeros(len(p.g) + 1)
-    shapes = np.stack([(rows < len(p.g)).sum(axis=1), (columns < len(defect)).sum(axis=1)], axis=1)
-    for r, c in np.unique(shapes, axis=0):
-        these = np.flatnonzero((shapes == (r, c)).all(axis=1))
-        index = np.full(m, -1)
-        index[these] = np.arange(len(these))
-        k = index[p.row_interface[F.row]]
-        matrix = np.zeros((len(these), c, r))
-        matrix[k[k >= 0], column[F.col[k >= 0]], row[F.row[k >= 0]]] = F.data[k >= 0]
-        right, share = _right_inverse(matrix)
-        strain = _exactly(defect[columns[these, :c]], share)
-        change[rows[these, :r]] = np.einsum("kij,kj->ki", np.abs(right), strain) * UP
-    return change[:-1]
+    @cached_property
+    def _flow(self) -> Products:
+        return Products((self.problem.C, sparse.csr_array(self.problem.F.T)))
+
+    @cached_property
+    def _inverses(self) -> list[tuple[Indices, Indices, Indices, Array, Array]]:
+        """Rows (K, r) and stresses (K, c) of interfaces of one shape, their kind (K,), its right inverse.
+
+        And its error. Interfaces of one kind have the same numbers.
+        """
+        p, m, parts = self.problem, len(self.problem.interfaces), []
+        rows, row = _places(p.row_interface, m)
+        columns, column = _places(p.stress_interface, m)
+        F = p.F.tocoo()
+        shapes = np.stack([(rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)], axis=1)
+        for r, c in np.unique(shapes, axis=0):
+            these = np.flatnonzero((shapes == (r, c)).all(axis=1))
+            index = np.full(m, -1)
+            index[these] = np.arange(len(these))
+            k = index[p.row_interface[F.row]]
+            matrix = np.zeros((len(these), c, r))
+            matrix[k[k >= 0], column[F.col[k >= 0]], row[F.row[k >= 0]]] = F.data[k >= 0]
+            first, kind = same_rows(matrix.reshape(len(these), -1))
+            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix[first])))
+        return parts
 
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.shown import many
@@ -78,11 +77,17 @@ class Residuals:
 
 
 def residual(
-    name: str, values: Array | float, meaning: str, scale: Array | float = 1.0, where: Sequence[str] = ()
+    name: str,
+    values: Array | float,
+    meaning: str,
+    scale: Array | float = 1.0,
+    where: Sequence[str] = (),
+    of: Indices | None = None,
 ) -> Residual:
     """Largest size of `values` over `scale` as a residual, and the place in `where` of it.
 
-    Nothing over nothing is zero; something over nothing, and NaN, is infinite.
+    `of` numbers the places of the values; left out, there is one for each. Nothing over nothing is zero;
+    something over nothing, and NaN, is infinite.
     """
     size, scale = np.abs(np.atleast_1d(values)), np.broadcast_to(scale, np.shape(np.atleast_1d(values)))
     shares = np.where(size == 0.0, 0.0, np.inf)
@@ -90,7 +95,7 @@ def residual(
     if not len(shares):
         return Residual(name, 0.0, meaning)
     k = int(shares.argmax())
-    return Residual(name, float(shares[k]), meaning, where[k] if len(where) else "")
+    return Residual(name, float(shares[k]), meaning, where[k if of is None else of[k]] if len(where) else "")
 
 
 def largest_of(problem: LimitProblem, values: Array) -> Array:
@@ -100,10 +105,12 @@ def largest_of(problem: LimitProblem, values: Array) -> Array:
     return largest
 
 
-def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tuple[Residual, ...]:
+def static_residuals(
+    problem: LimitProblem, load_factor: float, x: Array, measure: Measure | None = None
+) -> tuple[Residual, ...]:
     """Residuals of the static theorem, Eqs (56) and (57)."""
     none = np.zeros(0)
-    measure = Measure(problem, State(load_factor, x, none, none))
+    measure = measure or Measure(problem, State(load_factor, x, none, none))
     unbalanced = problem.dead + load_factor * problem.live - problem.C.T @ x
     margin = problem.cones.margin(problem.F @ x + problem.g)
     k = problem.member_interface
@@ -121,14 +128,17 @@ def static_residuals(problem: LimitProblem, load_factor: float, x: Array) -> tup
             np.minimum(margin, 0.0) * rows,
             "violation of a yield function over what acts on the block, Eq. (57)",
             measure.interface[k],
-            [problem.interfaces[i] for i in k],
+            problem.interfaces,
+            k,
         ),
     )
 
 
-def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residual, ...]:
+def kinematic_residuals(
+    flow: Flow, state: State, force: Array, measure: Measure | None = None
+) -> tuple[Residual, ...]:
     """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
-    p, measure = flow.problem, Measure(flow.problem, state)
+    p, measure = flow.problem, measure or Measure(flow.problem, state)
     strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
     k = p.member_interface
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads]
@@ -146,7 +156,8 @@ def kinematic_residuals(flow: Flow, state: State, force: Array) -> tuple[Residua
             negative * force[k],
             f"negative flow multiplier, Eq. (58), {POWER}",
             measure.power,
-            [p.interfaces[i] for i in k],
+            p.interfaces,
+            k,
         ),
     )
 
@@ -163,14 +174,15 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     k = p.member_interface
     return Residuals(
         (
-            *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state, measure.pressed),
+            *static_residuals(p, state.load_factor, state.x, measure),
+            *kinematic_residuals(flow, state, measure.pressed, measure),
             residual(
                 "complementarity",
                 product,
                 f"yield function times multiplier, Eq. (59), {POWER}",
                 measure.power,
-                [p.interfaces[i] for i in k],
+                p.interfaces,
+                k,
             ),
             residual(
                 "dissipation",
@@ -189,8 +201,8 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     power = p.g @ state.y - p.dead @ state.u
     return Residuals(
         (
-            *static_residuals(p, state.load_factor, state.x),
-            *kinematic_residuals(flow, state, measure.interface),
+            *static_residuals(p, state.load_factor, state.x, measure),
+            *kinematic_residuals(flow, state, measure.interface, measure),
             residual(
                 "power",
                 power - upper,
@@ -218,7 +230,7 @@ def worth_of_violations(problem: LimitProblem, state: State) -> float:
     x, u, y, cones = state.x, state.u, state.y, problem.cones
     s = problem.F @ x + problem.g
     unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ x
-    flow = problem.C @ u + sparse.csr_array(problem.F.T) @ y
+    flow = problem.C @ u + problem.F.T @ y
     outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(
         np.abs(x) @ np.abs(flow)

@@ -7,6 +7,8 @@ Stability of Numerical Algorithms, Sections 2.1, 3.1 and 4.2).
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -16,16 +18,42 @@ from limitblocks.arrays import Array
 
 EPS = float(np.finfo(float).eps)  # twice the unit roundoff: pays for the sums beside the products
 TINY = float(np.finfo(float).tiny)
+LEAST = 1e-150
 UP = 1.0 + 2.0**-30  # pays for a million roundings of a sum of nonnegative numbers
 
 
-def product(A: sparse.csr_array, v: Array, *addends: Array) -> tuple[Array, Array]:
-    """Return A v + the addends as computed, and the most that each row is off by."""
-    count = int(np.diff(A.indptr).max(initial=0)) + 2 * len(addends) + 2
-    value, size, terms = A @ v, abs(A) @ np.abs(v), A.astype(bool) @ (v != 0.0)
-    for addend in addends:
-        value, size, terms = value + addend, size + np.abs(addend), terms | (addend != 0.0)
-    return value, np.where(terms, _error(count, size), 0.0)
+@dataclass(frozen=True, eq=False)
+class Products:
+    """Sums of the products of some matrices with as many vectors, and the most that each row is off by."""
+
+    matrices: tuple[sparse.csr_array, ...]
+
+    @cached_property
+    def sizes(self) -> tuple[sparse.csr_array, ...]:
+        """The sizes of their entries."""
+        return tuple(
+            sparse.csr_array((size_of(A.data), A.indices, A.indptr), shape=A.shape) for A in self.matrices
+        )
+
+    @cached_property
+    def count(self) -> int:
+        """The most products that are summed in a row."""
+        return int(np.sum([np.diff(A.indptr) for A in self.matrices], axis=0).max(initial=0))
+
+    def of(self, vectors: tuple[Array, ...], *addends: Array) -> tuple[Array, Array]:
+        """Return the sums as computed, the addends among them, and the most that each row is off by."""
+        value = size = np.zeros(self.matrices[0].shape[0])
+        for A, absolute, v in zip(self.matrices, self.sizes, vectors, strict=True):
+            value, size = value + A @ v, size + absolute @ size_of(v)
+        for addend in addends:
+            value, size = value + addend, size + size_of(addend)
+        error = _error(self.count + 2 * len(addends) + 2, size)
+        return value, np.where(size == 0.0, 0.0, error)  # nothing is added: it is exact
+
+
+def size_of(values: Array) -> Array:
+    """Sizes of numbers, those that are not zero at least so large that no product of two underflows."""
+    return np.asarray(np.where(values != 0.0, np.maximum(np.abs(values), LEAST), 0.0))
 
 
 def scalar_product(a: Array, b: Array) -> tuple[float, float]:

@@ -27,8 +27,8 @@ def closed(name: str, points: Array, loops: Faces, tolerance: float, notes: list
     if 0 < len(sides) <= _MOST_OPEN:
         between, off = _on_sides(points, sides, tolerance)
         if between:
-            notes.append(f"{sum(map(len, between.values()))} vertices inserted where they lie on the edge of "
-                         f"another face, within {off:.2g} m")  # fmt: skip
+            notes.append("vertices inserted where they lie on the edge of another face, within "
+                         f"{off:.2g} m: {sum(map(len, between.values()))}")  # fmt: skip
             loops = tuple(
                 tuple(
                     v for k in range(len(loop)) for v in (*between.get((loop[k - 1], loop[k]), ()), loop[k])

@@ -23,6 +23,7 @@ from limitblocks.geometry.mend import mended
 from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.patches import covering, mean_width, patches
 from limitblocks.geometry.regions import regions
+from limitblocks.shown import many
 
 #: Distances over the accuracy: of the corners of a face from its plane, of a vertex from where it was.
 _FLAT, _MOST = 4.0, 12.0
@@ -71,8 +72,8 @@ class Healed:
         moved = max(self.displacements.values(), default=0.0)
         left = f"; {len(self.notes)} left as they were" if self.notes else ""
         return (
-            f"{len(self.blocks)} blocks mended within {millimetres(self.accuracy)}: vertices moved by up to "
-            f"{millimetres(moved)}, at most {millimetres(self.bound)} allowed{left}"
+            f"{many(len(self.blocks), 'block')} mended within {millimetres(self.accuracy)}: vertices moved "
+            f"by up to {millimetres(moved)}, at most {millimetres(self.bound)} allowed{left}"
         )
 
 

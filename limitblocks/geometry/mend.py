@@ -137,7 +137,7 @@ def _welded(
     moved = np.linalg.norm(distinct - distinct[target], axis=1).max()
     if moved > 0.0:
         merged = int((target != np.arange(len(target))).sum())
-        notes.append(f"{merged} vertices up to {moved:.2g} m from another one merged with it")
+        notes.append(f"vertices up to {moved:.2g} m from another one merged with it: {merged}")
     return distinct, renumbered(loops, target[number.reshape(-1)])
 
 

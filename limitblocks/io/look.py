@@ -222,7 +222,7 @@ def _suspicious(blocks: Sequence[Block], corners: Any, contacts: Contacts) -> li
     if small:
         least = min(small, key=lambda block: block.volume)
         said.append(
-            f"{len(small)} blocks are smaller than {_DEBRIS:g} of the median, {middle:.3g} m3: debris? "
+            f"{many(len(small), 'block')} smaller than {_DEBRIS:g} of the median, {middle:.3g} m3: debris? "
             f"The smallest is {least.name!r}, {least.volume:.2g} m3"
         )
     return [*said, *contacts.warnings, *open_joints(contacts, blocks)]

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.shown import many
 
 #: Gaps, in block lengths, that are tried where blocks have no interface.
 _WIDER = (0.01, 0.02, 0.05, 0.1)
@@ -20,7 +21,7 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
         if tied > 0:
             apart = _distance(wide, blocks, set(contacts.isolated))
             return [
-                f"{tied} blocks without any interface would touch with gap={gap:g} (block lengths, "
+                f"{many(tied, 'block')} without any interface would touch with gap={gap:g} (block lengths, "
                 f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open? "
                 f"They are typically {1e3 * apart:.2g} mm wide"
             ]

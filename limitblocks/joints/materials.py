@@ -11,6 +11,7 @@ from limitblocks.errors import ModelError, near
 from limitblocks.geometry import Block, select
 from limitblocks.geometry.selection import listed
 from limitblocks.joints.base import Joint
+from limitblocks.shown import many
 
 #: Numbers of a joint of which the least is the weaker; None is a strength without limit.
 _STRENGTHS = ("friction", "cohesion", "compressive_strength", "tensile_strength")
@@ -93,7 +94,8 @@ class Materials:
         bare = [block for block in blocks if block.name not in owner]
         if bare:
             raise ModelError(
-                f"{len(bare)} blocks are of no material of the table; among them {listed(bare)}", *warnings
+                f"{many(len(bare), 'block')} of no material of the table; among them {listed(bare)}",
+                *warnings,
             )
         self._refuse_two_weights(blocks, owner)
         return tuple(self._made(block, owner[block.name]) for block in blocks), tuple(warnings)

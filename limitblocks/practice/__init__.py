@@ -1,12 +1,13 @@
 """What practice asks: ties, settlement, capacity curve, verification, vehicles, water, repair."""
 
-from limitblocks.practice.adequacy import Adequacy, DesignValue, PartialFactors, adequacy, design_model
+from limitblocks.practice.adequacy import Adequacy, DesignValue, adequacy, design_model
 from limitblocks.practice.backfill import passive_fill
 from limitblocks.practice.capacity import capacity_curve
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.collapse import settlement_to_collapse
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.elements import Element, dowel, reinforced, strip, tie
+from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.practice.repair import Repair, least_masses, least_ties
 from limitblocks.practice.rocking import Rocking, elastic_period, element_acceleration, element_force
 from limitblocks.practice.settlement import Settlement, Settling, settlement, settling

@@ -18,68 +18,13 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import joint_of
-from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
+from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.shown import Result
 
 FRICTION = "friction"
 STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
 SYMBOLS = {FRICTION: "mu", "cohesion": "c", "tensile_strength": "f_t", "compressive_strength": "f_cef"}
-
-
-@dataclass(frozen=True)
-class PartialFactors:
-    """Partial factors in the notation of the Eurocodes; none has a default that a code would have to back.
-
-    Parameters
-    ----------
-    gamma_G : float
-        Multiplies the dead loads, prestress included; 1 or less where they are favourable.
-    gamma_Q : float
-        Multiplies the live loads.
-    gamma_M : float
-        Divides cohesion, tensile and compressive strength of joints.
-    gamma_phi : float, optional
-        Divides the friction coefficient, the tangent of the friction angle; `gamma_M` unless given.
-    gamma_S : float, optional
-        Divides the strength of ties, strips and dowels; needed where the model has any.
-
-    Raises
-    ------
-    ModelError
-        If a factor is not a finite number > 0.
-    """
-
-    gamma_G: float
-    gamma_Q: float
-    gamma_M: float
-    gamma_phi: float | None = None
-    gamma_S: float | None = None
-
-    def __post_init__(self) -> None:
-        for name in ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S"):
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, number(value, name, "", above=0.0))
-
-    def value(self, name: str) -> float:
-        """Value of a factor by its name."""
-        return float(getattr(self, name))
-
-    @property
-    def of_friction(self) -> tuple[str, float]:
-        """Name and value of the factor that divides friction."""
-        return ("gamma_M", self.gamma_M) if self.gamma_phi is None else ("gamma_phi", self.gamma_phi)
-
-    def of_strength(self, joint: Joint) -> tuple[str, float]:
-        """Name and value of the factor that divides the strengths of a joint."""
-        if not isinstance(joint, Tie | Dowel):
-            return "gamma_M", self.gamma_M
-        if self.gamma_S is None:
-            raise ModelError(
-                "the model has ties or dowels: give gamma_S, the factor that divides their strength"
-            )
-        return "gamma_S", self.gamma_S
 
 
 @dataclass(frozen=True)

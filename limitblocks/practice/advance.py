@@ -81,6 +81,13 @@ def advanced(assembly: Assembly, control: Control, rates: Array, step: float) ->
     return Advanced(there, carried(assembly, there, control), changes)
 
 
+def stopped(displacement: float) -> str:
+    """Return why a curve ends at a displacement, m, from which contacts allow no step."""
+    if displacement == 0.0:
+        return "a contact closes at once, in the first step, and stops the mechanism"
+    return f"blocks meet at {displacement:.6g} m and stop the mechanism"
+
+
 def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assembly, tuple[str, ...]] | None:
     """Return the structure after displacements (n, 6), cut where a contact closes, and what changed.
 

@@ -21,6 +21,7 @@ from limitblocks.practice.advance import (
     control_point,
     farthest,
     refuse_left_behind,
+    stopped,
     velocity,
 )
 from limitblocks.practice.answered import answered
@@ -118,7 +119,7 @@ def _curve(
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
         if isinstance(found, str) or still:
-            yield found if isinstance(found, str) else _stopped(point)
+            yield found if isinstance(found, str) else stopped(point.displacement)
             return
         before, (assembly, control, point) = point, found
     yield f"{MOST * steps} points do not lead to an end"
@@ -138,15 +139,11 @@ def _ahead(
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:
-            return _stopped(point)
+            return stopped(point.displacement)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
         if left >= -ZERO * scale or way <= JUMP * assembly.size or found[2].snapped:
             return found
         step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
-
-
-def _stopped(point: CapacityPoint) -> str:
-    return f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
 
 
 def _next_step(

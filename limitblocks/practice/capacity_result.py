@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.shown import Result
+from limitblocks.shown import Result, many
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,6 +157,7 @@ class CapacityCurve(Result):
         filled = self.points[len(self.points) - 1].displacement > self.proven_to
         beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
         return (
-            f"capacity curve of {len(self.points)} points from load factor {first:.6g}: {self.ended}{beyond}"
+            f"capacity curve of {many(len(self.points), 'point')} from load factor {first:.6g}: "
+            f"{self.ended}{beyond}"
             f"{self._as_read}"
         )

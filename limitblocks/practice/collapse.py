@@ -12,7 +12,7 @@ from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind
+from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, stopped
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
@@ -124,7 +124,7 @@ def _way(
             try:
                 there = advanced(assembly, control, _rates(point.found), step)
                 if there is None:
-                    yield None, f"blocks meet at {point.displacement:.6g} m and stop the mechanism"
+                    yield None, stopped(point.displacement)
                     return
                 at = point.displacement + float((there.control.point - control.point) @ control.direction)
                 answer, why = found(there.assembly.model), ""

@@ -90,8 +90,8 @@ class Flow:
     def _centroid(self) -> sparse.csr_array:
         """G of a twist about the centroid."""
         p = self.problem
-        if not self.share.any():
-            return p.G
+        if self.associated or not self.share.any():
+            return p.F if self.associated else p.G
         share = sparse.diags_array(self.share[p.row_interface])
         return sparse.csr_array(p.G + share @ (p.F - p.G))
 

@@ -50,6 +50,12 @@ def power_of_two(values: Any) -> Any:
     return np.exp2(np.round(np.log2(values)))
 
 
+def in_units(matrix: sparse.csr_array, rows: Array, columns: Array) -> sparse.csr_array:
+    """Return a matrix with its rows and columns multiplied by numbers of their own."""
+    data = matrix.data * np.repeat(rows, np.diff(matrix.indptr)) * columns[matrix.indices]
+    return sparse.csr_array((data, matrix.indices.copy(), matrix.indptr.copy()), shape=matrix.shape)
+
+
 def tied(ends: Indices, count: int) -> Indices:
     """Number the parts of `count` blocks that chains of interfaces tie together, shape (count,).
 
@@ -140,6 +146,11 @@ class LimitProblem:
     centroids: Array
     left_out: tuple[str, ...] = ()
 
+    def __post_init__(self) -> None:
+        # scipy sorts entries in place where it first needs to: sums would come in another order from then on
+        for part in (self.C, self.F, self.G, self.resultants):
+            part.sum_duplicates()
+
     @cached_property
     def stress_interface(self) -> Indices:
         """Interface of each generalised stress, shape (s,)."""
@@ -212,17 +223,13 @@ class LimitProblem:
         loads, stresses = old.loads / units.loads, at_ends / old.interface_force
         columns, rows = stresses[self.stress_interface], stresses[self.row_interface]
         live_share = old.live / live
-        scaled = [
-            sparse.csr_array(sparse.diags_array(1.0 / rows) @ part @ sparse.diags_array(columns))
-            for part in (self.F, self.G)
-        ]
         return replace(
             self,
-            C=sparse.csr_array(sparse.diags_array(columns) @ self.C @ sparse.diags_array(loads)),
+            C=in_units(self.C, columns, loads),
             dead=read_only(self.dead * loads),
             live=read_only(self.live * loads * live_share),
-            F=scaled[0],
-            G=scaled[1],
+            F=in_units(self.F, 1.0 / rows, columns),
+            G=in_units(self.G, 1.0 / rows, columns),
             g=read_only(self.g / rows),
             compliance=read_only(self.compliance * columns**2),
             units=units,

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import limitblocks as lb
@@ -18,7 +19,8 @@ from limitblocks.analysis.nonassociated.means import (
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import defect
-from limitblocks.problem import Flow
+from limitblocks.analysis.stability import dead_load_state
+from limitblocks.problem import Flow, State
 from limitblocks.problem.plane import Planar
 
 
@@ -42,6 +44,26 @@ def test_rounds_close_a_path_that_was_stopped():
     found, rounds = closing.closed(flow, NearestStresses(problem, problem.compliance), state, 1e-8)
     assert defect(flow, found) <= 1e-8
     assert rounds < closing.ROUNDS
+
+
+@pytest.mark.parametrize(("factor", "rounds"), [(0.5, 2), (0.1, closing.ROUNDS)])
+def test_rounds_go_on_where_the_gap_falls_fast_enough(factor, rounds, monkeypatch):
+    """From 1 to the tolerance 1e-8 in 10 rounds more: by a factor of less than about 0.2 each."""
+    model = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)
+    flow, gaps = Flow(model.problem), iter(factor**k for k in range(closing.ROUNDS + 1))
+    x = dead_load_state(model.problem)
+    slack = model.problem.F @ x + model.problem.g
+    nothing = np.zeros(model.problem.C.shape[1])
+
+    class Still:
+        def find(self, x, _):
+            return 1.0, x
+
+    monkeypatch.setattr(
+        closing, "frozen_mechanism", lambda *_: (nothing, next(gaps) * slack / (slack @ slack))
+    )
+    start = State(1.0, x, nothing, 0.0 * slack)
+    assert closing.closed(flow, Still(), start, 1e-8)[1] == rounds
 
 
 def test_a_large_model_is_solved_by_a_short_path_and_rounds(monkeypatch):

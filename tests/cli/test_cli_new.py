@@ -39,6 +39,13 @@ def test_every_generator_is_a_command_with_all_its_parameters(name):
     assert {"joint", "friction", "slip", "compressive_strength", "output", "force"} <= set(options)
 
 
+def test_what_takes_long_says_that_it_is_at_work(monkeypatch):
+    monkeypatch.setattr("limitblocks.cli.progress.EVERY", 0.002)
+    done = run(*WALL)
+    assert done.exit_code == 0
+    assert "making wall: 0 s" in done.stderr
+
+
 def test_no_public_generator_is_missing():
     made = {n for n in lb.structures.__all__ if inspect.isfunction(getattr(lb.structures, n))}
     assert made == set(generators())

@@ -10,6 +10,8 @@ import pytest
 import limitblocks as lb
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.mechanism import find_mechanism
+from limitblocks.problem import Flow
 
 MU, B, H, DEPTH = 0.3, 2.0, 1.0, 1.5
 WEIGHT = 20e3 * B * H * DEPTH
@@ -52,6 +54,15 @@ def test_a_mechanism_is_found_for_the_stress_state_alone(model, claim):
     check = check_mcp(model, replace(claim, displacement_rates=None))
     assert check.mechanism_found
     assert check.passed
+
+
+def test_no_mechanism_is_found_for_stresses_that_are_no_numbers(model):
+    problem = model.problem
+    u, y = find_mechanism(Flow(problem), np.full(problem.C.shape[0], np.nan))
+    assert u.shape == problem.live.shape
+    assert y.shape == problem.g.shape
+    assert np.isnan(u).all()
+    assert np.isnan(y).all()
 
 
 @pytest.mark.parametrize(

@@ -94,7 +94,7 @@ def test_vertex_on_the_edge_of_another_face_closes_it():
     same_solid(values, BOX)
     assert len(values.vertices) == 8  # a vertex in the middle of an edge says nothing
     assert notes == (
-        "block 'box': 1 vertices inserted where they lie on the edge of another face, within 0 m",
+        "block 'box': vertices inserted where they lie on the edge of another face, within 0 m: 1",
     )
 
 

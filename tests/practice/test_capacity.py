@@ -187,6 +187,15 @@ def test_blocks_that_meet_stop_the_curve():
     assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
 
 
+def test_a_contact_that_closes_at_once_is_not_called_blocks_that_meet(monkeypatch):
+    monkeypatch.setattr("limitblocks.practice.capacity.advanced", lambda *step: None)
+    curve = capacity_curve(lb.structures.block(JOINTS[0], width=B, height=H))
+    assert len(curve.points) == 1
+    assert curve.zero is None
+    assert str(curve).startswith("capacity curve of 1 point from")
+    assert curve.ended == "a contact closes at once, in the first step, and stops the mechanism"
+
+
 def test_a_tie_that_yields_on_the_way_to_zero():
     """The load factor falls ever faster, and the secant steps beyond its zero: few points all the same."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)

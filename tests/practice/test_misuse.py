@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import facades
 import pytest
 
 import limitblocks as lb
@@ -30,16 +29,6 @@ NAN = float("nan")
 SITE = Spectrum(2.0, 1.2, 2.5, 0.5)
 MODE = FloorMode(0.4, 1.2, 1.0)
 CAR = Vehicle((1e3,))
-
-
-@pytest.fixture(scope="module")
-def facade():
-    return facades.facade()
-
-
-@pytest.fixture(scope="module")
-def answer(facade):
-    return lb.nonassociated(facade)
 
 
 @pytest.mark.parametrize(

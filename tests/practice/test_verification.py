@@ -1,6 +1,5 @@
 """Verification of a facade of one block by closed forms; spectra; misuse."""
 
-import facades
 import numpy as np
 import pytest
 from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
@@ -9,16 +8,6 @@ import limitblocks as lb
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
 
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
-
-
-@pytest.fixture(scope="module")
-def facade():
-    return facades.facade()
-
-
-@pytest.fixture(scope="module")
-def answer(facade):
-    return lb.nonassociated(facade)
 
 
 @pytest.fixture(scope="module")

@@ -151,6 +151,20 @@ def test_faces_of_a_groove_mirror_each_other_not_themselves():
     assert same(lb.bounds(groove), without_mirror(lb.bounds, groove))
 
 
+def test_loads_that_cancel_but_for_rounding_point_nowhere():
+    """Columns pressed together and bent apart: .1 + .2 - .1 - .2 is 6e-17, which is no resultant along X."""
+    stones, forces = [lb.Block.box("ground", (4, 2, 1), (0, 0, -0.5))], []
+    for name, side in (("left", -1.0), ("right", 1.0)):
+        for level, (along, across) in enumerate([(0.1, 0.5), (0.2, -0.5)]):
+            at = (0.25 * side, 0.0, 0.5 + level)
+            stones.append(lb.Block.box(f"{name} {level}", (0.5, 1.0, 1.0), at, unit_weight=2e4))
+            forces.append(lb.loads.force(stones[-1].name, (-side * along, across, 0.0), at))
+    found = lb.find_interfaces(stones, JOINTS["points"])
+    problem = lb.Model(stones, ["ground"], found, lb.self_weight(), sum(forces[1:], forces[0])).problem
+    assert 0.0 < abs(problem.live.reshape(-1, 6)[:, 0].sum()) < 1e-15 * np.abs(problem.live).sum()
+    assert len(in_plane(problem).blocks) == 2
+
+
 def test_what_is_not_symmetric_is_not_halved():
     for name in ("points", "octagon"):
         model = facade(JOINTS[name])

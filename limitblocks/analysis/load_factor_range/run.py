@@ -20,6 +20,7 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.errors import ModelError
 from limitblocks.evidence.range_answer import RangeAnswer
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
@@ -32,6 +33,7 @@ BEYOND = 10.0  # times the load scale: load factors looked at where nothing limi
 Progress = Callable[[Iteration], None]
 
 
+@one_thread
 def load_factor_range(
     model: Model,
     *,

@@ -16,7 +16,8 @@ from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow, State
 
 ROUNDS = 30
-FALLS = 0.5  # of the gap, in two rounds: rounds that make it fall less are given up
+AHEAD = 10  # rounds: where the gap would take more at its last factor they are given up
+SMALL = 10.0  # of the tolerance: a gap that is not found closer
 NEAR = 1e-5  # residual where pivots are tried
 
 
@@ -35,7 +36,7 @@ def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float)
         Residual of Eqs (54)-(59) at which the rounds end.
     """
     best, least = start, defect(flow, start)
-    problem, x, gaps = flow.problem, start.x, [np.inf, np.inf]
+    problem, x, last = flow.problem, start.x, np.inf
     for k in range(1, ROUNDS + 1):
         mechanism = frozen_mechanism(flow, x)
         found = nearest.find(x, mechanism[1]) if mechanism else None
@@ -50,7 +51,7 @@ def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float)
         if worst < least:
             best, least = state, worst
         gap = float((problem.F @ x + problem.g) @ mechanism[1])
-        if least <= tolerance or gap > FALLS * gaps[-2]:
+        if least <= tolerance or gap * min(gap / last, 1.0) ** AHEAD > SMALL * tolerance:
             return best, k
-        gaps.append(gap)
+        last = gap
     return best, ROUNDS

@@ -22,6 +22,7 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
     start_stresses,
 )
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.load_path_result import LoadPath
@@ -38,6 +39,7 @@ Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
 
 
+@one_thread
 def load_path(
     model: Model,
     *,

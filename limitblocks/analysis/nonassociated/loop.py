@@ -23,6 +23,7 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_unlimited,
 )
 from limitblocks.analysis.nonassociated.ways import Half, first_to_solve
+from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
 from limitblocks.evidence.backward_error import checked_limit, settled, within
@@ -32,6 +33,7 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
 
 
+@one_thread
 def nonassociated(
     model: Model,
     *,

@@ -12,7 +12,6 @@ from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.plane.alike import EXACT
 
 UNIQUE = 1e-6  # of all normals and forces: less across two directions leaves the plane open
-MATCHED = 1e-8  # of the structure: farther from a mirrored centroid lies another block
 
 
 def candidates(problem: LimitProblem, strain: Array) -> Iterator[tuple[Array, Indices]]:
@@ -67,5 +66,5 @@ def _images(at: Array, normal: Array) -> Indices | None:
     """The block (n,) at the mirror image of each centroid; None where one has no such block."""
     mirrored = at - 2.0 * np.outer(at @ normal, normal)
     off, image = (np.asarray(part) for part in cKDTree(at).query(mirrored))
-    exact = off.max() <= MATCHED * np.abs(at).max() and (image[image] == np.arange(len(at))).all()
+    exact = off.max() <= EXACT * np.abs(at).max() and (image[image] == np.arange(len(at))).all()
     return np.asarray(image, dtype=np.int64) if exact else None

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -12,7 +11,7 @@ from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.cones import Cones
-from limitblocks.problem.limit_problem import LimitProblem, State, Units
+from limitblocks.problem.limit_problem import LimitProblem, State, Units, in_units
 from limitblocks.problem.plane.alike import EXACT
 
 
@@ -76,10 +75,12 @@ class Planar:
         """Return the same for the whole problem in other units of force."""
         old, problem = self.problem, self.problem.measured(whole.units.block_force[self.blocks])
 
-        def changed(matrix: sparse.csr_array, unit: Callable[[LimitProblem, Units], Array]) -> Any:
+        def changed(
+            matrix: sparse.csr_array, unit: Callable[[LimitProblem, Units], Array]
+        ) -> sparse.csr_array:
             rows = unit(whole, self.units) / unit(whole, whole.units)
             columns = unit(problem, problem.units) / unit(problem, old.units)
-            return sparse.csr_array(sparse.diags_array(rows) @ matrix @ sparse.diags_array(columns))
+            return in_units(matrix, rows, columns)
 
         return replace(
             self,

@@ -16,7 +16,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.problem.cones import Cones
-from limitblocks.problem.limit_problem import LimitProblem
+from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.alike import EXACT
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
 from limitblocks.problem.plane.planar import Planar
@@ -43,7 +43,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     rates = _rates(mirror, blocks)
     source, weights, cones = rows
     units = problem.units.row
-    W = sparse.csr_array(sparse.diags_array(1.0 / units[source]) @ weights @ sparse.diags_array(units))
+    W = in_units(weights, 1.0 / units[source], units)
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
     B = sparse.csr_array(problem.resultants @ stresses)
     six = (6 * kept[:, None] + np.arange(6)).ravel()

@@ -1,0 +1,37 @@
+"""Analyses in one thread of the linear algebra: their products are too small for several to pay.
+
+Threads of BLAS that wait for work spin meanwhile, and the sums they form differ in the last digits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache, wraps
+from importlib.util import find_spec
+from typing import Any, ParamSpec, TypeVar
+
+import scipy.sparse.linalg  # noqa: F401 - loads every BLAS that the controller is to find
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+@lru_cache(maxsize=1)
+def _controller() -> Any:
+    """The libraries with threads that are loaded; found once, as that takes 15 ms."""
+    from threadpoolctl import ThreadpoolController
+
+    return ThreadpoolController()
+
+
+def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
+    """Return the analysis in one thread of BLAS; the number of threads is as before when it ends."""
+    if find_spec("threadpoolctl") is None:  # an environment made before it was required
+        return analysis
+
+    @wraps(analysis)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with _controller().limit(limits=1, user_api="blas"):
+            return analysis(*args, **kwargs)
+
+    return alone

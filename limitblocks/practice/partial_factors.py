@@ -1,0 +1,64 @@
+"""Partial factors on loads and strengths, in the notation of the Eurocodes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from limitblocks.errors import ModelError
+from limitblocks.joints import Dowel, Joint, Tie
+from limitblocks.mechanics.loads.load import number
+
+
+@dataclass(frozen=True)
+class PartialFactors:
+    """Partial factors in the notation of the Eurocodes; none has a default that a code would have to back.
+
+    Parameters
+    ----------
+    gamma_G : float
+        Multiplies the dead loads, prestress included; 1 or less where they are favourable.
+    gamma_Q : float
+        Multiplies the live loads.
+    gamma_M : float
+        Divides cohesion, tensile and compressive strength of joints.
+    gamma_phi : float, optional
+        Divides the friction coefficient, the tangent of the friction angle; `gamma_M` unless given.
+    gamma_S : float, optional
+        Divides the strength of ties, strips and dowels; needed where the model has any.
+
+    Raises
+    ------
+    ModelError
+        If a factor is not a finite number > 0.
+    """
+
+    gamma_G: float
+    gamma_Q: float
+    gamma_M: float
+    gamma_phi: float | None = None
+    gamma_S: float | None = None
+
+    def __post_init__(self) -> None:
+        for name in ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, number(value, name, "", above=0.0))
+
+    def value(self, name: str) -> float:
+        """Value of a factor by its name."""
+        return float(getattr(self, name))
+
+    @property
+    def of_friction(self) -> tuple[str, float]:
+        """Name and value of the factor that divides friction."""
+        return ("gamma_M", self.gamma_M) if self.gamma_phi is None else ("gamma_phi", self.gamma_phi)
+
+    def of_strength(self, joint: Joint) -> tuple[str, float]:
+        """Name and value of the factor that divides the strengths of a joint."""
+        if not isinstance(joint, Tie | Dowel):
+            return "gamma_M", self.gamma_M
+        if self.gamma_S is None:
+            raise ModelError(
+                "the model has ties or dowels: give gamma_S, the factor that divides their strength"
+            )
+        return "gamma_S", self.gamma_S
