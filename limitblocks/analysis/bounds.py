@@ -29,6 +29,7 @@ from limitblocks.analysis.programs import (
     static_program,
 )
 from limitblocks.analysis.scales import Scaled, balanced, repaired, scaled, unmoved
+from limitblocks.analysis.splitting import Splitting
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
@@ -130,7 +131,8 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them."""
     tell("dead loads")
     plane, programs = in_plane(problem), programs_of(problem)
-    dead = carried(problem, programs)
+    splitting = Splitting(programs.form.problem)
+    dead = carried(problem, splitting)
     if dead is None:
         return None
     tell("load factor")
@@ -141,7 +143,7 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     state, name = found
     patience = 1 if plane is not None and plane.flat else programs.form.patience
     close = max(CLOSE, min(PER_BLOCK * len(problem.blocks), tolerance / 10.0))
-    state, proof = certified(problem, state, dead, close=close, patience=patience, programs=programs)
+    state, proof = certified(problem, state, dead, close=close, patience=patience, splitting=splitting)
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     return (dead, pair, proof) if good else None

@@ -11,12 +11,11 @@ from functools import cached_property
 
 import numpy as np
 
-from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import Rates
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
 from limitblocks.analysis.scales import scaled
+from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, Prover, own_units
 from limitblocks.evidence.reach import Reach
@@ -40,7 +39,7 @@ def certified(
     *,
     close: float = CLOSE,
     patience: int | None = None,
-    programs: Programs | None = None,
+    splitting: Splitting | None = None,
     whole: bool = False,
 ) -> tuple[State, Proof]:
     """Return static and kinematic solutions near those of `state` that prove their bounds.
@@ -60,15 +59,15 @@ def certified(
         Width of an interval that needs no polish.
     patience : int, optional
         Of the polish. Left out: it is thorough.
-    programs : Programs, optional
-        Compiled already: of the problem reduced by its mirror, if it has one.
+    splitting : Splitting, optional
+        Of the problem, reduced by its mirror if it has one, where it is at hand.
     whole : bool
         Whether to make no use of a mirror.
     """
     own = own_units(problem, state)
     given, plane = own.dimensionless(problem.in_si(state)), None if whole else in_plane(problem)
-    ours = programs if programs is not None and isinstance(programs.form, Rates) else None
-    repair = Repair(scaled(own), problem, ours) if plane is None else planar_repair(own, plane, programs)
+    splitting = splitting or Splitting(scaled(problem if plane is None else plane.problem))
+    repair = Repair(splitting, own) if plane is None else planar_repair(own, plane, splitting)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         mixture = _Mixture(own, repair, dead * problem.stress_units / own.stress_units)
         found, proof = mixture.proven(given)

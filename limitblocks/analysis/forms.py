@@ -50,22 +50,10 @@ class Stresses:
         rows = sparse.csr_array(sparse.hstack([nothing, p.F])) @ v + p.g
         return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *in_cone(rows, p.cones)]), (v,))
 
-    def opening(self, amount: Array) -> Mapping[str, Array]:
-        """Stresses that carry the dead loads with the largest sum of distances to yield times `amount`.
-
-        Its dual is the mechanism that opens every joint by at least that (R,) at the least power.
-        """
-        return {"q": -self.problem.F.T @ amount}
-
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
         n = len(self.problem.dead)
         return State(float(v[0]), v[1:], -w[:n], w[n:])
-
-    def opened(self, v: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
-        """Stresses, rates and multipliers of a solution of `opening` and its duals."""
-        n = len(self.problem.dead)
-        return v, -w[:n], w[n:] + amount
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,17 +95,9 @@ class Rates:
         constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
         return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
-    def opening(self, amount: Array) -> Mapping[str, Array]:
-        """The mechanism that opens every joint by at least `amount` (R,) at the least power."""
-        return {"b": -self.enough(amount)}
-
     def limit_state(self, u: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
         return State(-float(w[0]), self.stresses(w[1:]), u, self.multipliers(u))
-
-    def opened(self, u: Array, w: Array, amount: Array) -> tuple[Array, Array, Array]:
-        """Stresses, rates and multipliers of a solution of `opening` and its duals."""
-        return self.stresses(w), u, self.multipliers(u)
 
     def multipliers(self, u: Array) -> Array:
         """Multipliers that follow the rates: dropped rows take half of what their cone has.
@@ -134,12 +114,6 @@ class Rates:
             y[self.head] -= half
             y[self.dropped] = half / self.leverage
         return y
-
-    def enough(self, amount: Array) -> Array:
-        """What the kept rows need so that they and the dropped rows have `amount`: half is theirs."""
-        enough = amount.copy()
-        np.maximum.at(enough, self.head, amount[self.dropped] * self.leverage)
-        return enough[self.kept] * np.where(np.isin(self.kept, self.head), 2.0, 1.0)
 
     @cached_property
     def leverage(self) -> Array:

@@ -63,9 +63,6 @@ DIRECT = Solver(
 )
 # In the plane all rows are linear: four iterations more than to 1e-11 prove ten times closer bounds.
 PLANAR = DIRECT.having({"tol_gap_abs": 1e-12, "tol_gap_rel": 1e-12, "tol_feas": 1e-12})
-# For states far within a cone: it stops where the equations nearly hold, whatever the objective.
-ROUGH = Solver("CLARABEL", TIGHT | {"tol_gap_abs": 1e9, "tol_gap_rel": 1e9, "tol_feas": 1e-1}, conic=True)
-NEARLY = Solver("CLARABEL", TIGHT | {"tol_gap_abs": 1e9, "tol_gap_rel": 1e9, "tol_feas": 1e-3}, conic=True)
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,16 +6,15 @@ whose proof judges them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.compiled import Programs
-from limitblocks.analysis.forms import form_of
-from limitblocks.analysis.programs import NEARLY, ROUGH, Solver, solvers
-from limitblocks.analysis.scales import Projection, Scaled, compatible, compatible_with, scaled
+from limitblocks.analysis.scales import compatible_with
+from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
 from limitblocks.problem.plane import Planar
@@ -23,56 +22,52 @@ from limitblocks.problem.plane import Planar
 
 @dataclass(frozen=True, eq=False)
 class Repair:
-    """Repairs in the whole problem, given in units of its own."""
+    """Repairs in the units of a problem, of states in those of another."""
 
-    p: Scaled
-    problem: LimitProblem | None = None
-    programs: Programs | None = None  # of that problem, compiled already
-    quick: bool = True  # a mechanism that opens all joints about alike is found in few iterations
+    splitting: Splitting
+    own: LimitProblem
     everywhere: float = 0.1  # of the joint that lacks most: the least that a joint is opened
-
-    @cached_property
-    def projection(self) -> Projection:
-        """Onto equilibrium."""
-        return Projection(self.p.C)
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
-        p = self.p
-        return p.stress * self.projection.onto(p.dead + load_factor / p.load_factor * p.live, x / p.stress)
+        p, state = self.splitting.p, self._there(load_factor=load_factor, x=x)
+        loads = p.dead + state.load_factor * p.live
+        return self._here(x=self.splitting.projection.onto(loads, state.x)).x
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
-        return following(self.p, u, y)
+        state = self._there(u=u, y=y)
+        return self._here(y=self.splitting.following(state.u, state.y)).y
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
-        """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,)."""
-        first = (ROUGH,) if self.quick else ()
-        if self.problem is not None and self.programs is not None:
-            there = self._there(self.problem, self.programs.form.problem, amount)
-            for solver in first or (NEARLY,):
-                found = self._at_once(self.problem, self.programs, there, solver)
-                if found is not None:
-                    return found
-        return opening(self.p, amount * self.p.row / self.p.load_factor, first)
+        """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,).
 
-    def _there(self, problem: LimitProblem, q: Scaled, amount: Array) -> Array:
-        """The amount in units of the programs at hand: at least `everywhere` of the most, as units differ."""
-        own, nothing = self.p.problem, np.zeros(len(self.p.stress))
-        given = problem.dimensionless(own.in_si(State(0.0, nothing, np.zeros(len(own.dead)), amount)))
-        there, heads = given.y * q.row / q.load_factor, q.cones.heads
-        there[heads] = np.maximum(there[heads] / there.max(), self.everywhere)
-        return there
+        NaN where none was found, as where the structure can be wedged: where C^T x = 0 with F x in K, F x not
+        zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
+        """
+        p, there = self.splitting.p, self._there(y=amount).y
+        there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), self.everywhere)
+        found = self.splitting.mechanism(there)
+        if found is None:
+            return np.full_like(self._nothing.u, np.nan), np.full_like(self._nothing.y, np.nan)
+        u, y = found
+        here = self._here(u=u, y=self.splitting.following(u, y))
+        return here.u, here.y
 
-    def _at_once(
-        self, problem: LimitProblem, programs: Programs, there: Array, solver: Solver
-    ) -> tuple[Array, Array] | None:
-        """The mechanism by the programs at hand; None where it opens not every joint."""
-        own, nothing = self.p.problem, np.zeros(len(self.p.stress))
-        _, u, y = programs.opening(there, solver)
-        found = own.dimensionless(problem.in_si(programs.form.problem.in_problem(State(0.0, nothing, u, y))))
-        y = following(self.p, found.u, found.y)
-        return (found.u, y) if own.cones.margin(y).min() > 0.0 else None
+    def _there(self, **parts: Any) -> State:
+        """Parts of a state in units of the problem."""
+        own, p = self.own, self.splitting.p
+        return p.of_problem(p.problem.dimensionless(own.in_si(replace(self._nothing, **parts))))
+
+    def _here(self, **parts: Any) -> State:
+        """Parts of a state in units of its own."""
+        p = self.splitting.p
+        return self.own.dimensionless(p.problem.in_si(p.in_problem(replace(self._nothing, **parts))))
+
+    @cached_property
+    def _nothing(self) -> State:
+        stresses, rates = self.own.C.shape
+        return State(0.0, np.zeros(stresses), np.zeros(rates), np.zeros(len(self.own.g)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,32 +136,8 @@ class PlanarRepair:
         return np.asarray(kept + share[self.interface] * one)
 
 
-def planar_repair(whole: LimitProblem, plane: Planar, programs: Programs | None) -> PlanarRepair:
+def planar_repair(whole: LimitProblem, plane: Planar, splitting: Splitting) -> PlanarRepair:
     """Return the repairs in the plane or in one half, in units of the whole problem."""
     measured = plane.measured(whole)
-    how = (False, 1e-2) if plane.flat else (True, Repair.everywhere)
-    return PlanarRepair(whole, measured, Repair(scaled(measured.problem), plane.problem, programs, *how))
-
-
-def following(p: Scaled, u: Array, y: Array) -> Array:
-    """The nearest multipliers that satisfy the flow rule with the rates, to rounding."""
-    rates, multipliers = u * p.equation / p.load_factor, y * p.row / p.load_factor
-    if not (np.isfinite(rates).all() and np.isfinite(multipliers).all()):
-        return np.full_like(y, np.nan)
-    return np.asarray(compatible(p, rates, multipliers) * p.load_factor / p.row)
-
-
-def opening(p: Scaled, amount: Array, first: tuple[Solver, ...] = ()) -> tuple[Array, Array]:
-    """Rates and multipliers of a mechanism that opens the joints by about `amount` (R,) at the least power.
-
-    Not finite where there is none, exactly where the structure can be wedged: where C^T x = 0 with F x in K,
-    F x not zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
-    """
-    programs = Programs(form_of(p))
-    for solver in (*first, NEARLY, solvers(bool(p.cones.second_order))[0]):
-        _, u, y = programs.opening(amount, solver)
-        state = p.in_problem(State(0.0, np.zeros(len(p.stress)), u, y))
-        y = following(p, state.u, state.y)
-        if p.cones.margin(y).min() > 0.0:  # not where it is NaN
-            return state.u, y
-    return np.full(p.C.shape[1], np.nan), np.full(p.F.shape[0], np.nan)
+    everywhere = 1e-3 if plane.flat else Repair.everywhere
+    return PlanarRepair(whole, measured, Repair(splitting, measured.problem, everywhere))

@@ -110,6 +110,25 @@ class Scaled:
             state.y * self.load_factor / self.row,
         )
 
+    def of_problem(self, state: State) -> State:
+        """Return a state in the units of the problem in those of these numbers."""
+        return State(
+            state.load_factor / self.load_factor,
+            state.x / self.stress,
+            state.u * self.equation / self.load_factor,
+            state.y * self.row / self.load_factor,
+        )
+
+    def raised(self, y: Array) -> Array:
+        """Return multipliers brought into K by their heads.
+
+        The head of a cone of friction opens the joint friction times as much as it bounds the slip: raising
+        it disturbs the flow least.
+        """
+        y = y.copy()
+        y[self.cones.heads] -= np.minimum(self.cones.margin(y), 0.0)
+        return y
+
     def measured(self, state: State) -> Scaled | None:
         """Return the problem in the units of a state; None where its units are so already."""
         p, measure = self.problem, Measure(self.problem, state)
@@ -154,16 +173,23 @@ def frictional(problem: LimitProblem) -> Array:
 
 
 class Projection:
-    """Onto the stresses in equilibrium, every one in its own unit: C^T x = loads."""
+    """Onto the stresses in equilibrium, C^T x = loads; the distance is that of the inverse of `weights`."""
 
-    def __init__(self, C: sparse.csr_array) -> None:
-        self.C, self.lu = C, _factors(C.T @ C)
+    def __init__(self, C: sparse.csr_array, weights: sparse.csr_array | None = None) -> None:
+        self.C, self.weights = C, sparse.eye_array(C.shape[0]) if weights is None else weights
+        self.spread = self.weights @ C
+        self.lu = _factors(C.T @ self.spread)
+
+    def nearest(self, loads: Array, x: Array) -> tuple[Array, Array]:
+        """Return the nearest stresses in equilibrium, and the rates that are the multipliers of it."""
+        v = self.lu.solve(loads - self.C.T @ x)
+        return np.asarray(x + self.spread @ v), np.asarray(v)
 
     def onto(self, loads: Array, x: Array) -> Array:
-        """Return the nearest stresses in equilibrium; the residuals judge them."""
+        """Return the nearest stresses in equilibrium, refined; the residuals judge them."""
         for _ in range(2):
-            x = x + self.C @ self.lu.solve(loads - self.C.T @ x)
-        return np.asarray(x)
+            x, _ = self.nearest(loads, x)
+        return x
 
 
 def balanced(p: Scaled, loads: Array, x: Array) -> Array:
@@ -172,16 +198,11 @@ def balanced(p: Scaled, loads: Array, x: Array) -> Array:
 
 
 def compatible(p: Scaled, u: Array, y: Array) -> Array:
-    """Return the nearest multipliers that follow the rates, brought into K by their heads.
-
-    The head of a cone of friction opens the joint friction times as much as it bounds the slip: raising it
-    disturbs the flow least.
-    """
+    """Return the nearest multipliers that follow the rates, brought into K."""
     lu = _factors(p.F.T @ p.F)
     for _ in range(2):
         y = y - p.F @ lu.solve(p.C @ u + p.F.T @ y)
-    y[p.cones.heads] -= np.minimum(p.cones.margin(y), 0.0)
-    return y
+    return p.raised(y)
 
 
 def compatible_with(F: sparse.csr_array, strain: Array) -> Array:

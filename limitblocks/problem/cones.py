@@ -80,6 +80,17 @@ class Cones:
         parts += [rows[i[:, 0]] - np.linalg.norm(rows[i[:, 1:]], axis=1) for i in self.groups]
         return np.concatenate(parts)
 
+    def nearest(self, rows: Array) -> Array:
+        """Return the nearest point of K: max(s, 0), or the mean of t >= 0 and ||z|| along z."""
+        near = np.maximum(rows, 0.0)
+        for index in self.groups:
+            t, z = rows[index[:, :1]], rows[index[:, 1:]]
+            norm = np.linalg.norm(z, axis=1, keepdims=True)
+            head = np.where(norm <= t, t, np.maximum(t + norm, 0.0) / 2.0)
+            near[index[:, :1]] = head
+            near[index[:, 1:]] = z * np.minimum(head / np.maximum(norm, TINY), 1.0)
+        return near
+
     def norm(self, rows: Array) -> Array:
         """Return the Euclidean length of each linear row and each cone, shape (degree,)."""
         return np.sqrt(np.bincount(self.member, weights=rows * rows, minlength=self.degree))
