@@ -79,6 +79,16 @@ def test_titles_of_views_of_a_slender_structure_do_not_meet():
     assert side - front > 10 * len("Front, seen along +Y")  # a letter of 17 px is some 10 wide
 
 
+@pytest.mark.parametrize("length", [2.4, 10.0])
+def test_titles_of_views_of_a_thin_wall_are_on_the_page(length):
+    model = lb.structures.wall(JOINT, length=length, courses=6)
+    titles = [label for label in elevations(model).labels if "seen" in label.text]
+    assert len(titles) == 3
+    for title in titles:
+        half = 10 * len(title.text) / 2
+        assert half <= title.x <= 1000.0 - half
+
+
 def test_courses_behind_one_another_are_drawn_once():
     model = lb.structures.wall(JOINT, length=8.0, courses=20)
     blocks = [group for group in elevations(model).groups if group.style != "dimension"]

@@ -43,6 +43,7 @@ def elevations(model: Model) -> Sheet:
     across = (front.high - front.low)[0], (side.high - side.low)[0]
     up = (front.high - front.low)[1], (plan.high - plan.low)[1]
     room = WIDTH - 2 * (_LEFT + _RIGHT)
+    room -= max(_TITLE / 2 - _RIGHT - room / sum(across) * across[1] / 2, 0.0)  # of a narrow side view
     scale = float(min(room / sum(across), _TALLEST / sum(up)))
     spare = (room - scale * sum(across)) / 2
     below = _ABOVE + scale * up[0] + _BELOW

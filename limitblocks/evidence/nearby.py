@@ -18,7 +18,6 @@ from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
-ROUNDS = 4  # of stilling what would have to flow in another direction
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
@@ -65,21 +64,9 @@ def nearby(given: Given, level: float, held: bool = False) -> Nearby | None:
         return None
     moves = np.where((given.force <= SLIGHT)[given.places[0]], level * given.reach, 0.0)
     turn = max(level, TURN)
-    best: Nearby | None = None
-    for _ in range(ROUNDS):
-        may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
-        mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
-        if mechanism is None:
-            break
-        found = _changed(given, *mechanism)
-        if best is None or found.change < best.change:
-            best = found
-        wild = (found.turned > level)[given.places[0]]
-        wild[: p.cones.linear] = False
-        if not (wild & near).any():
-            break
-        near = near & ~wild
-    return best
+    may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
+    mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
+    return None if mechanism is None else _changed(given, *mechanism)
 
 
 def _changed(given: Given, u: Array, y: Array) -> Nearby:

@@ -10,13 +10,13 @@ from scipy import sparse
 from limitblocks.arrays import Array
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.multipliers import Multipliers
+from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import LimitProblem
 
 REGULAR = 1e-13  # eps of the quasidefinite system
 REFINEMENTS = 6
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
-EXACT, SOLVED = 1e-10, 1e-6  # of the largest rate: what may be left of the flow rule, at last and by a step
-NEGATIVE = 1e-12  # of the largest multiplier: less is rounding
+EXACT = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
 ROUNDS = 8  # steps, each without the rows whose multipliers turned negative
 
 
@@ -43,9 +43,7 @@ def nearest_mechanism(
             d = _least_change(J, left, np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0)))
             u, w = u + d[:n], w + d[n:]
             left = right - J @ np.append(u, w)
-            if not _share(left, u) <= SOLVED:
-                return None
-        negative = may.along & (w < -NEGATIVE * np.abs(w).max(initial=0.0))
+        negative = may.along & (w < -EXACT * np.abs(w).max(initial=0.0))
         if _share(left, u) <= EXACT and not negative.any():
             return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
         kept &= ~negative[may.ray]

@@ -72,7 +72,7 @@ def stability_section(_model: Model, answer: Stability) -> Section:
             "joints that slide without lifting."
         ),
         headline=answer.kind.value.split(":")[0],
-        quantity=f"margin {answer.margin:.3g} of the weight",
+        quantity=f"with a margin of {answer.margin:.3g} of the weight",
         values=(
             ("Answer", answer.kind.value.split(": ")[1], ""),
             ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
@@ -81,4 +81,6 @@ def stability_section(_model: Model, answer: Stability) -> Section:
         checks=checks_of(answer.residuals, ARISEN),
         tolerance=ARISEN,
         rates=answer.displacement_rates,
+        own=not answer.stands,
+        judges=not answer.stands,
     )

@@ -69,7 +69,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     low, high = known["bounding_box"]
     size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
     overall = ", ".join(f"{name} {length(value)}" for name, value in known["dimensions"].items())
-    foot, top = known["heights"]
+    foot, top = (round(height, 6) + 0.0 for height in known["heights"])  # of a springing, not 3e-16 m
     labels = [
         ("Layers", times(known["layers"])),
         ("Materials", "; ".join(map(_made_of, known["materials"]))),

@@ -161,6 +161,14 @@ def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, m
     assert any("not that of the load path" in remark for remark in found.remarks) == large
 
 
+@pytest.mark.parametrize(("floor", "closes"), [(MEANS[2].barrier.floor, True), (Barrier().floor, False)])
+def test_little_compliance_is_left_at_the_end_of_a_large_barrier(floor, closes):
+    """The floor of the small barrier leaves this dome open within the same number of factorisations."""
+    model, last = pushed("dome", lb.OrdunaLourenco(0.7), (0, 1, 0)), MEANS[2]
+    means = [last._replace(barrier=replace(last.barrier, floor=floor), budget=500)]
+    assert lb.nonassociated(model, means=means, confirm=False, throw=False).converged == closes
+
+
 def test_a_path_that_winds_is_given_up():
     begin = start(pushed("buttressed_wall", lb.OrdunaLourenco(0.7), (1, 1, 0)))
     _, patient = track(*begin, seed=1, budget=300)

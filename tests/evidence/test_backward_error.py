@@ -138,10 +138,11 @@ def test_a_joint_that_carries_next_to_nothing_counts_by_what_it_carries():
     assert backward_error(Flow(p), replace(state, x=x)).value <= 1e-7
 
 
-@pytest.mark.parametrize("name", ["corner", "vault"])
-def test_every_row_off_by_a_little_is_a_model_as_near(name):
-    """Forces off by 1e-5 of what acts, rates and multipliers by 1e-5 of the largest.
+@pytest.mark.parametrize(("name", "size"), [("corner", 1e-5), ("vault", 1e-5), ("vault", 1e-3)])
+def test_every_row_off_by_a_little_is_a_model_as_near(name, size):
+    """Forces off by that much of what acts, rates and multipliers by as much of the largest.
 
+    In the vault off by 1e-3 rows give way one after the other: three steps do not find the mechanism.
     What is as good as still must not flow, and the flow of cones must turn less readily than it changes in
     size: else it is .04 to 1.
     """
@@ -157,11 +158,11 @@ def test_every_row_off_by_a_little_is_a_model_as_near(name):
     acting = Given(Flow(p), state).acting
     for seed in range(3):
         random = np.random.default_rng(seed)
-        x = state.x + 1e-5 * acting * random.uniform(-1.0, 1.0, len(state.x))
-        u = state.u + 1e-5 * np.abs(state.u).max() * random.uniform(-1.0, 1.0, len(state.u))
+        x = state.x + size * acting * random.uniform(-1.0, 1.0, len(state.x))
+        u = state.u + size * np.abs(state.u).max() * random.uniform(-1.0, 1.0, len(state.u))
         y = state.y.copy()
-        y[p.cones.heads] += 1e-5 * p.cones.norm(y).max() * random.uniform(0.0, 1.0, p.cones.degree)
-        assert backward_error(Flow(p), State(state.load_factor, x, u, y)).model <= 2e-3
+        y[p.cones.heads] += size * p.cones.norm(y).max() * random.uniform(0.0, 1.0, p.cones.degree)
+        assert backward_error(Flow(p), State(state.load_factor, x, u, y)).model <= 200.0 * size
 
 
 def shaken(problem, state, size):

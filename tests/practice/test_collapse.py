@@ -84,6 +84,25 @@ def test_two_stones_that_lean_on_one_another():
     assert curve.falls - curve.stands_to <= 2e-2
 
 
+def test_a_beam_slides_off_the_edge_that_it_rests_on():
+    """A beam of 5 m, a support sinking: it slides along the edge of the other one for as long as it is on it.
+
+    At the fall its lower corners are on that edge and on the top of the sunk support, 5 m from one another.
+    """
+    stones = [
+        lb.Block.box("left", (1, 1, 1), (-0.5, 0, -0.5)),
+        lb.Block.box("right", (1, 1, 1), (4.5, 0, -0.5)),
+        lb.Block.box("beam", (5, 1, 0.3), (2.0, 0, 0.15), unit_weight=20e3),
+    ]
+    joints = lb.find_interfaces(stones, lb.PointContact(0.5))
+    beam = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = settlement_to_collapse(beam, "right", (0, 0, -1), step=0.5, accuracy=1e-2)
+    low = curve.points[-1].model.blocks[2].vertices[:, [0, 2]]
+    x = low[low[:, 1].argmin(), 0]  # where the lower end has stopped sliding on the support
+    assert curve.stands_to <= np.sqrt(5.0**2 - x**2) <= curve.falls
+    assert curve.falls - curve.stands_to <= 2e-2
+
+
 def test_it_ends_where_it_is_told_to():
     ring, _ = arch(2, 0.3)
     told = []

@@ -230,3 +230,24 @@ def test_tables_repeat_their_heads_on_every_page(report):
     sheets = pages(pdf(replace(report.document, chapters=(Chapter("Long", (table,)),))))
     assert len(sheets) > 2
     assert all("First head" in sheet for sheet in sheets if "row " in sheet)
+
+
+def test_a_report_of_a_structure_that_falls_begins_with_it():
+    thin = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.4, voussoirs=15)
+    first = lb.report(thin, lb.stability(thin)).text.split("Picture")[0][:600]
+    assert "falls" in first
+    assert "Stability under the dead loads" in first
+
+
+def test_a_load_factor_is_not_shown_without_the_self_stress_that_it_needs():
+    """A block between two walls is held only where it is wedged: the head of the report says so."""
+    stones = [
+        lb.Block.box("left", (1, 1, 1), (-1, 0, 0)),
+        lb.Block.box("right", (1, 1, 1), (1, 0, 0)),
+        lb.Block.box("held", (1, 1, 1), (0, 0, 0), unit_weight=20e3),
+    ]
+    joints = lb.find_interfaces(stones, lb.PointContact(0.6))
+    push = lb.mass_proportional((0, 1, 0))
+    model = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), push)
+    chapter = lb.report(model, lb.stability(model)).text
+    assert "stands only by self-stress" in chapter[:600]

@@ -24,6 +24,11 @@ class Means(NamedTuple):
     patience: int | None = None
 
 
+# Floor of the compliance with a larger barrier: what is left of it is an error of the flow at the end. Of ten
+# structures in no list this path closes seven with the floor of the small barrier, 1e-6, and nine with this
+# one. Facades and houses of LARGE_MEANS are as well off with 1e-6.
+LOW = 1e-10
+
 # The small barrier is the load path. Where it winds the compliance fades before the barrier (power 2), which
 # cuts most folds; then the barrier is ten times as large, which leads to another solution, mostly at a higher
 # load factor; then, in space, rounds of the fixed point, which close one of 16 first paths left open.
@@ -33,7 +38,7 @@ class Means(NamedTuple):
 MEANS = (
     Means(Barrier(), 1, 300, 100),
     Means(Barrier(0.02, 2.0), 1, 300, 150),
-    Means(Barrier(0.2, 2.0), 2, 800),
+    Means(Barrier(0.2, 2.0, LOW), 2, 800),
 )
 # Of models of some hundred blocks: the path with a small barrier bends at each row that starts to yield; it
 # is followed as far as pays, and rounds of the fixed point close it. Then by how many of seven cases each
