@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache, wraps
-from importlib.util import find_spec
 from typing import Any, ParamSpec, TypeVar
 
 import scipy.sparse.linalg  # noqa: F401 - loads every BLAS that the controller is to find
@@ -26,9 +25,6 @@ def _controller() -> Any:
 
 def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
     """Return the analysis in one thread of BLAS; the number of threads is as before when it ends."""
-    if find_spec("threadpoolctl") is None:  # an environment made before it was required
-        return analysis
-
     @wraps(analysis)
     def alone(*args: P.args, **kwargs: P.kwargs) -> R:
         with _controller().limit(limits=1, user_api="blas"):

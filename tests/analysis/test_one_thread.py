@@ -1,11 +1,10 @@
 """Analyses keep BLAS to one thread and give back what the user had, also where they fail."""
 
 import pytest
+import threadpoolctl
 
 import limitblocks as lb
 from limitblocks.analysis.one_thread import one_thread
-
-threadpoolctl = pytest.importorskip("threadpoolctl", reason="the environment is older than this dependency")
 
 
 def threads():
