@@ -25,6 +25,7 @@ def _controller() -> Any:
 
 def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
     """Return the analysis in one thread of BLAS; the number of threads is as before when it ends."""
+
     @wraps(analysis)
     def alone(*args: P.args, **kwargs: P.kwargs) -> R:
         with _controller().limit(limits=1, user_api="blas"):
