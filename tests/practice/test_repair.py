@@ -121,7 +121,7 @@ def test_uplift_in_an_inclined_joint_acts_at_the_centre_of_pressure():
 
 @pytest.mark.parametrize("share", [1.0, 0.5])
 def test_uplift_in_a_joint_that_crosses_the_level(share):
-    """Upright joint, wet to the depth h: gamma h^2 b / 2, at h / 3 over its foot; the dry part gets nothing."""
+    """Upright joint, wet to the depth h: gamma h^2 b / 2, at h / 3 over its foot."""
     b, h, height, gamma = 0.8, 0.6, 1.5, 9810.0
     stones = [
         lb.Block.box("left", (1, b, height), (-0.5, 0, height / 2)),
@@ -133,9 +133,7 @@ def test_uplift_in_a_joint_that_crosses_the_level(share):
     push = np.array([share * gamma * h**2 / 2 * b, 0, 0])
     at = np.array([0, 0, h / 3])
     assert load[:3] == pytest.approx(push, rel=1e-12, abs=1e-9)
-    assert load[3:] == pytest.approx(
-        np.cross(at - model.free_blocks[0].centroid, push), rel=1e-12, abs=1e-9
-    )
+    assert load[3:] == pytest.approx(np.cross(at - model.free_blocks[0].centroid, push), rel=1e-12, abs=1e-9)
 
 
 def test_uplift_in_a_radial_joint_that_crosses_the_level():
