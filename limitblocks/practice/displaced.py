@@ -190,7 +190,7 @@ def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
         kept = gap <= gap.min() + 1e-6 * size
         middle = (own.on_i + own.on_j)[kept].mean(axis=0) / 2.0
         if not kept.all():
-            i, j = own.ends
-            axes = resting_axes((blocks[i], blocks[j]), own.axes_i, own.axes_j, middle, size)
+            resting = [blocks[k] for k in own.ends]
+            axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
         centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
     return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))
