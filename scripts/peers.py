@@ -4,15 +4,14 @@ import json
 import resource
 import time
 
-import clarabel
 import cvxpy as cp
 import numpy as np
 from rich.table import Table
-from scipy import sparse
 
 import limitblocks as lb
-from limitblocks.analysis import forms, programs
+from limitblocks.analysis import direct, forms, programs
 from limitblocks.analysis.scales import scaled
+from limitblocks.problem import Cones
 
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
 METHODS = ("qdldl", "faer")
@@ -58,29 +57,26 @@ STRUCTURES = {"wall": wall, "facade": facade, "dome": dome}
 def candidates(problem):
     """Programs of the load factor: static, kinematic, and in rates alone where the joints allow it."""
     p = scaled(problem)
-    yield "static", programs.static_program(p)
-    yield "kinematic", programs.kinematic_program(p)
+    for form, build in (("static", programs.static_program), ("kinematic", programs.kinematic_program)):
+        program = build(p)
+        yield form, program, conic(program.problem)
     rates = forms.without_multipliers(p)
     if rates is not None:
-        yield "rates", rates.limit()
+        yield "rates", None, rates.limit()
 
 
-def bare(program, method):
-    """Clarabel by itself with the matrices of cvxpy: CPU s, iterations, status."""
-    data, _, _ = program.problem.get_problem_data(cp.CLARABEL)
-    dims, n = data["dims"], len(data["c"])
-    kinds = [(clarabel.ZeroConeT, dims.zero), (clarabel.NonnegativeConeT, dims.nonneg)]
-    cones = [kind(count) for kind, count in kinds if count] + [clarabel.SecondOrderConeT(q) for q in dims.soc]
-    options = clarabel.DefaultSettings()
-    options.verbose = False
-    for name, value in (programs.TIGHT | {"direct_solve_method": method}).items():
-        setattr(options, name, value)
+def conic(problem):
+    """The matrices that cvxpy hands over to Clarabel."""
+    data, _, _ = problem.get_problem_data(cp.CLARABEL)
+    cones = Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
+    return forms.Conic(data["c"], data["A"], data["b"], cones)
+
+
+def bare(program, settings):
+    """Clarabel by itself: CPU s, iterations, status."""
     start = time.process_time()
-    solver = clarabel.DefaultSolver(
-        sparse.csc_matrix((n, n)), data["c"], sparse.csc_matrix(data["A"]), data["b"], cones, options
-    )
-    solution = solver.solve()
-    return time.process_time() - start, solution.iterations, str(solution.status)
+    found = direct.solution(program, settings | {"verbose": False})
+    return time.process_time() - start, found.iterations, str(found.status)
 
 
 def peer(program, solver):
@@ -107,9 +103,10 @@ def measured(name, joint, size, methods, out):
     whole = {"structure": name, "joint": repr(joint), "blocks": len(model.free_blocks), "assembly": assembly,
              "bounds": total, "proven": found.proven, "width": found.proof.width,
              "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}  # fmt: skip
-    for form, program in candidates(problem):
-        runs = {f"CLARABEL {method}": bare(program, method) for method in methods}
-        if not problem.cones.second_order:
+    for form, program, matrices in candidates(problem):
+        settings = {method: programs.TIGHT | {"direct_solve_method": method} for method in methods}
+        runs = {f"CLARABEL {method}": bare(matrices, settings[method]) for method in methods}
+        if program is not None and not problem.cones.second_order:
             runs |= {solver: peer(program, solver) for solver in PEERS if solver in cp.installed_solvers()}
         for solver, (raw, iterations, status) in runs.items():
             row = {"form": form, "solver": solver, "iterations": iterations, "raw": raw, "status": status}
