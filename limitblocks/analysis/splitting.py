@@ -66,7 +66,7 @@ class Splitting:
     @cached_property
     def _inverse(self) -> sparse.csr_array:
         """The stresses whose rows F x are nearest to given ones, shape (s, R)."""
-        return self.projection.weights @ self.p.F.T
+        return sparse.csr_array(self.projection.weights @ self.p.F.T)
 
     def _within(self, onto: Callable[[Array], Array], room: Array, less: float = 1.0) -> Array | None:
         """Point of a space, projected `onto`, in K with a share of the `room` (R,), `less` each round."""
