@@ -122,9 +122,9 @@ def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapte
     found = answer(sections)
     own = next((one for one in sections if one.own), None)
     if found.load_factor is None and own:
-        return Chapter(
-            "Answer", (Headline(own.headline, own.quantity, main=True), Text(OWN.format(own.title)))
-        )
+        said_alone = [Text(OWN.format(own.title))]
+        said_alone += [] if labels.demand is None else [Text(UNCOMPARED.format(labels.demand))]
+        return Chapter("Answer", (Headline(own.headline, own.quantity, main=True), *said_alone))
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))

@@ -119,6 +119,41 @@ def test_uplift_in_an_inclined_joint_acts_at_the_centre_of_pressure():
     assert load[3:] == pytest.approx(np.cross(way - model.free_blocks[0].centroid, push), abs=1e-12)
 
 
+@pytest.mark.parametrize("share", [1.0, 0.5])
+def test_uplift_in_a_joint_that_crosses_the_level(share):
+    """Upright joint, wet to the depth h: gamma h^2 b / 2, at h / 3 over its foot."""
+    b, h, height, gamma = 0.8, 0.6, 1.5, 9810.0
+    stones = [
+        lb.Block.box("left", (1, b, height), (-0.5, 0, height / 2)),
+        lb.Block.box("right", (1, b, height), (0.5, 0, height / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(2.0))
+    model = lb.Model(stones, ["left"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    load = uplift(model, h, unit_weight=gamma, share=share).on(model.free_blocks)[0]
+    push = np.array([share * gamma * h**2 / 2 * b, 0, 0])
+    at = np.array([0, 0, h / 3])
+    assert load[:3] == pytest.approx(push, rel=1e-12, abs=1e-9)
+    assert load[3:] == pytest.approx(np.cross(at - model.free_blocks[0].centroid, push), rel=1e-12, abs=1e-9)
+
+
+def test_uplift_in_a_radial_joint_that_crosses_the_level():
+    """A plane at 45 degrees, wet to the depth h: length h sqrt 2, centre of pressure at a third of it."""
+    h, gamma = 0.4, 1.0
+    sections = {"left": [(-1, 0), (0, 0), (1, 1), (-1, 1)], "right": [(0, 0), (2, 0), (2, 1), (1, 1)]}
+    faces = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
+    stones = [
+        lb.Block(name, np.array([(x, y, z) for y in (0, 1) for x, z in section], dtype=float), faces, 20e3)
+        for name, section in sections.items()
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(2.0))
+    model = lb.Model(stones, ["left"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    load = uplift(model, h, unit_weight=gamma).on(model.free_blocks)[0]
+    push = gamma * h**2 / 2 * np.array([1, 0, -1])  # the lower face of the right block is free
+    at = np.array([h / 3, 0.5, h / 3])
+    assert load[:3] == pytest.approx(push, abs=1e-12)
+    assert load[3:] == pytest.approx(np.cross(at - model.free_blocks[0].centroid, push), abs=1e-12)
+
+
 def beam():
     """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
     stones = [

@@ -207,6 +207,16 @@ def test_picture_is_saved_as_png(page):
         assert shades(np.asarray(image.convert("RGB")).astype(int)) > 20
 
 
+def test_on_a_phone_the_legend_comes_below_the_picture(page):
+    page.set_viewport_size({"width": 390, "height": 844})
+    try:
+        picture, legend, triad = (page.locator(one).bounding_box() for one in ("canvas", ".legend", ".triad"))
+    finally:
+        page.set_viewport_size({"width": 800, "height": 600})
+    assert legend["y"] >= picture["y"] + picture["height"] - 1
+    assert triad["y"] + triad["height"] <= picture["y"] + picture["height"]
+
+
 def test_dark_and_light_are_switched(page):
     def brightness():
         colour = page.evaluate("getComputedStyle(document.body).backgroundColor")

@@ -29,6 +29,7 @@ from limitblocks.practice import (
     worst_position,
 )
 from limitblocks.reports import terminal
+from limitblocks.reports.document import Text
 from limitblocks.reports.interfaces import relative_motion
 from limitblocks.reports.pdf import GREEK, latin, pdf
 
@@ -228,12 +229,19 @@ def test_the_worst_position_is_marked(reports, vehicle):
     assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:.3f}"]
 
 
+def words(chapter):
+    return [part.text for part in chapter.parts if isinstance(part, Text)]
+
+
 def test_a_report_without_a_load_factor_has_the_answer_at_its_head(beam, vehicle, settled):
     """Not "none"; with a load factor of the model itself that comes first."""
     for answers, word in (((vehicle,), "first axle at X"), ((settled, vehicle), "least reaction")):
         first = lb.report(beam, *answers).document.chapters[0]
         assert first.title == "Answer"
         assert word in first.parts[0].quantity
+        assert not any("demand" in text for text in words(first))
+        asked = lb.report(beam, *answers, demand=0.25).document.chapters[0]
+        assert "Safety: the demand 0.25 is not compared with anything." in words(asked)
     both = lb.report(beam, lb.bounds(beam), vehicle).document.chapters[0]
     assert both.title == "Load factor to design with"
 

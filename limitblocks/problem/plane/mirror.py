@@ -237,8 +237,6 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
         back = mirrored[np.arange(K), free, :, :6] @ own.transpose(0, 2, 1) @ gram
         apart = np.abs(back[:, None] @ strain - mirrored)
         off = apart[..., :6].max(axis=(1, 2, 3)) / scale
-        # moments carry any interface over to any other; a mirror image has them about its own centroid
-        off = np.maximum(off, np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2)))
         # where two interfaces meet, points of theirs coincide: their middles tell which is which
         far = apart.max(axis=(1, 2, 3))
         fits = (k < number) & (off <= EXACT) & (far < least)
