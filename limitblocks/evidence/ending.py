@@ -4,6 +4,11 @@ from __future__ import annotations
 
 from enum import Enum
 
+UNBOUNDED = (
+    "the live load can grow without limit under associated flow, so that nothing bounds the load factor, and "
+    "a solution without dilatancy need not exist: the blocks may jam"
+)
+
 
 class Status(Enum):
     """How an analysis ended; the text is for the user."""

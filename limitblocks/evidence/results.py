@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.claim import as_lists
-from limitblocks.evidence.ending import Status
+from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 from limitblocks.shown import Result
@@ -136,6 +136,11 @@ class Nonassociated(Result):
         """True if it converged, or is exact for a model as near as was asked for."""
         return self.status in (Status.CONVERGED, Status.NEARBY)
 
+    @property
+    def astray(self) -> bool:
+        """True if it is no solution and nothing bounds its load factor, so that this says nothing."""
+        return not self.accepted and self.associated == np.inf
+
     def __str__(self) -> str:
         worst = self.residuals.worst
         word = "" if self.converged else f" ({self.status.value})"
@@ -144,8 +149,11 @@ class Nonassociated(Result):
         least, said = f"between {self.frictionless:.6g} (frictionless) and", self.remarks
         if np.isnan(self.frictionless):
             least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
+        found = f"{self.load_factor:.6g}"
+        if self.astray:
+            found, said = "none found", (UNBOUNDED, *said)
         return (
-            f"non-associated load factor {self.load_factor:.6g}, {least} {self.associated:.6g} (associated), "
+            f"non-associated load factor {found}, {least} {self.associated:.6g} (associated), "
             f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
             f"{''.join(f'; {one}' for one in said)}{self._as_read}"
         )

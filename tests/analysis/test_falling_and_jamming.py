@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import limitblocks as lb
@@ -42,6 +43,47 @@ def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
 def test_more_weight_does_not_end_what_stands():
     with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
         lb.bounds(arch(0.25, DOWN))
+
+
+def jack_arch():
+    """Three voussoirs of a flat arch, whose joints spread upwards, between two walls that do not give way.
+
+    The line of thrust may rise by t = .5 over half the span of 2: .5 is less than the friction.
+    """
+    edges = np.array([-5, -3, -1, 1, 3, 5]) / 3
+    names = ["left", "stone 1", "stone 2", "stone 3", "right"]
+    stones = [
+        lb.Block.prism(name, [(a, 0), (b, 0), (1.1 * b, 0.5), (1.1 * a, 0.5)], (0, 1), 20e3)
+        for name, a, b in zip(names, edges[:-1], edges[1:], strict=True)
+    ]
+    push = lb.loads.force("stone 2", (0, 0, -1e3), (0, 0.5, 0.5))
+    found = lb.find_interfaces(stones, lb.PointContact(0.7))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), push)
+
+
+def test_what_jams_has_no_load_factor_that_is_none():
+    """Thrust lines inside the stones carry any load, none slides: no number, and no upper end of one."""
+    model = jack_arch()
+    with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
+        lb.bounds(model)
+    means = [lb.settings.Means(lb.settings.Barrier(), seed=0, budget=40)]
+    for analysis, settings in (
+        (lb.nonassociated, {"means": means}),
+        (lb.load_path, {"settings": lb.settings.Settings(budget=60)}),
+    ):
+        with pytest.raises(lb.NotConverged, match=r"without limit .* need not exist") as caught:
+            analysis(model, **settings)
+        assert "load factor " not in str(caught.value).replace("bounds the load factor,", "")
+        assert "load factor none found" in str(caught.value.result)
+        assert caught.value.result.associated == np.inf
+
+
+def test_where_the_load_is_limited_an_open_end_keeps_its_load_factor():
+    wall = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    means = [lb.settings.Means(lb.settings.Barrier(), seed=0, budget=1)]
+    with pytest.raises(lb.NotConverged, match=r"no solution within .*, load factor \d") as caught:
+        lb.nonassociated(wall, means=means)
+    assert "without limit" not in str(caught.value)
 
 
 def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monkeypatch):

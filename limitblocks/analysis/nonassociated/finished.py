@@ -12,7 +12,7 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import settled, within
-from limitblocks.evidence.ending import Status
+from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.residuals import mcp_residuals
@@ -101,9 +101,10 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     place = f" at {worst.where}" if worst.where else ""
     interrupted = result.status is Status.INTERRUPTED
     why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
+    reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
+    said = f"; {UNBOUNDED}" if result.astray else reached
     return NotConverged(
-        f"{why}: {worst.name} residual {worst.value:.1e}{place}, load factor {result.load_factor:.6g}, "
-        f"{result.backward_error}; the error's result holds that state",
+        f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}; the error's result holds that state",
         result,
     )
 
