@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import cvxpy as cp
 import numpy as np
+from scipy import sparse
 
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array
@@ -81,6 +82,23 @@ class Program:
 
     problem: cp.Problem
     variables: tuple[cp.Variable, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Conic:
+    """A problem as cvxpy compiles it: the least c.v, b - A v zero in its first rows, in K in all others."""
+
+    c: Array
+    A: sparse.csc_array
+    b: Array
+    cones: Cones
+
+
+def compiled(problem: cp.Problem) -> Conic:
+    """Return the matrices that cvxpy hands over to Clarabel."""
+    data, _, _ = problem.get_problem_data(cp.CLARABEL)
+    cones = Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
+    return Conic(data["c"], sparse.csc_array(data["A"]), data["b"], cones)
 
 
 def static_program(problem: Scaled) -> Program:

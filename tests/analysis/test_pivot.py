@@ -24,9 +24,7 @@ LINTEL, LINTEL_CRUSHING = (
 
 
 @pytest.mark.parametrize("pivots", [True, False])
-@pytest.mark.parametrize(
-    "model", [VAULT, LINTEL_CRUSHING], ids=["vault", "lintel crushing"]
-)
+@pytest.mark.parametrize("model", [VAULT, LINTEL_CRUSHING], ids=["vault", "lintel crushing"])
 def test_the_load_path_is_closed_where_it_is_not_plain_what_yields(model, pivots, monkeypatch):
     """Without pivots on the way the path leaves 4e-5 and more, too far for those at its end."""
     if not pivots:
