@@ -4,18 +4,18 @@ import json
 import resource
 import time
 
-import clarabel
 import cvxpy as cp
 import numpy as np
 from rich.table import Table
-from scipy import sparse
 
 import limitblocks as lb
-from limitblocks.analysis import forms, programs
+from limitblocks.analysis import direct, forms, programs
 from limitblocks.analysis.scales import scaled
+from limitblocks.problem import Cones
 
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
 METHODS = ("qdldl", "faer")
+FORMS = ("static", "kinematic", "rates")
 COLUMNS = (
     "structure",
     "joint",
@@ -55,32 +55,30 @@ def dome(joint, size):
 STRUCTURES = {"wall": wall, "facade": facade, "dome": dome}
 
 
-def candidates(problem):
+def candidates(problem, chosen):
     """Programs of the load factor: static, kinematic, and in rates alone where the joints allow it."""
     p = scaled(problem)
-    yield "static", programs.static_program(p)
-    yield "kinematic", programs.kinematic_program(p)
-    rates = forms.without_multipliers(p)
+    for form, build in (("static", programs.static_program), ("kinematic", programs.kinematic_program)):
+        if form in chosen:
+            program = build(p)
+            yield form, program, conic(program.problem)
+    rates = forms.without_multipliers(p) if "rates" in chosen else None
     if rates is not None:
-        yield "rates", rates.limit()
+        yield "rates", None, rates.limit()
 
 
-def bare(program, method):
-    """Clarabel by itself with the matrices of cvxpy: CPU s, iterations, status."""
-    data, _, _ = program.problem.get_problem_data(cp.CLARABEL)
-    dims, n = data["dims"], len(data["c"])
-    kinds = [(clarabel.ZeroConeT, dims.zero), (clarabel.NonnegativeConeT, dims.nonneg)]
-    cones = [kind(count) for kind, count in kinds if count] + [clarabel.SecondOrderConeT(q) for q in dims.soc]
-    options = clarabel.DefaultSettings()
-    options.verbose = False
-    for name, value in (programs.TIGHT | {"direct_solve_method": method}).items():
-        setattr(options, name, value)
+def conic(problem):
+    """The matrices that cvxpy hands over to Clarabel."""
+    data, _, _ = problem.get_problem_data(cp.CLARABEL)
+    cones = Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
+    return forms.Conic(data["c"], data["A"], data["b"], cones)
+
+
+def bare(program, settings):
+    """Clarabel by itself: CPU s, iterations, status."""
     start = time.process_time()
-    solver = clarabel.DefaultSolver(
-        sparse.csc_matrix((n, n)), data["c"], sparse.csc_matrix(data["A"]), data["b"], cones, options
-    )
-    solution = solver.solve()
-    return time.process_time() - start, solution.iterations, str(solution.status)
+    found = direct.solution(program, settings | {"verbose": False})
+    return time.process_time() - start, found.iterations, str(found.status)
 
 
 def peer(program, solver):
@@ -95,8 +93,14 @@ def peer(program, solver):
     return time.process_time() - start, stats.num_iters if stats else None, status
 
 
-def measured(name, joint, size, methods, out):
-    """Rows of one model: `bounds` once, and every form by every solver that takes it."""
+def medians(rows):
+    """One row of those of the same runs: the median of each time."""
+    times = {key: float(np.median([row[key] for row in rows])) for key in ("assembly", "bounds", "raw")}
+    return rows[0] | times
+
+
+def measured(name, joint, size, methods, chosen):
+    """Rows of one model: `bounds` once, and every chosen form by every solver that takes it."""
     model = STRUCTURES[name](joint, size)
     start = time.process_time()
     problem = model.problem
@@ -107,13 +111,16 @@ def measured(name, joint, size, methods, out):
     whole = {"structure": name, "joint": repr(joint), "blocks": len(model.free_blocks), "assembly": assembly,
              "bounds": total, "proven": found.proven, "width": found.proof.width,
              "memory": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024}  # fmt: skip
-    for form, program in candidates(problem):
-        runs = {f"CLARABEL {method}": bare(program, method) for method in methods}
-        if not problem.cones.second_order:
+    rows = []
+    for form, program, matrices in candidates(problem, chosen):
+        settings = {method: programs.TIGHT | {"direct_solve_method": method} for method in methods}
+        runs = {f"CLARABEL {method}": bare(matrices, settings[method]) for method in methods}
+        if program is not None and not problem.cones.second_order:
             runs |= {solver: peer(program, solver) for solver in PEERS if solver in cp.installed_solvers()}
         for solver, (raw, iterations, status) in runs.items():
             row = {"form": form, "solver": solver, "iterations": iterations, "raw": raw, "status": status}
-            out.append(whole | row)
+            rows.append(whole | row)
+    return rows
 
 
 def best(rows):
@@ -168,16 +175,18 @@ def compared(before, after):
     return table
 
 
-def run(sizes, joints, structures, methods, file, console):
+def run(sizes, joints, structures, methods, chosen, repeat, file, console):
     """Measure, print, and write the rows to `file` as JSON."""
     rows = []
+    lb.bounds(wall(joints[0], 30))  # what is imported when first needed
     for solver in PEERS:
         if solver not in cp.installed_solvers():
             console.print(f"{solver} is not installed: left out")
     for name in structures:
         for joint in joints:
             for size in sizes:
-                measured(name, joint, size, methods, rows)
+                tried = [measured(name, joint, size, methods, chosen) for _ in range(repeat)]
+                rows += map(medians, zip(*tried, strict=True))
     console.print(*tables(rows))
     if file:
         with open(file, "w", encoding="utf-8") as stream:

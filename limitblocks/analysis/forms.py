@@ -12,14 +12,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.programs import Program, in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, State
+
+
+@dataclass(frozen=True, eq=False)
+class Conic:
+    """The least c.v with b - A v zero in its first rows and in K in all others."""
+
+    c: Array
+    A: sparse.csc_array
+    b: Array
+    cones: Cones
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,14 +49,13 @@ class Stresses:
         added = 1e-8 if square else 1e-14
         return {"static_regularization_constant": added, "iterative_refinement_enable": self.refined}
 
-    def limit(self) -> Program:
-        """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
+    def limit(self) -> Conic:
+        """Largest load factor in equilibrium within the yield set. Variables: load factor and x."""
         p = self.problem
-        v = cp.Variable(1 + p.C.shape[0])
-        live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
-        balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
-        rows = sparse.csr_array(sparse.hstack([nothing, p.F])) @ v + p.g
-        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *in_cone(rows, p.cones)]), (v,))
+        A = sparse.block_array([[sparse.csc_array(-p.live[:, None]), p.C.T], [None, -p.F]], format="csc")
+        c = np.zeros(A.shape[1])
+        c[0] = -1.0
+        return Conic(c, A, np.concatenate([p.dead, p.g]), p.cones)
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -89,11 +96,11 @@ class Rates:
         cones = self.problem.cones
         return Cones(cones.linear - len(self.dropped), cones.second_order)
 
-    def limit(self) -> Program:
-        """Least load factor over all mechanisms. Variable: u."""
-        p, u = self.problem, cp.Variable(self.B.shape[1])
-        constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
-        return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
+    def limit(self) -> Conic:
+        """Least load factor over all mechanisms, live.u = 1. Variables: u."""
+        p = self.problem
+        A = sparse.vstack([sparse.csr_array(p.live[None, :]), -self.B], format="csc")
+        return Conic(-p.dead, A, np.append(1.0, np.zeros(self.B.shape[0])), self.cones)
 
     def limit_state(self, u: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import Stresses, form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.programs import DIRECT, PLANAR

@@ -176,13 +176,13 @@ class Projection:
     """Onto the stresses in equilibrium, C^T x = loads; the distance is that of the inverse of `weights`."""
 
     def __init__(self, C: sparse.csr_array, weights: sparse.csr_array | None = None) -> None:
-        self.C, self.weights = C, sparse.eye_array(C.shape[0]) if weights is None else weights
-        self.spread = self.weights @ C
-        self.lu = _factors(C.T @ self.spread)
+        self.weights = sparse.eye_array(C.shape[0]) if weights is None else weights
+        self.spread, self.balance = self.weights @ C, C.T
+        self.lu = _factors(self.balance @ self.spread)
 
     def nearest(self, loads: Array, x: Array) -> tuple[Array, Array]:
         """Return the nearest stresses in equilibrium, and the rates that are the multipliers of it."""
-        v = self.lu.solve(loads - self.C.T @ x)
+        v = self.lu.solve(loads - self.balance @ x)
         return np.asarray(x + self.spread @ v), np.asarray(v)
 
     def onto(self, loads: Array, x: Array) -> Array:

@@ -61,7 +61,12 @@ class Splitting:
 
     def _nearest(self, rows: Array, loads: Array) -> tuple[Array, Array]:
         """Stresses under the loads, F x nearest to `rows`; rates u with C u = -F^T (rows - F x)."""
-        return self.projection.nearest(loads, self.projection.weights @ (self.p.F.T @ rows))
+        return self.projection.nearest(loads, self._inverse @ rows)
+
+    @cached_property
+    def _inverse(self) -> sparse.csr_array:
+        """The stresses whose rows F x are nearest to given ones, shape (s, R)."""
+        return sparse.csr_array(self.projection.weights @ self.p.F.T)
 
     def _within(self, onto: Callable[[Array], Array], room: Array, less: float = 1.0) -> Array | None:
         """Point of a space, projected `onto`, in K with a share of the `room` (R,), `less` each round."""

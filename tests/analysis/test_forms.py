@@ -5,7 +5,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import Rates, Stresses, form_of
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.programs import DIRECT

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.analysis.stability import dead_load_state
@@ -30,7 +30,7 @@ def column(push=(1.0, 0.0, 0.0)):
 
 @pytest.fixture
 def programs(monkeypatch):
-    """Programs that cvxpy, or a solver that it compiled for, was asked to solve."""
+    """Programs that cvxpy, or Clarabel by itself, was asked to solve."""
     solved, solve, directly = [], cp.Problem.solve, Programs._solved
 
     def counted(self, *settings, **named):

@@ -1,4 +1,4 @@
-"""The compiled program: the answer of cvxpy's; and what a proof solves."""
+"""The program of one form by Clarabel itself: the answer of cvxpy's; and what a proof solves."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import certified, repair
-from limitblocks.analysis.compiled import Programs
+from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
 from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
@@ -25,7 +25,7 @@ def facade(joint):
 
 
 @pytest.mark.parametrize("joint", JOINTS)
-def test_the_compiled_program_has_the_answer_of_cvxpy(joint):
+def test_the_program_without_cvxpy_has_the_answer_of_cvxpy(joint):
     form = form_of(scaled(wall(joint).problem))
     state = Programs(form).limit_state(DIRECT)
     expected = solved(static_program(form.problem), DIRECT).values[0]

@@ -1,4 +1,4 @@
-"""The program of the load factor in one form: compiled by cvxpy, solved by Clarabel itself."""
+"""The program of the load factor in one form, solved by Clarabel itself."""
 
 from __future__ import annotations
 
@@ -7,11 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import clarabel
-import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.forms import Rates, Stresses
+from limitblocks.analysis.forms import Conic, Rates, Stresses
 from limitblocks.analysis.programs import Solver
 from limitblocks.arrays import Array
 from limitblocks.problem import State
@@ -24,7 +23,7 @@ FIXED = {"verbose": False, "presolve_enable": False, "direct_solve_method": "qdl
 
 @dataclass(frozen=True, eq=False)
 class Programs:
-    """The program of one form: the least c.v with b - A v in K, zero in its first rows."""
+    """The program of one form and its answer."""
 
     form: Stresses | Rates
 
@@ -34,24 +33,25 @@ class Programs:
 
     def _solved(self, solver: Solver) -> tuple[Array, Array]:
         """Variables and duals, NaN where there is no solution."""
-        data, _, _ = self.form.limit().problem.get_problem_data(cp.CLARABEL)
-        dims, A, b, c = data["dims"], sparse.csc_matrix(data["A"]), data["b"], data["c"]
-        cones = [clarabel.ZeroConeT(dims.zero)] * (dims.zero > 0)
-        cones += [clarabel.NonnegativeConeT(dims.nonneg)] * (dims.nonneg > 0)
-        cones += [clarabel.SecondOrderConeT(size) for size in dims.soc]
-        nothing, options = sparse.csc_matrix((len(c), len(c))), self._options(solver.settings)
+        program = self.form.limit()
         try:
-            found = clarabel.DefaultSolver(nothing, c, A, b, cones, options).solve()
+            found = solution(program, {**self.form.equations, **solver.settings, **FIXED})
         except (ValueError, ArithmeticError) as error:
             log.info("CLARABEL: %s: %s", type(error).__name__, error)
-            return np.full(len(c), np.nan), np.full(len(b), np.nan)
+            return np.full_like(program.c, np.nan), np.full_like(program.b, np.nan)
         v, w, status = np.array(found.x), np.array(found.z), str(found.status)
         log.info("CLARABEL: %s", status)
         return (np.full_like(v, np.nan), np.full_like(w, np.nan)) if status in NOTHING else (v, w)
 
-    def _options(self, settings: Mapping[str, object]) -> clarabel.DefaultSettings:
-        options = clarabel.DefaultSettings()
-        for name, value in {**self.form.equations, **settings, **FIXED}.items():
-            if name != "accept_unknown":  # a word of cvxpy's
-                setattr(options, name, value)
-        return options
+
+def solution(program: Conic, settings: Mapping[str, object]) -> clarabel.DefaultSolution:
+    """Return what Clarabel says of a program."""
+    options, K, n = clarabel.DefaultSettings(), program.cones, len(program.c)
+    for name, value in settings.items():
+        if name != "accept_unknown":  # a word of cvxpy's
+            setattr(options, name, value)
+    cones = [clarabel.ZeroConeT(len(program.b) - K.height)]
+    cones += [clarabel.NonnegativeConeT(K.linear)] * (K.linear > 0)
+    cones += [clarabel.SecondOrderConeT(size) for count, size in K.second_order for _ in range(count)]
+    nothing, A = sparse.csc_matrix((n, n)), sparse.csc_matrix(program.A)
+    return clarabel.DefaultSolver(nothing, program.c, A, program.b, cones, options).solve()
