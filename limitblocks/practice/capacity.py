@@ -53,8 +53,9 @@ def capacity_curve(
 
     At each point the non-associated answer of the displaced structure is computed and checked; its mechanism
     moves the blocks by finite screws, and the contacts that it does not open are brought together again.
-    An interface that has opened turns about the corners that are closed, its normal half way between both
-    faces; faces that slide flat on one another get the area that they then share.
+    An interface that has opened turns about the corners that are closed, its normal that of the face on which
+    they rest, half way between both where edges meet; faces that slide flat on one another get the area that
+    they then share.
 
     Parameters
     ----------

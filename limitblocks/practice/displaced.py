@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -16,6 +17,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
 from limitblocks.mechanics.loads.load import Term
 from limitblocks.model import Model
+from limitblocks.practice.resting import half_way, resting_axes
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
 
@@ -29,7 +31,7 @@ class Contact:
     Attributes
     ----------
     interface : Interface
-        With its polygon and joint; half way between both blocks.
+        With its polygon and joint, on the face that it rests on; half way where edges meet.
     ends : tuple of int
         Blocks i and j, in model order.
     on_i, on_j : Array, shape (k, 3)
@@ -114,12 +116,6 @@ def contact(own: Interface, place: dict[str, int]) -> Contact:
     return Contact(own, (place[own.block_i], place[own.block_j]), on_i, on_j, own.axes, own.axes)
 
 
-def half_way(axes_i: Array, axes_j: Array) -> Array:
-    """Return the axes half way between two sets of axes (3, 3), rows."""
-    turn = Rotation.from_matrix(axes_j.T @ axes_i).as_rotvec()
-    return np.asarray(axes_i @ Rotation.from_rotvec(turn / 2.0).as_matrix().T)
-
-
 def moved(assembly: Assembly, displacements: Array) -> Assembly:
     """Return the structure after screws (n, 6) about the centroids: exact where their axes stay.
 
@@ -133,6 +129,10 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
     def at(k: int, points: Array) -> Array:
         return np.asarray(centres[k] + shifts[k] + (points - centres[k]) @ turns[k].T)
 
+    blocks = tuple(
+        Block(own.name, at(k, own.vertices), own.faces, own.unit_weight) if displacements[k].any() else own
+        for k, own in enumerate(model.blocks)
+    )
     contacts = []
     for own in assembly.contacts:
         i, j = own.ends
@@ -143,12 +143,8 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
             axes_i=own.axes_i @ turns[i].T,
             axes_j=own.axes_j @ turns[j].T,
         )
-        contacts.append(replace(turned, interface=placed(turned)))
+        contacts.append(replace(turned, interface=placed(turned, blocks)))
     place = {block.name: k for k, block in enumerate(model.blocks)}
-    blocks = tuple(
-        Block(own.name, at(k, own.vertices), own.faces, own.unit_weight) if displacements[k].any() else own
-        for k, own in enumerate(model.blocks)
-    )
 
     def carried(load: Load) -> Load:
         terms: list[tuple[float, Term]] = []
@@ -179,8 +175,8 @@ def _screw_shift(displacements: Array) -> Array:
     return np.asarray(along + sine[:, None] * (v - along) + versine[:, None] * np.cross(axis, v))
 
 
-def placed(own: Contact) -> Interface:
-    """Return the interface half way between both blocks, on its closed corners; a tie between its anchors."""
+def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
+    """Return the interface on the face that its closed corners rest on; a tie between its anchors."""
     axes = own.half_way
     if own.tied:
         n = own.on_j[0] - own.on_i[0]
@@ -190,8 +186,11 @@ def placed(own: Contact) -> Interface:
         axes = np.stack([s1, np.cross(n, s1), n])
         centroid = (own.on_i[0] + own.on_j[0]) / 2.0
     else:
-        gap = own.ways[:, 2]
-        kept = gap <= gap.min() + 1e-6 * np.abs(own.interface.polygon).max()
+        gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())
+        kept = gap <= gap.min() + 1e-6 * size
         middle = (own.on_i + own.on_j)[kept].mean(axis=0) / 2.0
+        if not kept.all():
+            resting = [blocks[k] for k in own.ends]
+            axes = resting_axes(resting, own.axes_i, own.axes_j, own.rest[kept].mean(axis=0), size)
         centroid = middle - own.interface.polygon[kept].mean(axis=0) @ axes[:2]
     return replace(own.interface, centroid=read_only(centroid), axes=read_only(axes))

@@ -6,13 +6,12 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-import shapely
 from scipy import sparse
 from scipy.sparse.linalg import lsmr
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError, SolveError
-from limitblocks.geometry import Block, find_contacts
+from limitblocks.geometry import find_contacts
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.model import Model
 from limitblocks.practice.displaced import (
@@ -24,11 +23,11 @@ from limitblocks.practice.displaced import (
     moved,
     placed,
 )
+from limitblocks.practice.resting import PARALLEL
+from limitblocks.practice.trimmed import trimmed
 
 MEETS = 1e-6  # of the size of the structure: a deeper overlap of blocks counts
 ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
-NEAR = 1e-4  # of the size of a block: a point as near to the plane of a face is on it
-PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
 
 
 def closed_up(
@@ -119,7 +118,7 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
 
     Faces that slide flat on one another get the areas that they now share: one that shares none any more
     carries nothing, and is left out. A block that slides onto a further face rests on that as well. An opened
-    joint that slides keeps the corners that rest on a face, and is left out once none does.
+    joint that slides keeps the part whose closed corners are on both faces, and is left out once none is.
     """
     kept: list[Contact] = []
     flat: dict[tuple[int, int], list[Contact]] = {}
@@ -130,10 +129,10 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
         elif not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
             gap, of_j = own.ways[:, 2:] * own.axes[:, 2], own.on_face_i[:, None]
             moved_on = replace(own, on_i=own.rest - of_j * gap, on_j=own.rest + ~of_j * gap)
-            if _off(assembly, moved_on):
-                said.append(f"{own.interface.name} slides off")
-            else:
-                kept.append(replace(moved_on, interface=placed(moved_on)))
+            blocks = assembly.model.blocks
+            left = trimmed(replace(moved_on, interface=placed(moved_on, blocks)), blocks, assembly.size)
+            said += [] if left else [f"{own.interface.name} slides off"]
+            kept += left
         else:
             shared = [] if own.ends in flat else _shared(assembly, own.ends, [own])
             said += [] if shared or own.ends in flat else [f"{own.interface.name} slides off"]
@@ -145,26 +144,6 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
         kept += shared
         said += [f"{shared[0].interface.name} touches"] if shared else []
     return Assembly(joined(assembly, kept), tuple(kept)), tuple(said)
-
-
-def _off(assembly: Assembly, own: Contact) -> bool:
-    """Whether each closed corner of an opened joint is beyond the rim of a face that it rests on."""
-    closed = own.rest[own.ways[:, 2] <= 10.0 * CLOSED * assembly.size]
-    if not len(closed):
-        return False
-    i, j = (assembly.model.blocks[k] for k in own.ends)
-    off = np.maximum(_beyond(i, own.axes_i, 1.0, closed), _beyond(j, own.axes_j, -1.0, closed))
-    return bool((off > MEETS * assembly.size).all())
-
-
-def _beyond(block: Block, axes: Array, sign: float, points: Array) -> Array:
-    """Distances (k,), m, of points from the face of a block that they rest on, normal to the last axis."""
-    along = block.normals @ (sign * axes[2]) > 1.0 - PARALLEL
-    level = np.abs(block.offsets - sign * float(points.mean(axis=0) @ axes[2])) < NEAR * block.size
-    faces = [block.vertices[list(block.faces[face])] for face in np.flatnonzero(along & level)]
-    flat = shapely.points(points @ axes[:2].T)
-    found = [shapely.distance(shapely.Polygon(face @ axes[:2].T), flat) for face in faces]
-    return np.asarray(np.min(found, axis=0) if found else np.zeros(len(points)))
 
 
 def joined(assembly: Assembly, contacts: Iterable[Contact]) -> Model:

@@ -10,10 +10,10 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Interface
-from limitblocks.geometry.polygon import centroids, longest_side
 from limitblocks.model import Model
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
 from limitblocks.practice.rejoined import joined
+from limitblocks.practice.trimmed import about_centroid
 
 PRESSED = 1e-6  # of the largest normal force: a contact with less carries none
 NEAR = 1e-3  # of the size of a joint: a centre of pressure as near to its closed corners is on them
@@ -46,11 +46,8 @@ def narrowed(own: Contact, size: float) -> Interface:
     off = polygon - on
     far = np.linalg.norm(off, axis=1, keepdims=True)
     strip = on + off * np.minimum(STRIP * np.abs(polygon).max() / np.maximum(far, 1e-300), 1.0)
-    middle = centroids(strip[None])[0]
-    first = int(longest_side(strip[None], own.interface.axes[None, :2])[0]) + 1
+    middle, turn, first = about_centroid(strip, own.interface.axes[:2])
     strip = np.roll(strip - middle, -first, axis=0)
-    s1 = (strip[0] - strip[-1]) / np.linalg.norm(strip[0] - strip[-1])
-    turn = np.array([s1, [-s1[1], s1[0]]])
     axes = own.interface.axes
     return replace(
         own.interface,

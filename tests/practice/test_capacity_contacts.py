@@ -8,6 +8,7 @@ from few_blocks import sliding_block, toe_corner
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
+from limitblocks.errors import NoEquilibrium
 from limitblocks.practice import (
     CapacityCurve,
     CapacityPoint,
@@ -118,6 +119,68 @@ def test_a_corner_rests_on_the_face_off_which_it_is_farther():
         there = moved(start, shift).contacts[0]
         assert np.sort(np.abs(there.ways[:, 2]))[:2] == pytest.approx([0.0, 0.0], abs=1e-12)
         assert there.on_face_i.all() == (slide < 0)
+
+
+@pytest.mark.parametrize(
+    ("slide", "rests_on"),
+    [(-0.03, "base"), (0.03, "block"), (-4e-4, None), (4e-4, None), (-6e-4, "base"), (6e-4, "block")],
+)
+def test_an_opened_joint_has_the_normal_of_the_face_that_it_rests_on(slide, rests_on):
+    """A block turned by phi about the common edge, then slid: by less than a thousandth of half the joint,
+    .5 m, edges meet, the normal half way; inwards its edge is on the base, outwards its face on the rim."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    phi = 0.1
+    there = slid_on(moved(turned_about_its_toe(model, phi), sliding_at(phi, slide)), [True])[0]
+    angle = {"base": 0.0, "block": phi, None: phi / 2}[rests_on]
+    (own,) = there.contacts
+    assert own.interface.axes[2] == pytest.approx([np.sin(angle), 0, np.cos(angle)], abs=1e-12)
+    closed = own.interface.polygon[own.ways[:, 2] < 1e-9]
+    corners = own.interface.centroid + closed @ own.interface.axes[:2]
+    assert np.abs(corners - own.rest[own.ways[:, 2] < 1e-9]).max() < 1e-12
+
+
+def turned_about_its_toe(model, phi):
+    k = model.blocks.index(model.free_blocks[0])
+    toe, rates = model.interfaces[0].centroid + np.array([B / 2, 0, 0]), np.zeros((len(model.blocks), 6))
+    rates[k, 4] = phi
+    rates[k, :3] = phi * np.cross([0, 1, 0], model.blocks[k].centroid - toe)  # a screw about the toe
+    return moved(assembly_of(model), rates)
+
+
+def sliding_at(phi, slide):
+    """Of the base and the block: inwards its edge along the base, outwards its face along the rim."""
+    way = np.zeros((2, 6))
+    way[1, [0, 2]] = slide, -slide * np.tan(phi) * (slide > 0)
+    return way
+
+
+@pytest.mark.parametrize("across_by", [0.0, 0.4, 0.6])
+def test_an_opened_joint_partly_off_keeps_what_both_faces_share(across_by):
+    """A block on its toe slides along that edge of 1 m: it rocks at tan(atan(b / h) - phi) as long as its
+    middle is above the edge that is left, and falls beside it beyond."""
+    stones = [
+        lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    way = np.zeros((2, 6))
+    way[1, 1] = across_by
+    there, said = slid_on(moved(turned_about_its_toe(model, phi := 0.1), way), [True])
+    assert said == ()
+    (own,) = there.contacts
+    assert np.sort(np.ptp(own.interface.polygon, axis=0)) == pytest.approx(
+        sorted([B, 1 - across_by]), rel=1e-9
+    )
+    assert np.abs(own.ways[own.ways[:, 2] < 1e-9]).max() < 1e-12
+    ends = own.rest[own.ways[:, 2] < 1e-9][:, 1]
+    assert np.sort(ends) == pytest.approx([across_by - 0.5, 0.5], abs=1e-12)
+    if across_by > 0.5:
+        with pytest.raises(NoEquilibrium):
+            answered._answered(there.model)
+    else:
+        shift, _, result = answered._answered(there.model)
+        assert result.load_factor - shift == pytest.approx(np.tan(np.arctan(B / H) - phi), rel=1e-8)
 
 
 def test_what_opens_at_second_order_opens():

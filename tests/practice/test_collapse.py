@@ -59,8 +59,8 @@ def test_another_program_has_the_limits_of_spreading(thickness):
 def test_two_stones_that_lean_on_one_another():
     """Thrust W x / h of the half at any spread; they slide off at their friction.
 
-    The normal of an opened joint is half way between both faces, so that friction begins at atan(mu) and half
-    the turn of a stone.
+    They turn about edges that both faces share, where the normal is anywhere between those of the faces; half
+    way is taken, so that friction begins at atan(mu) and half the turn of a stone.
     """
     friction, thickness = 0.5, 0.3
     ring, weight = arch(2, thickness, lb.PointContact(friction))
@@ -84,22 +84,80 @@ def test_two_stones_that_lean_on_one_another():
     assert curve.falls - curve.stands_to <= 2e-2
 
 
-def test_a_beam_slides_off_the_edge_that_it_rests_on():
-    """A beam of 5 m, a support sinking: it slides along the edge of the other one for as long as it is on it.
+def reaction_of_a_beam(friction, settlement, corner):
+    """Reaction under a beam of 5 m whose face lies on an edge at x = 0 and whose end on a flat `corner` away.
 
-    At the fall its lower corners are on that edge and on the top of the sunk support, 5 m from one another.
+    Forces H outwards on both: friction of the end, mu R, or of the edge about the normal of the beam's face.
+    """
+    slope, weight = np.arctan2(settlement, corner), 5 * 0.3 * 20e3
+    x = corner - 2.5 * np.cos(slope) + 0.15 * np.sin(slope)  # of the weight
+    end = weight * x / (corner + friction * settlement)
+    k = settlement * np.tan(np.arctan(friction) - slope)
+    edge = weight * (x - k) / (corner - k)
+    return max(end, edge)  # that slides whose friction is used up first
+
+
+@pytest.mark.parametrize("friction", [0.5, 0.8])
+def test_a_beam_slides_off_the_edge_that_it_rests_on(friction):
+    """A beam of 5 m, a support sinking: its end slides, then its face on the edge for as long as it is on it.
+
+    An edge on a face has the normal of that face: the beam's on the left, the sunk support's on the right. At
+    the fall its lower corners are on that edge and on the top of the sunk support, 5 m from one another.
     """
     stones = [
         lb.Block.box("left", (1, 1, 1), (-0.5, 0, -0.5)),
         lb.Block.box("right", (1, 1, 1), (4.5, 0, -0.5)),
         lb.Block.box("beam", (5, 1, 0.3), (2.0, 0, 0.15), unit_weight=20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(0.5))
+    joints = lb.find_interfaces(stones, lb.PointContact(friction))
     beam = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     curve = settlement_to_collapse(beam, "right", (0, 0, -1), step=0.5, accuracy=1e-2)
-    low = curve.points[-1].model.blocks[2].vertices[:, [0, 2]]
-    x = low[low[:, 1].argmin(), 0]  # where the lower end has stopped sliding on the support
-    assert curve.stands_to <= np.sqrt(5.0**2 - x**2) <= curve.falls
+    lows = [point.model.blocks[2].vertices[:, [0, 2]] for point in curve.points[1:]]
+    x = np.array([low[low[:, 1].argmin(), 0] for low in lows])  # of the end
+    d = curve.displacements[1:]
+    expected = [reaction_of_a_beam(friction, *one) for one in zip(d, x, strict=True)]
+    assert curve.reactions[1:] == pytest.approx(expected, rel=1e-8)
+    kept = np.isclose(x, np.sqrt(4.5**2 - d**2), rtol=1e-9)  # the end slides: the edge stays at 4.5 m
+    assert kept.sum() > 2
+    assert np.ptp(x[~kept]) < 1e-9  # then the edge slides: the end stays
+    assert (np.diff(kept.astype(int)) <= 0).all()
+    assert curve.stands_to <= np.sqrt(5.0**2 - x[-1] ** 2) <= curve.falls
+    assert curve.falls - curve.stands_to <= 2e-2
+
+
+@pytest.mark.parametrize("slope", [0.0, 0.15])
+def test_a_ladder_whose_head_slides_down_a_wall_and_whose_foot_then_slides(slope):
+    """Of the textbook: normals of the floor, or of the wedge, and of the wall. The wall moves away from it.
+
+    Moments about the foot: N = W a / (h + mu c); the foot slides once its force is at atan(mu) to its normal.
+    """
+    friction, rise = 0.5, 0.3 * np.tan(slope)
+    foot, head = np.array([0.3, rise]), np.array([2.0, 3.0])
+    low, high = -1 * np.tan(slope), 1.9 * np.tan(slope)
+    stones = [
+        lb.Block.prism("floor", [(-1, -1), (1.9, -1), (1.9, high), (-1, low)], (-1, 1)),
+        lb.Block.box("wall", (1, 2, 4), (2.5, 0, 2)),
+        lb.Block.prism("ladder", [(0, 0), foot, (2.0, 2.7), head], (-0.5, 0.5), 20e3),
+    ]
+    joints = lb.find_interfaces(stones, lb.PointContact(friction))
+    model = lb.Model(stones, ["floor", "wall"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    ladder = stones[2]
+    arm, mass = head - foot, ladder.centroid[[0, 2]] - foot
+
+    def push(away):  # over the weight
+        c = arm[0] + away
+        h = np.sqrt(arm @ arm - c * c)
+        turn = np.arctan2(arm[1], arm[0]) - np.arctan2(h, c)
+        return (mass[0] * np.cos(turn) + mass[1] * np.sin(turn)) / (h + friction * c)
+
+    def left(away):
+        return np.arctan(friction) - slope - np.arctan(push(away) / (1 - friction * push(away)))
+
+    slides = brentq(left, 0.0, 1.6)
+    curve = settlement_to_collapse(model, "wall", (1, 0, 0), step=0.3, accuracy=1e-2)
+    expected = [ladder.weight * push(away) for away in curve.displacements[1:]]
+    assert curve.reactions[1:] == pytest.approx(expected, rel=1e-8)
+    assert curve.stands_to <= slides <= curve.falls
     assert curve.falls - curve.stands_to <= 2e-2
 
 

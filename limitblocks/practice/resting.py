@@ -1,0 +1,56 @@
+"""Where a point of an opened joint lies on the faces of both blocks: the normal of the contact."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from scipy.spatial.transform import Rotation
+
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block
+
+NEAR = 1e-4  # of the size of a block: a point as near to the plane of a face is on it
+PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
+AT_RIM = 1e-3  # of the size of a joint: closed corners as near to the rim of a face are at its edge
+
+
+def half_way(axes_i: Array, axes_j: Array) -> Array:
+    """Return the axes half way between two sets of axes (3, 3), rows."""
+    turn = Rotation.from_matrix(axes_j.T @ axes_i).as_rotvec()
+    return np.asarray(axes_i @ Rotation.from_rotvec(turn / 2.0).as_matrix().T)
+
+
+def tilted(axes: Array, normal: Array) -> Array:
+    """Return axes (3, 3), rows, turned by the least angle that takes the last one to a normal (3,)."""
+    return np.asarray(Rotation.align_vectors(normal, axes[2])[0].apply(axes))
+
+
+def face_at(block: Block, out: Array, point: Array, plane: Array) -> shapely.Geometry:
+    """Return the faces of a block at a point with outward normal `out`, seen along two axes (2, 3)."""
+    along = block.normals @ out > 1.0 - PARALLEL
+    level = np.abs(block.offsets - float(point @ out)) < NEAR * block.size
+    faces = (block.vertices[list(block.faces[face])] @ plane.T for face in np.flatnonzero(along & level))
+    return shapely.union_all([shapely.Polygon(face) for face in faces])
+
+
+def resting_axes(blocks: Sequence[Block], axes_i: Array, axes_j: Array, point: Array, size: float) -> Array:
+    """Return the axes of an opened joint, shape (3, 3): normal to the face in whose interior `point` lies.
+
+    An edge or a corner on the interior of a face has the normal of that face. Where two edges meet the normal
+    is anywhere between those of both faces; half way is taken. `point`, shape (3,), is the middle of the
+    closed corners, `size` that of the joint, m.
+    """
+    middle = half_way(axes_i, axes_j)
+    inside = [
+        _within(block, out, point, axes) > AT_RIM * size
+        for block, out, axes in zip(blocks, (axes_i[2], -axes_j[2]), (axes_i, axes_j), strict=True)
+    ]
+    return middle if inside[0] == inside[1] else tilted(middle, (axes_i if inside[0] else axes_j)[2])
+
+
+def _within(block: Block, out: Array, point: Array, axes: Array) -> float:
+    """Distance of a point on a face from its rim, m; zero off the face."""
+    face, at = face_at(block, out, point, axes[:2]), shapely.Point(axes[:2] @ point)
+    return float(shapely.distance(face.boundary, at)) if shapely.covers(face, at) else 0.0

@@ -1,0 +1,71 @@
+"""Opened joints that slid: what of their area both faces still share."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array, read_only
+from limitblocks.geometry import Block
+from limitblocks.geometry.pieces import convex_pieces
+from limitblocks.geometry.polygon import centroids, longest_side
+from limitblocks.practice.displaced import CLOSED, Contact, placed
+from limitblocks.practice.resting import face_at, tilted
+
+OFF = 1e-6  # of the size of the structure: a corner as far beyond the rim of a face is off it
+
+
+def trimmed(own: Contact, blocks: Sequence[Block], size: float) -> list[Contact]:
+    """Return an opened joint where its closed corners are on both faces, in convex pieces.
+
+    It is whole as long as they all are; where some are not, its area is cut to that of both faces. None is
+    left once the hull of its closed corners is off. `size` is that of the structure, m.
+    """
+    closed = own.ways[:, 2] <= 10.0 * CLOSED * size
+    if not closed.any():
+        return [own]
+    seen, point = own.half_way, own.rest[closed].mean(axis=0)
+    faces = [
+        face_at(blocks[k], out, point, seen[:2])
+        for k, out in zip(own.ends, (own.axes_i[2], -own.axes_j[2]), strict=True)
+    ]
+    shared = shapely.intersection_all([face for face in faces if not face.is_empty])
+    corners = shapely.points(own.rest[closed] @ seen[:2].T)
+    if shapely.distance(shapely.MultiPoint(corners).convex_hull, shared) > OFF * size:
+        return []
+    if (shapely.distance(corners, shared) <= OFF * size).all():
+        return [own]
+    area = own.interface.centroid + own.interface.polygon @ own.interface.axes[:2]
+    left = shapely.intersection(shapely.Polygon(area @ seen[:2].T), shared)
+    parts = np.array([part for part in shapely.get_parts(left) if part.area > (OFF * size) ** 2])
+    pieces, _ = convex_pieces(parts, np.tile([1.0, 0.0], (len(parts), 1)), np.zeros(len(parts)), OFF * size)
+    return [_on(own, blocks, np.array(piece.normalize().exterior.coords)[:0:-1]) for piece in pieces]
+
+
+def _on(own: Contact, blocks: Sequence[Block], flat: Array) -> Contact:
+    """Return the contact with corners (k, 2) seen along the axes half way between both faces."""
+    seen = own.half_way
+    points = flat @ seen[:2]
+    on_i, on_j = (
+        points + ((there[0] - points) @ normal / (seen[2] @ normal))[:, None] * seen[2]
+        for there, normal in ((own.on_i, own.axes_i[2]), (own.on_j, own.axes_j[2]))
+    )
+    _, turn, first = about_centroid(on_i @ own.axes_i[:2].T, own.axes_i[:2])
+    axes_i = np.concatenate([turn @ own.axes_i[:2], own.axes_i[2:]])
+    on_i, on_j = (np.roll(on, -first, axis=0) for on in (on_i, on_j))
+    polygon = on_i @ axes_i[:2].T
+    interface = replace(own.interface, polygon=read_only(polygon - centroids(polygon[None])[0]))
+    axes_j = tilted(axes_i, own.axes_j[2])
+    cut = replace(own, interface=interface, on_i=on_i, on_j=on_j, axes_i=axes_i, axes_j=axes_j)
+    return replace(cut, interface=placed(cut, blocks))
+
+
+def about_centroid(polygon: Array, plane: Array) -> tuple[Array, Array, int]:
+    """Return the centroid (2,) of a polygon, the turn (2, 2) to its longest side, and its first vertex."""
+    first = int(longest_side(polygon[None], plane[None])[0]) + 1
+    s1 = polygon[first % len(polygon)] - polygon[first - 1]
+    s1 = s1 / np.linalg.norm(s1)
+    return centroids(polygon[None])[0], np.array([s1, [-s1[1], s1[0]]]), first
