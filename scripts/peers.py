@@ -13,6 +13,7 @@ from limitblocks.analysis import direct, forms, programs
 from limitblocks.analysis.scales import scaled
 from limitblocks.problem import Cones
 
+ALONE = {"form": "", "solver": "", "iterations": "", "raw": float("nan"), "status": "bounds alone"}
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
 METHODS = ("qdldl", "faer")
 FORMS = ("static", "kinematic", "rates")
@@ -120,7 +121,7 @@ def measured(name, joint, size, methods, chosen):
         for solver, (raw, iterations, status) in runs.items():
             row = {"form": form, "solver": solver, "iterations": iterations, "raw": raw, "status": status}
             rows.append(whole | row)
-    return rows
+    return rows or [whole | ALONE]
 
 
 def best(rows):
