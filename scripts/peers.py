@@ -12,6 +12,7 @@ import limitblocks as lb
 from limitblocks.analysis import direct, forms, programs
 from limitblocks.analysis.scales import scaled
 
+ALONE = {"form": "", "solver": "", "iterations": "", "raw": float("nan"), "status": "bounds alone"}
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
 METHODS = ("qdldl", "faer")
 FORMS = ("static", "kinematic", "rates")
@@ -112,7 +113,7 @@ def measured(name, joint, size, methods, chosen):
         for solver, (raw, iterations, status) in runs.items():
             row = {"form": form, "solver": solver, "iterations": iterations, "raw": raw, "status": status}
             rows.append(whole | row)
-    return rows
+    return rows or [whole | ALONE]
 
 
 def best(rows):

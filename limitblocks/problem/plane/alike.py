@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, same_rows
 from limitblocks.problem.plane.places import Place
 
 EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
-DECIMALS = 12  # of numbers up to one: places that agree to these are judged once
+AGREE = 1e-12  # of numbers up to one: places that agree within it are judged once
 
 
 def classes(*numbers: Array) -> tuple[Indices, Indices]:
@@ -16,11 +16,7 @@ def classes(*numbers: Array) -> tuple[Indices, Indices]:
 
     Structures repeat a few joints over and over.
     """
-    flat = [np.round(part.reshape(len(part), -1), DECIMALS) + 0.0 for part in numbers]
-    seen: dict[bytes, int] = {}
-    of_place = [seen.setdefault(row.tobytes(), len(seen)) for row in np.concatenate(flat, axis=1)]
-    own = np.array(of_place, dtype=np.int64)
-    return np.unique(own, return_index=True)[1], own
+    return same_rows(np.concatenate([part.reshape(len(part), -1) for part in numbers], axis=1), AGREE)
 
 
 def close(a: Array, b: Array, scale: Array | float) -> bool:
