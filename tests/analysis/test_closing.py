@@ -8,9 +8,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
-from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
 from limitblocks.analysis.nonassociated.means import (
-    LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
     MEANS,
@@ -130,42 +128,6 @@ def test_of_a_large_model_one_half_comes_before_rounds(monkeypatch):
     found = lb.nonassociated(model)
     assert found.how == "tracked path, small barrier, power 1, seed 1, in one half"
     assert lb.check_mcp(model, found).passed
-
-
-def test_in_one_half_of_a_large_model_a_path_may_be_longer(monkeypatch):
-    """All of them end at once here, so that every one is tried."""
-    model, tried, track = symmetric_facade(), {}, ways._tracked
-
-    def tracked(flow, x, scale, one, record):
-        tried.setdefault(len(flow.problem.blocks), []).append(one)
-        return track(flow, x, scale, one._replace(budget=1), record)
-
-    monkeypatch.setattr(ways, "LARGE", 1)
-    monkeypatch.setattr(ways, "_tracked", tracked)
-    monkeypatch.setattr(ways, "_in_rounds", lambda flow, nearest, state, how, tolerance: (state, how))
-    lb.nonassociated(model, throw=False)
-    half, whole = sorted(tried)
-    assert tried[whole] == list(LARGE_MEANS)
-    assert tried[half] == list(LARGE_HALF_MEANS)
-    longer = [b.budget > a.budget for a, b in zip(LARGE_MEANS, LARGE_HALF_MEANS, strict=True)]
-    assert longer == [False, True, False, False]
-
-
-def test_the_longer_path_closes_one_half_of_a_groin_vault():
-    """Of 292 blocks, after more factorisations than a path of the whole may take."""
-    vault = lb.structures.groin_vault(
-        lb.OrdunaLourenco(0.6), radius=3.0, thickness=0.4, length=7.0, courses=25, stone_length=0.5
-    )
-    model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
-    flow = Flow(own_units(model, bracket(model)))
-    half = flow_in_plane(model, flow, flow.problem.compliance, None, half=True)
-    problem = half.flow.problem
-    power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
-    means = [LARGE_HALF_MEANS[1]]
-    state, (path,) = follow(half.flow, half.x0, problem.compliance, means=means, power=power)
-    assert path.closed
-    assert path.factorisations > LARGE_MEANS[1].budget
-    assert half.accepted(state, 1e-8) is not None  # a solution of the whole
 
 
 def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):

@@ -49,9 +49,6 @@ LARGE_MEANS = (
     Means(Barrier(0.2, 2.0), 2, 800),
     Means(Barrier(30.0, 2.0), 2, 600),
 )
-# In one half points cost half as much, so that a path may be longer: it closes a groin vault of 292 blocks
-# without crushing, pushed out, and one of contact points without rounds.
-LARGE_HALF_MEANS = (LARGE_MEANS[0], Means(Barrier(3.0, 2.0, LOW), 1, 2500), *LARGE_MEANS[2:])
 # In a plane: a wall of 1,008 blocks takes 600 factorisations with a barrier of 0.2, ten times its bounds;
 # with a small one it is not closed after 2,500, and increments take 35 times the bounds.
 LARGE_PLANAR_MEANS = (Means(Barrier(), 1, 100), Means(Barrier(0.2, 2.0), 2, 1500))

@@ -11,7 +11,6 @@ from limitblocks.analysis.nonassociated.closing import NEAR, closed
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
-    LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
     MEANS,
@@ -66,7 +65,7 @@ def first_to_solve(
     elif means is MEANS and half is no_half:  # in a plane or one half points cost little
         means = tuple(one._replace(patience=None) for one in MEANS)
     ways = (
-        _large_ways(flow, x0, scale, LARGE_HALF_MEANS if half is no_half else LARGE_MEANS, tolerance, record)
+        _large_ways(flow, x0, scale, tolerance, record)
         if large
         else _ways(flow, x0, scale, means, tolerance, record)
     )
@@ -159,22 +158,17 @@ def _in_space(flow: Flow) -> bool:
 
 
 def _large_ways(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
+    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
 
     That of the first comes without rounds as well: one half costs less, and follows the load path.
     """
     nearest = NearestStresses(flow.problem, flow.problem.compliance)
-    for one in means:
+    for one in LARGE_MEANS:
         state, how = _tracked(flow, x0, scale, one, record)
         ended = how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance
-        if ended or one is means[0]:
+        if ended or one is LARGE_MEANS[0]:
             yield state, how
         if not ended:
             yield _in_rounds(flow, nearest, state, how, tolerance)
