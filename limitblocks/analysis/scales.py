@@ -8,6 +8,7 @@ equilibrium by what acts in it, the load factor by itself. The rates are dual to
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -197,11 +198,11 @@ def balanced(p: Scaled, loads: Array, x: Array) -> Array:
     return Projection(p.C).onto(loads, x)
 
 
-def compatible(p: Scaled, u: Array, y: Array) -> Array:
-    """Return the nearest multipliers that follow the rates, brought into K."""
-    lu = _factors(p.F.T @ p.F)
+def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | None = None) -> Array:
+    """Return the nearest multipliers that follow the rates, brought into K; `solve` is for F^T F."""
+    solve = solve or _factors(p.F.T @ p.F).solve
     for _ in range(2):
-        y = y - p.F @ lu.solve(p.C @ u + p.F.T @ y)
+        y = y - p.F @ solve(p.C @ u + p.F.T @ y)
     return p.raised(y)
 
 

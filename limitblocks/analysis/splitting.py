@@ -15,9 +15,9 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import csgraph
 
-from limitblocks.analysis.scales import Projection, Scaled
+from limitblocks.analysis.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.scales import Projection, Scaled, compatible
 from limitblocks.arrays import Array
 
 ROUNDS = 200
@@ -35,8 +35,9 @@ class Splitting:
     @cached_property
     def projection(self) -> Projection:
         """Onto equilibrium; the distance is that of the yield rows."""
-        F = self.p.F
-        return Projection(self.p.C, inverse_of_blocks(F.T @ F))
+        weights = InterfaceBlocks(self.p.problem).inverse(self.p.F.T @ self.p.F)
+        weights.eliminate_zeros()  # between the points of an interface
+        return Projection(self.p.C, weights)
 
     def stresses(self) -> Array | None:
         """Return stresses strictly within yield under the dead loads, (s,); None where none were found."""
@@ -54,10 +55,7 @@ class Splitting:
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that follow the rates, to rounding, brought into K."""
-        p = self.p
-        for _ in range(2):
-            y = y - p.F @ (self.projection.weights @ (p.C @ u + p.F.T @ y))
-        return p.raised(y)
+        return compatible(self.p, u, y, lambda strain: np.asarray(self.projection.weights @ strain))
 
     def _nearest(self, rows: Array, loads: Array) -> tuple[Array, Array]:
         """Stresses under the loads, F x nearest to `rows`; rates u with C u = -F^T (rows - F x)."""
@@ -78,19 +76,3 @@ class Splitting:
                 return found
             z, room = z + found - inner, less * room
         return None
-
-
-def inverse_of_blocks(H: sparse.csr_array) -> sparse.csr_array:
-    """Return the inverse of a matrix of small blocks on the diagonal, in any order."""
-    entries = H.tocoo()
-    entries.eliminate_zeros()
-    _, owner = csgraph.connected_components(entries, directed=False)
-    n, size = len(owner), np.bincount(owner)
-    place = np.empty(n, dtype=np.int64)
-    place[np.argsort(owner, kind="stable")] = np.arange(n) - np.repeat(np.cumsum(size) - size, size)
-    index = np.full((len(size), size.max()), -1)
-    index[owner, place] = np.arange(n)
-    blocks = (index < 0)[:, :, None] * np.eye(size.max())
-    blocks[owner[entries.row], place[entries.row], place[entries.col]] = entries.data
-    k, i, j = np.nonzero((index >= 0)[:, :, None] & (index >= 0)[:, None, :])
-    return sparse.csr_array((np.linalg.inv(blocks)[k, i, j], (index[k, i], index[k, j])), shape=H.shape)

@@ -17,8 +17,8 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
+from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.nonassociated.implicit_step import Loading, Point, StepResult, implicit_step
-from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem
 

@@ -1,4 +1,4 @@
-"""The program of one form by Clarabel itself: the answer of cvxpy's; and what a proof solves."""
+"""The program of one form, solved by Clarabel itself: the answer that cvxpy has; and what a proof solves."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def facade(joint):
 
 
 @pytest.mark.parametrize("joint", JOINTS)
-def test_the_program_without_cvxpy_has_the_answer_of_cvxpy(joint):
+def test_a_form_has_the_answer_of_the_static_program(joint):
     form = form_of(scaled(wall(joint).problem))
     state = Programs(form).limit_state(DIRECT)
     expected = solved(static_program(form.problem), DIRECT).values[0]

@@ -6,9 +6,9 @@ import pytest
 from scipy import sparse
 
 import limitblocks as lb
+from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
-from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
 from limitblocks.problem import Flow
 
 MU = 0.6

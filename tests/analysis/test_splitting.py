@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from scipy import sparse
 
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import splitting
 from limitblocks.analysis.scales import scaled
-from limitblocks.analysis.splitting import Splitting, inverse_of_blocks
+from limitblocks.analysis.splitting import Splitting
 from limitblocks.problem import Cones
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6), lb.OrdunaLourenco(0.6, compressive_strength=1e7)]
@@ -32,15 +31,6 @@ def test_the_nearest_point_of_a_cone_leaves_a_normal_of_it():
         assert cones.margin(near).min() >= -1e-12
         assert cones.margin(near - z).min() >= -1e-12
         assert near @ (near - z) == pytest.approx(0.0, abs=1e-12)
-
-
-def test_blocks_in_any_order_are_inverted():
-    rng = np.random.default_rng(1)
-    order = rng.permutation(6)
-    H = np.zeros((6, 6))
-    for part in (order[:1], order[1:3], order[3:]):
-        H[np.ix_(part, part)] = rng.normal(size=(len(part), len(part)))
-    assert inverse_of_blocks(sparse.csr_array(H)).toarray() == pytest.approx(np.linalg.inv(H), abs=1e-9)
 
 
 @pytest.mark.parametrize("joint", JOINTS)

@@ -17,7 +17,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.nonassociated.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.interface_blocks import InterfaceBlocks
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem
 
