@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -70,9 +70,13 @@ class Model(Viewed):
     left_out: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "blocks", tuple(self.blocks))
-        object.__setattr__(self, "supports", tuple(self.supports))
-        object.__setattr__(self, "left_out", tuple(self.left_out))
+        for word, kind in {
+            "blocks": Block,
+            "supports": str,
+            "interfaces": Interface,
+            "left_out": str,
+        }.items():
+            object.__setattr__(self, word, _sequence(word, getattr(self, word), kind))
         problems = _name_problems(self)
         if not problems:
             supports = set(self.supports)
@@ -171,6 +175,14 @@ class Model(Viewed):
         return f"model {self.name!r}: {free}, {supports}, {many(len(self.interfaces), 'interface')}"
 
 
+def checked_model(model: Any) -> Model:
+    """Return `model`, or raise ModelError if it is none but, say, the name of its file."""
+    if isinstance(model, Model):
+        return model
+    how = f"; limitblocks.read({str(model)!r}) reads one" if isinstance(model, str | Path) else ""
+    raise ModelError(f"model is a {type(model).__name__}, expected a Model{how}")
+
+
 def model_of(result: Any, model: Model | None = None) -> Model | None:
     """Return `model`, else the one in memory that `result` belongs to; None where it is gone.
 
@@ -192,6 +204,17 @@ def _tagged(settings: Any) -> dict[str, Any]:
     values = {"type": type(settings).__name__} | asdict(settings)
     # friction=1 and friction=1.0 are one model
     return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
+
+
+def _sequence(word: str, given: Any, kind: type) -> tuple[Any, ...]:
+    """Return a sequence of one kind of things as a tuple, or raise ModelError."""
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ModelError(f"{word} is {given!r}, expected a sequence of {kind.__name__}")
+    members = tuple(given)
+    wrong = [one for one in members if not isinstance(one, kind)]
+    if wrong:
+        raise ModelError(f"{word} holds {wrong[0]!r}, expected a sequence of {kind.__name__}")
+    return members
 
 
 def _name_problems(model: Model) -> list[str]:
@@ -236,6 +259,11 @@ def _floating_problems(model: Model) -> list[str]:
 def _load_problems(model: Model) -> list[str]:
     problems = []
     for word, load in (("dead", model.dead), ("live", model.live)):
+        if not isinstance(load, Load):
+            problems.append(
+                f"{word} is {load!r}, expected a load such as limitblocks.mass_proportional((1, 0, 0))"
+            )
+            continue
         try:
             values = load.on(model.free_blocks)
         except ModelError as error:

@@ -11,6 +11,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import scipy.sparse.linalg  # noqa: F401 - loads every BLAS that the controller is to find
 
+from limitblocks.model import checked_model
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -24,10 +26,11 @@ def _controller() -> Any:
 
 
 def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
-    """Return the analysis in one thread of BLAS; the number of threads is as before when it ends."""
+    """Return the analysis of a model in one thread of BLAS; their number is as before when it ends."""
 
     @wraps(analysis)
     def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        checked_model(args[0] if args else kwargs.get("model"))
         with _controller().limit(limits=1, user_api="blas"):
             return analysis(*args, **kwargs)
 

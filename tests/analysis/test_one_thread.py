@@ -32,9 +32,9 @@ def test_an_analysis_keeps_to_one_thread(analysis):
 
 def test_threads_come_back_where_an_analysis_fails():
     @one_thread
-    def fails():
+    def fails(_model):
         raise lb.ModelError(str(threads()))
 
     with pytest.raises(lb.ModelError, match="1"):
-        fails()
+        fails(lb.structures.wall(lb.PointContact(0.5), length=1.2, courses=3))
     assert threads() == 2
