@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields, is_dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,11 +13,11 @@ from typing import Any
 from weakref import WeakValueDictionary
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, missing
+from limitblocks.errors import ModelError, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.floating import floating
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
@@ -76,7 +76,7 @@ class Model(Viewed):
             "interfaces": Interface,
             "left_out": str,
         }.items():
-            object.__setattr__(self, word, _sequence(word, getattr(self, word), kind))
+            object.__setattr__(self, word, sequence_of(word, getattr(self, word), kind))
         problems = _name_problems(self)
         if not problems:
             supports = set(self.supports)
@@ -206,17 +206,6 @@ def _tagged(settings: Any) -> dict[str, Any]:
     return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
 
 
-def _sequence(word: str, given: Any, kind: type) -> tuple[Any, ...]:
-    """Return a sequence of one kind of things as a tuple, or raise ModelError."""
-    if isinstance(given, str) or not isinstance(given, Iterable):
-        raise ModelError(f"{word} is {given!r}, expected a sequence of {kind.__name__}")
-    members = tuple(given)
-    wrong = [one for one in members if not isinstance(one, kind)]
-    if wrong:
-        raise ModelError(f"{word} holds {wrong[0]!r}, expected a sequence of {kind.__name__}")
-    return members
-
-
 def _name_problems(model: Model) -> list[str]:
     names = [block.name for block in model.blocks]
     known, supports = set(names), set(model.supports)
@@ -241,28 +230,17 @@ def _name_problems(model: Model) -> list[str]:
 
 def _floating_problems(model: Model) -> list[str]:
     """Free blocks that no chain of interfaces ties to a support."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
-    pairs = np.array([(place[i.block_i], place[i.block_j]) for i in model.interfaces]).reshape(-1, 2)
-    n = len(place)
-    graph = sparse.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    _, part = sparse.csgraph.connected_components(graph, directed=False)
-    held = {part[place[name]] for name in model.supports}
-    floating = [block.name for block in model.blocks if part[place[block.name]] not in held]
-    if not floating:
-        return []
-    shown = ", ".join(map(repr, floating[:8])) + (
-        f" and {len(floating) - 8} more" if len(floating) > 8 else ""
-    )
-    return [f"floating: no chain of interfaces ties {shown} to a support", *missing(model.left_out)]
+    loose = floating(model.blocks, model.interfaces, model.supports)
+    more = f" and {len(loose) - 8} more" if len(loose) > 8 else ""
+    said = f"floating: no chain of interfaces ties {', '.join(map(repr, loose[:8]))}{more} to a support"
+    return [said, *missing(model.left_out)] if loose else []
 
 
 def _load_problems(model: Model) -> list[str]:
     problems = []
     for word, load in (("dead", model.dead), ("live", model.live)):
         if not isinstance(load, Load):
-            problems.append(
-                f"{word} is {load!r}, expected a load such as limitblocks.mass_proportional((1, 0, 0))"
-            )
+            problems.append(f"{word} is {load!r}, expected a load such as mass_proportional((1, 0, 0))")
             continue
         try:
             values = load.on(model.free_blocks)

@@ -41,7 +41,7 @@ def test_the_name_of_a_file_is_no_model(ask):
         ("supports", "base", "supports is 'base', expected a sequence of str"),
         ("blocks", ["base"], "blocks holds 'base', expected a sequence of Block"),
         ("interfaces", None, "interfaces is None, expected a sequence of Interface"),
-        ("live", (1.0, 0.0, 0.0), "live is .*expected a load such as limitblocks.mass_proportional"),
+        ("live", (1.0, 0.0, 0.0), "live is .*expected a load such as mass_proportional"),
         ("dead", None, "dead is None, expected a load"),
     ],
 )

@@ -144,7 +144,7 @@ def look(
     units, up, twisted : str, optional
         As for :func:`limitblocks.read`.
     thickness : float, optional
-        The file is a DXF elevation, of blocks as deep, m: see :func:`limitblocks.files.read_drawing`.
+        As for :func:`limitblocks.files.read_drawing`, of a DXF elevation, m.
 
     Raises
     ------
