@@ -13,7 +13,7 @@ from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.claims import USUAL_OF_BOUNDS
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
-from limitblocks.reports.rows import SHOWN, Row, backward, limits, loose
+from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import some
 
@@ -131,9 +131,9 @@ def _steps(path: LoadPath) -> Table:
     return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
 
 
-def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str], ...]:
+def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tuple[str, ...]], ...]:
     sound = result.accepted and isfinite(result.load_factor)
-    return ((result.load_factor, source),) if sound else ()
+    return ((result.load_factor, source, _remarks(result)),) if sound else ()
 
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
@@ -158,4 +158,6 @@ def _confirmation(result: Nonassociated) -> tuple[Row, ...]:
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:
-    return (() if result.converged else (result.status.value,)) + result.remarks
+    if not result.converged:
+        return (result.status.value, *result.remarks)
+    return result.remarks + far(result.backward_error)
