@@ -1,4 +1,4 @@
-"""Opened joints: across gaps and steps of faces, over rims by a little, and what presses off closed corners."""
+"""Opened joints: gaps and steps of faces, rims overrun by a little, pressure off closed corners."""
 
 import numpy as np
 import pytest
