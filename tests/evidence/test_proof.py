@@ -65,6 +65,12 @@ def test_cancelling_product_is_not_called_exact():
     assert off[0] > 0.0
 
 
+def test_a_product_that_underflows_is_not_called_exact():
+    value, off = Products((sparse.csr_array(np.array([[1e-200]])),)).of((np.array([1e-200]),))
+    assert value[0] == 0.0
+    assert off[0] > 0.0
+
+
 def test_product_of_nothing_is_exact():
     value, off = Products((sparse.csr_array(np.array([[1.0, 0.0]])),)).of((np.array([0.0, 3.0]),))
     assert value[0] == off[0] == 0.0
