@@ -133,3 +133,17 @@ def test_fill_strengthens_and_models_can_be_analysed():
 def test_wrong_fill_is_refused(load, said):
     with pytest.raises(lb.ModelError, match=said):
         load().on(ARCH.free_blocks)
+
+
+def test_a_block_that_is_not_convex_covers_itself_and_no_more():
+    """Below its own overhang there is no fill; in a courtyard there is, whatever stands around."""
+    hooked = lb.Block.prism(
+        "C", [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)], (0, 1), 1.0
+    )
+    load = lb.loads.fill(1.0, 4.0).on([hooked])
+    assert load[0, 2] == pytest.approx(-3.0 * 1.0)
+    assert load[0, 4] == pytest.approx(3.0 * (1.5 - hooked.centroid[0]))
+    around = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
+    walls = lb.Block.prism("walls", around, (0, 2), 1.0, along="z")
+    court = lb.Block.box("court", (1, 2, 1), (1.5, 2.0, 0.5), 1.0)
+    assert lb.loads.fill(1.0, 3.0).on([walls, court])[:, 2] == pytest.approx([-7.0 * 1.0, -2.0 * 2.0])

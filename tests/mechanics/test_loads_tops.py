@@ -109,3 +109,14 @@ def test_line_along_a_joint_acts_once():
 def test_wrong_place_is_refused(load, said):
     with pytest.raises(lb.ModelError, match=said):
         load().on(SLABS)
+
+
+def test_blocks_that_are_not_convex_have_the_top_right_there():
+    """A step: high over its riser, low over its tread; a horizontal force tells the height by its moment."""
+    outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+    step = lb.Block.prism("step", outline, (0, 1), 1.0)
+    for x, height in ((0.5, 3.0), (2.0, 1.0)):
+        load = lb.loads.top_force((1e3, 0, 0), (x, 0.5)).on([step])
+        assert load == pytest.approx(lb.loads.force("step", (1e3, 0, 0), (x, 0.5, height)).on([step]))
+    line = about_origin(lb.loads.line_load((1e3, 0, 0), (0.1, 0.5), (2.9, 0.5)).on([step]), [step])
+    assert line[[0, 4]] == pytest.approx([2.8e3, 0.9e3 * 3.0 + 1.9e3 * 1.0])

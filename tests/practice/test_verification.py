@@ -1,5 +1,7 @@
 """Verification of a facade of one block by closed forms; spectra; misuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
@@ -224,6 +226,14 @@ def test_loads_that_are_no_weights(facade, answer):
     )
     with pytest.raises(lb.ModelError, match="expected one horizontal direction"):
         verification(tilted, lb.nonassociated(tilted), SITE, q=2.0)
+
+
+@pytest.mark.parametrize("share", [0.5, -1.0])
+def test_a_share_of_the_weights_is_no_acceleration_over_g(facade, share):
+    """Half the weight has twice the load factor, and would have twice the acceleration."""
+    half = replace(facade, live=share * facade.live)
+    with pytest.raises(lb.ModelError, match=f"the weights times {share:g}; expected 1"):
+        verification(half, lb.bounds(half), SITE, q=2.0)
 
 
 @pytest.mark.parametrize(
