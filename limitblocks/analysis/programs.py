@@ -156,7 +156,7 @@ def in_cone(rows: cp.Expression, cones: Cones) -> list[cp.Constraint]:
 def map_in_cone(
     A: sparse.csr_array, v: cp.Variable, cones: Cones, b: Array | None = None
 ) -> list[cp.Constraint]:
-    """`A v + b` in K, zero b left out: rows are taken from the numbers, which cvxpy compiles a third faster."""
+    """`A v + b` in K, b zero if left out: cvxpy compiles rows taken from numbers a third faster."""
 
     def taken(rows: slice | Indices) -> cp.Expression:
         return A[rows] @ v if b is None else A[rows] @ v + b[rows]
