@@ -9,13 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, largest_in_rows, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import Joint, YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
-from limitblocks.problem import Cones, LimitProblem, Mode, Units, power_of_two, tied
+from limitblocks.mechanics.measures import row_units, units_of
+from limitblocks.problem import Cones, LimitProblem, Mode, Units
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def limit_problem(
         If the live load is zero, or neither load has a force to scale with.
     """
     ends, centroids = _ends(free, interfaces), np.stack([block.centroid for block in free])
-    units = _units(free, interfaces, ends, dead, live)
+    units = units_of(free, interfaces, ends, dead, live)
     groups, cones = _grouped(interfaces, units)
     n_stresses = sum(group.column_index.size for group in groups)
     resultants = _blocks(
@@ -75,7 +76,7 @@ def limit_problem(
         friction[group.interfaces] = group.rows.friction
     row_interface.flags.writeable = False
     F = per_row("F")
-    units = replace(units, row=_row_units(F, cones))
+    units = replace(units, row=row_units(F, cones))
     rows = sparse.diags_array(1.0 / units.row)
     return LimitProblem(
         C=(resultants.T @ _compatibility(centroids, interfaces, ends, units)).tocsr(),
@@ -100,50 +101,6 @@ def limit_problem(
     )
 
 
-def _units(
-    free: Sequence[Block], interfaces: Sequence[Interface], ends: Indices, dead: Array, live: Array
-) -> Units:
-    """Every block measured by the loads that may go through it, every interface by its lesser block."""
-    length = power_of_two(np.array([block.size for block in free]) / 2.0)
-
-    def magnitude(load: Array) -> Array:
-        return np.asarray(np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length)
-
-    if not magnitude(live).any():
-        raise ModelError("the live load is zero on every free block, expected a force or moment to multiply")
-    own, push = magnitude(dead), magnitude(live)
-    own = np.where(own > 0.0, own, push * (own.sum() / push.sum() or 1.0))
-    block = power_of_two(carried(own, ends))
-    return Units(
-        block_force=read_only(block),
-        block_length=read_only(length),
-        interface_force=read_only(np.where(ends >= 0, block[ends], np.inf).min(axis=1)),
-        interface_length=read_only(power_of_two(_reaches(interfaces))),
-        live=float(power_of_two((push / block).sum())),
-        row=np.ones(0),
-    )
-
-
-def _reaches(interfaces: Sequence[Interface]) -> Array:
-    """Largest coordinate of each polygon, in size, shape (m,)."""
-    first = np.cumsum([0, *(len(interface.polygon) for interface in interfaces[:-1])])
-    corners = np.concatenate([interface.polygon for interface in interfaces])
-    return np.asarray(np.maximum.reduceat(np.abs(corners).max(axis=1), first))
-
-
-def carried(own: Array, ends: Indices) -> Array:
-    """The most that may go through each block, shape (n,): the largest load of those it is tied to.
-
-    Blocks are tied by chains of interfaces between free blocks. What does go through a block only an analysis
-    can tell; too large a unit of force loses digits that a second solution in its own units finds, too
-    small a one loses all.
-    """
-    part = tied(ends, len(own))
-    largest = np.zeros(len(own))
-    np.maximum.at(largest, part, own)
-    return np.asarray(np.where(largest > 0.0, largest, largest.max())[part])
-
-
 def _modes(rows: YieldRows) -> list[Mode]:
     try:
         return [Mode(mode) for mode in rows.modes]
@@ -157,13 +114,6 @@ def _ends(free: Sequence[Block], interfaces: Sequence[Interface]) -> Indices:
     place = {block.name: k for k, block in enumerate(free)}
     pairs = [(place.get(i.block_i, -1), place.get(i.block_j, -1)) for i in interfaces]
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
-
-
-def _row_units(F: sparse.csr_array, cones: Cones) -> Array:
-    """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
-    largest = np.zeros(cones.degree)
-    np.maximum.at(largest, cones.member, largest_in_rows(F))
-    return read_only(power_of_two(np.where(largest > 0.0, largest, 1.0))[cones.member])
 
 
 def _members(
