@@ -14,6 +14,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import scipy.sparse.linalg  # noqa: F401 - loads every BLAS that the controller is to find
 
+from limitblocks.model import checked_model
+
 P = ParamSpec("P")
 R = TypeVar("R")
 
@@ -33,6 +35,8 @@ def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(analysis)
     def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        if args:
+            checked_model(args[0])
         if not _LIMIT.acquire(blocking=False):  # within another analysis, or beside one
             return analysis(*args, **kwargs)
         try:
