@@ -12,7 +12,7 @@ from typing import Any
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, NoEquilibrium, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
@@ -20,7 +20,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import joint_of
 from limitblocks.model import Model
 from limitblocks.practice.partial_factors import PartialFactors
-from limitblocks.shown import Result
+from limitblocks.shown import Result, many
 
 FRICTION = "friction"
 STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
@@ -133,7 +133,10 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     refuse_kind(factors, PartialFactors, "factors")
     design = design_model(model, factors)
     values = tuple(_values(model, factors))
-    pair = bounds(design)
+    try:
+        pair = bounds(design)
+    except NoEquilibrium as error:
+        raise NoEquilibrium(error.blocks, error.left_out, "with design values the dead loads alone") from None
     result = nonassociated(design) if without_dilatancy else None
     return Adequacy(factors, values, bounds(model), design, pair, result, model.digest)
 
@@ -170,7 +173,7 @@ def _values(model: Model, factors: PartialFactors) -> Iterator[DesignValue]:
     yield DesignValue("Q", "live loads", 1.0, "gamma_Q", factors.gamma_Q, "")
     count = _joints(model)
     for joint, number_of in count.items():
-        where = f"{number_of} of {len(model.interfaces)} interfaces"
+        where = f"{number_of} of {many(len(model.interfaces), 'interface')}"
         if isinstance(joint, Tie | Dowel | Guide):
             continue
         word, divisor = factors.of_friction

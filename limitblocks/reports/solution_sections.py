@@ -16,6 +16,7 @@ from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import some
+from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
 NONASSOCIATED = "joints follow the flow rule stated: a collapse that can happen, not the only one"
@@ -96,7 +97,7 @@ def path_section(model: Model, path: LoadPath) -> Section:
         ),
         headline=end.headline,
         values=(
-            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
+            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {many(len(path.steps), 'step')}"),
             ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
             ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
             *(

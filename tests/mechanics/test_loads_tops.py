@@ -55,6 +55,12 @@ def test_an_edge_belongs_to_the_first_block():
         assert load.any(axis=1).tolist() == [True, False]
 
 
+def test_at_an_edge_the_higher_block_is_on_top_if_only_by_a_little():
+    low, high = SLABS[0], lb.Block.box("beside", (2, 2, 1.001), (1, 0, 0.5005), 1.0)
+    load = lb.loads.top_force(FORCE, (0.0, 0.0)).on([low, high])
+    assert load.any(axis=1).tolist() == [False, True]
+
+
 def test_line_load_is_shared_by_length():
     load = lb.loads.line_load((0, 0, -1e3), (-1.5, 0.1), (1.8, 0.1)).on(SLABS)
     assert load[:, 2] == pytest.approx([-1.5e3, -1.0e3, -0.8e3])
