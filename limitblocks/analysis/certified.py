@@ -24,8 +24,8 @@ from limitblocks.problem.plane import Planar
 
 CLOSE = 1e-8  # width of an interval that needs no polish of states from elsewhere
 MOST = 0.1  # of the strictly admissible state
-ROUNDS = 4  # of taking MORE of it, where the estimate of the least part was short
-MORE = 4.0
+ROUNDS = 7  # of taking MORE of it, where the estimate of the least part was short
+MORE = 2.0
 LEAST = 1e-15
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
