@@ -8,7 +8,7 @@ the two bounds, which agree. Dry stone slides without lifting. The load factor t
 the non-associated analysis: equilibrium, friction and mechanism are put into Eqs (54)-(59) again, and what
 is left of each is printed. It is at most the bound.
 
-The facade of 160 blocks, `lb.structures.facade(joint)`, has the same shape, and takes minutes.
+The facade of 160 blocks, `lb.structures.facade(joint)`, has the same shape, and takes half a minute.
 """
 
 from pathlib import Path

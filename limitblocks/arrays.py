@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy import sparse
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
@@ -16,6 +17,14 @@ def read_only(values: Any) -> Array:
     array = np.array(values, dtype=np.float64)
     array.flags.writeable = False
     return array
+
+
+def largest_in_rows(matrix: sparse.csr_array) -> Array:
+    """Size of the largest entry of each row, zero for none."""
+    largest, filled = np.zeros(matrix.shape[0]), np.flatnonzero(np.diff(matrix.indptr))
+    if len(filled):
+        largest[filled] = np.maximum.reduceat(np.abs(matrix.data), matrix.indptr[filled])
+    return largest
 
 
 def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
@@ -31,7 +40,9 @@ def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     label = np.empty(len(values), dtype=np.int64)
     label[order] = np.concatenate([[0], np.cumsum(new)])[: len(values)]
     first = np.unique(label, return_index=True)[1]
-    odd = ~(np.abs(values - values[first[label]]) <= within).all(axis=1)
+    off = values[first[label]]
+    off -= values
+    odd = ~(np.abs(off, out=off).max(axis=1, initial=0.0) <= within)
     label[odd] = len(first) + np.arange(int(odd.sum()))
     _, first, label = np.unique(label, return_index=True, return_inverse=True)
     return np.asarray(first), np.asarray(label).ravel()

@@ -136,3 +136,14 @@ def near(name: str, known: Iterable[str]) -> str:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+def sequence_of(word: str, given: Any, kind: type) -> tuple[Any, ...]:
+    """Return a sequence of one kind of things as a tuple, or raise ModelError."""
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        raise ModelError(f"{word} is {given!r}, expected a sequence of {kind.__name__}")
+    members = tuple(given)
+    wrong = [one for one in members if not isinstance(one, kind)]
+    if wrong:
+        raise ModelError(f"{word} holds {wrong[0]!r}, expected a sequence of {kind.__name__}")
+    return members

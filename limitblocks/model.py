@@ -13,11 +13,11 @@ from typing import Any
 from weakref import WeakValueDictionary
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, missing
+from limitblocks.errors import ModelError, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.floating import floating
 from limitblocks.joints.base import joint_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
@@ -70,9 +70,13 @@ class Model(Viewed):
     left_out: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "blocks", tuple(self.blocks))
-        object.__setattr__(self, "supports", tuple(self.supports))
-        object.__setattr__(self, "left_out", tuple(self.left_out))
+        for word, kind in {
+            "blocks": Block,
+            "supports": str,
+            "interfaces": Interface,
+            "left_out": str,
+        }.items():
+            object.__setattr__(self, word, sequence_of(word, getattr(self, word), kind))
         problems = _name_problems(self)
         if not problems:
             supports = set(self.supports)
@@ -171,6 +175,14 @@ class Model(Viewed):
         return f"model {self.name!r}: {free}, {supports}, {many(len(self.interfaces), 'interface')}"
 
 
+def checked_model(model: Any) -> Model:
+    """Return `model`, or raise ModelError if it is none but, say, the name of its file."""
+    if isinstance(model, Model):
+        return model
+    how = f"; limitblocks.read({str(model)!r}) reads one" if isinstance(model, str | Path) else ""
+    raise ModelError(f"model is a {type(model).__name__}, expected a Model{how}")
+
+
 def model_of(result: Any, model: Model | None = None) -> Model | None:
     """Return `model`, else the one in memory that `result` belongs to; None where it is gone.
 
@@ -218,24 +230,18 @@ def _name_problems(model: Model) -> list[str]:
 
 def _floating_problems(model: Model) -> list[str]:
     """Free blocks that no chain of interfaces ties to a support."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
-    pairs = np.array([(place[i.block_i], place[i.block_j]) for i in model.interfaces]).reshape(-1, 2)
-    n = len(place)
-    graph = sparse.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(n, n))
-    _, part = sparse.csgraph.connected_components(graph, directed=False)
-    held = {part[place[name]] for name in model.supports}
-    floating = [block.name for block in model.blocks if part[place[block.name]] not in held]
-    if not floating:
-        return []
-    shown = ", ".join(map(repr, floating[:8])) + (
-        f" and {len(floating) - 8} more" if len(floating) > 8 else ""
-    )
-    return [f"floating: no chain of interfaces ties {shown} to a support", *missing(model.left_out)]
+    loose = floating(model.blocks, model.interfaces, model.supports)
+    more = f" and {len(loose) - 8} more" if len(loose) > 8 else ""
+    said = f"floating: no chain of interfaces ties {', '.join(map(repr, loose[:8]))}{more} to a support"
+    return [said, *missing(model.left_out)] if loose else []
 
 
 def _load_problems(model: Model) -> list[str]:
     problems = []
     for word, load in (("dead", model.dead), ("live", model.live)):
+        if not isinstance(load, Load):
+            problems.append(f"{word} is {load!r}, expected a load such as mass_proportional((1, 0, 0))")
+            continue
         try:
             values = load.on(model.free_blocks)
         except ModelError as error:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, Through, find_contacts
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 
 _Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver, Through)
 
@@ -54,7 +54,7 @@ def diagnose(
     ModelError
         A tolerance is out of range.
     """
-    own = model.tolerances
+    own = checked_model(model).tolerances
     if own is not None:
         gap, angle, width = (
             mine if asked is None else asked

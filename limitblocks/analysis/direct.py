@@ -52,6 +52,6 @@ def solution(program: Conic, settings: Mapping[str, object]) -> clarabel.Default
             setattr(options, name, value)
     cones = [clarabel.ZeroConeT(len(program.b) - K.height)]
     cones += [clarabel.NonnegativeConeT(K.linear)] * (K.linear > 0)
-    cones += [clarabel.SecondOrderConeT(size) for count, size in K.second_order for _ in range(count)]
+    cones += [cone for count, size in K.second_order for cone in [clarabel.SecondOrderConeT(size)] * count]
     nothing, A = sparse.csc_matrix((n, n)), sparse.csc_matrix(program.A)
     return clarabel.DefaultSolver(nothing, program.c, A, program.b, cones, options).solve()

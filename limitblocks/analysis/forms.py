@@ -16,7 +16,7 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.programs import Program, in_cone
+from limitblocks.analysis.programs import Program, map_in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, State
@@ -47,8 +47,8 @@ class Stresses:
         v = cp.Variable(1 + p.C.shape[0])
         live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
         balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
-        rows = sparse.csr_array(sparse.hstack([nothing, p.F])) @ v + p.g
-        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *in_cone(rows, p.cones)]), (v,))
+        inside = map_in_cone(sparse.csr_array(sparse.hstack([nothing, p.F])), v, p.cones, p.g)
+        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -92,7 +92,7 @@ class Rates:
     def limit(self) -> Program:
         """Least load factor over all mechanisms. Variable: u."""
         p, u = self.problem, cp.Variable(self.B.shape[1])
-        constraints = [p.live @ u == 1, *in_cone(self.B @ u, self.cones)]
+        constraints = [p.live @ u == 1, *map_in_cone(self.B, u, self.cones)]
         return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
     def limit_state(self, u: Array, w: Array) -> State:
@@ -148,7 +148,7 @@ def without_multipliers(problem: Scaled) -> Rates | None:
     head = heads[stress[:linear]]
     implied = (head >= 0) & (F.data[:linear] * F.data[head] > 0.0)
     kept = np.append(np.flatnonzero(~implied), np.arange(linear, F.shape[0]))
-    if len(kept) != F.shape[1] or len(np.unique(stress[kept])) != len(kept):
+    if (np.bincount(stress[kept], minlength=F.shape[1]) != 1).any():
         return None
     return Rates(problem, kept, np.flatnonzero(implied), head[implied])
 

@@ -33,8 +33,8 @@ class InterfaceBlocks:
 
     def inverse(self, matrix: Any) -> sparse.csr_array:
         """Return the inverse of a sparse matrix of this pattern; LinAlgError if a block is singular."""
-        entries, blocks = sparse.coo_array(matrix), self.padding.copy()
+        entries, blocks = sparse.csr_array(matrix).tocoo(), self.padding.copy()
         rows, columns = entries.coords
-        np.add.at(blocks, (self.interface[rows], self.place[rows], self.place[columns]), entries.data)
+        blocks[self.interface[rows], self.place[rows], self.place[columns]] += entries.data
         inverse = np.linalg.inv(blocks)[self.inside]
         return sparse.coo_array((inverse, self.entries), shape=matrix.shape).tocsr()

@@ -15,6 +15,8 @@ _STEEP = 3.0
 _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
 #: Unit weights, N/m3, below which they may be in kN/m3, or densities in kg/m3: cork has 1200, pumice 5000.
 _KILO, _DENSITY = 5e2, 5e3
+#: Unit weight, N/m3, and strength, Pa, that no material has: platinum weighs 2.1e5, diamond bears 1e11.
+_HEAVY, _STRONG = 2.2e5, 1e12
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
 _LARGE, _SMALL = 3e2, 5e-2
 
@@ -47,6 +49,8 @@ def _of_joint(joint: Any) -> Iterator[str]:
         value = getattr(joint, name, None)
         if value and value < least:
             yield f"{name.replace('_', ' ')} is {value:g} Pa: MPa? {value:g} MPa = {1e6 * value:g} Pa"
+        if value and _STRONG < value < np.inf:
+            yield f"{name.replace('_', ' ')} is {value:g} Pa, more than any material bears: in Pa? see units"
 
 
 def _of_weight(weight: float) -> list[str]:
@@ -54,4 +58,6 @@ def _of_weight(weight: float) -> list[str]:
         return [f"unit weight is {weight:g} N/m3: kN/m3? {weight:g} kN/m3 = {1e3 * weight:g} N/m3"]
     if weight < _DENSITY:
         return [f"unit weight is {weight:g} N/m3: kg/m3? {weight:g} kg/m3 weigh {9.81 * weight:.4g} N/m3"]
+    if weight > _HEAVY:
+        return [f"unit weight is {weight:g} N/m3, more than any material weighs: in N/m3? see units"]
     return []

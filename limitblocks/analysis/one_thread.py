@@ -1,18 +1,25 @@
 """Analyses in one thread of the linear algebra: their products are too small for several to pay.
 
 Threads of BLAS that wait for work spin meanwhile, and the sums they form differ in the last digits.
+Their number is most often one for the whole process, so that one analysis at a time changes it and sets
+it back, in its own thread: of two that overlap, each would save what the other has set.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache, wraps
+from threading import Lock
 from typing import Any, ParamSpec, TypeVar
 
 import scipy.sparse.linalg  # noqa: F401 - loads every BLAS that the controller is to find
 
+from limitblocks.model import checked_model
+
 P = ParamSpec("P")
 R = TypeVar("R")
+
+_LIMIT = Lock()  # of the process: held by the analysis that has set the number of threads
 
 
 @lru_cache(maxsize=1)
@@ -28,7 +35,14 @@ def one_thread(analysis: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(analysis)
     def alone(*args: P.args, **kwargs: P.kwargs) -> R:
-        with _controller().limit(limits=1, user_api="blas"):
+        if args:
+            checked_model(args[0])
+        if not _LIMIT.acquire(blocking=False):  # within another analysis, or beside one
             return analysis(*args, **kwargs)
+        try:
+            with _controller().limit(limits=1, user_api="blas"):
+                return analysis(*args, **kwargs)
+        finally:
+            _LIMIT.release()
 
     return alone

@@ -29,8 +29,7 @@ from limitblocks.problem import Flow, State
 PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LARGEST = 400  # pairs that are not plain
 WIDENED = 6  # times that rows join in a step
-VIOLATED = 1e-9  # of the largest slack
-PLAIN = 1e-2  # residual below which Newton's method is tried
+VIOLATED = 0.1 * TOLERANCE  # of the largest slack
 
 Mask = npt.NDArray[np.bool_]
 
@@ -58,7 +57,7 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: 
         if found is None:
             break
         now = found
-        near = polish(flow, now, patience=2) if defect(flow, now) < PLAIN else now
+        near = polish(flow, now, patience=2)
         if defect(flow, near) < least:
             best, least = near, defect(flow, near)
     return best

@@ -17,7 +17,7 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, largest_in_rows
 from limitblocks.evidence.measure import ROUNDING, Measure
 from limitblocks.problem import Cones, LimitProblem, State, power_of_two
 
@@ -59,8 +59,7 @@ class Scaled:
         """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
         p = self.problem
         largest = np.zeros(p.cones.degree)
-        entries = abs(p.F @ sparse.diags_array(self.stress)).max(axis=1).toarray().ravel()
-        np.maximum.at(largest, p.cones.member, entries)
+        np.maximum.at(largest, p.cones.member, largest_in_rows(p.F @ sparse.diags_array(self.stress)))
         return unit(largest)[p.cones.member]
 
     @cached_property

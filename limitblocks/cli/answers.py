@@ -63,7 +63,7 @@ def answer(
     solved; its motion goes to `animation`.
     After Ctrl-C what there is until then is written, and the exit code is 130.
     """
-    from limitblocks.io import read, write_result
+    from limitblocks.io import write_result
 
     as_json, output, force, filed = kept
     refuse_existing(output, force, file)
@@ -76,7 +76,7 @@ def answer(
         from limitblocks.io.formats.gltf.writer import animation_path
 
         refuse_existing(animation_path(animation), force, file, option="--animation")
-    model = read(file)
+    model = questioned(file)
     try:
         with interrupts() as stopped:
             result = solve(model, **settings)
@@ -102,6 +102,17 @@ def answer(
     if stopped:
         raise typer.Exit(INTERRUPTED)
     return result
+
+
+def questioned(file: Path) -> Model:
+    """Return the model in a file, and ask on stderr about numbers that are hardly meant."""
+    from limitblocks.analysis.magnitudes import questions
+    from limitblocks.io import read
+
+    model = read(file)
+    for question in questions(model):
+        typer.echo(f"warning: {question}", err=True)
+    return model
 
 
 def show(model: Model, result: Any, as_json: bool) -> None:

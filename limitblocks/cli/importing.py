@@ -18,6 +18,7 @@ from limitblocks.cli.options import (
     Live,
     MaterialsFile,
     Supports,
+    Thickness,
     TwistedFaces,
     Units,
     UnitWeights,
@@ -34,9 +35,6 @@ if TYPE_CHECKING:
 
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", metavar="MODEL", help="Model file [default: beside FILE].")
-]
-Thickness = Annotated[
-    float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
 ]
 Gap = Annotated[
     float | None,
@@ -89,6 +87,7 @@ def import_blocks(
         from limitblocks.io.formats.dxf.elevation import read_drawing
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics.loads import mass_proportional
+        from limitblocks.reports.words import together
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
@@ -129,7 +128,7 @@ def import_blocks(
             ("note", notes),
             ("warning", (*imported.guesses, *vain, *contacts.warnings, *questions(model))),
         ):
-            for line in lines:
+            for line in together(lines):
                 typer.echo(f"{word}: {line}", err=True)
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import typer
 
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import AsJson, BlocksFile, TwistedFaces, Units, Up
+from limitblocks.cli.options import AsJson, BlocksFile, Thickness, TwistedFaces, Units, Up
 
 if TYPE_CHECKING:
     from limitblocks.geometry.twisted import Twisted
@@ -21,6 +21,7 @@ _MOST_ROWS = 24
 def look(
     file: BlocksFile,
     units: Units = None,
+    thickness: Thickness = None,
     up: Up = None,
     twisted: TwistedFaces = None,
     as_json: AsJson = False,
@@ -29,8 +30,9 @@ def look(
     with clean_errors():
         from limitblocks.io.look import look as looked
         from limitblocks.reports.terminal import print_table, print_warnings
+        from limitblocks.reports.words import together
 
-        seen = looked(file, units=units, up=up, twisted=cast("Twisted | None", twisted))
+        seen = looked(file, units=units, up=up, twisted=cast("Twisted | None", twisted), thickness=thickness)
         if as_json:
             typer.echo(json.dumps(seen.to_dict()))
             return
@@ -41,10 +43,10 @@ def look(
         print_table(f"\nBlocks (m, m³){more}", _heads(seen), [_row(seen, block) for block in shown])
         if seen.faults:
             print_table(f"\nNo blocks ({len(seen.faults)})", (), [("-", fault) for fault in seen.faults])
-        for note in seen.notes:
+        for note in together(seen.notes):
             typer.echo(f"note: {note}")
         print_warnings(seen.warnings)
-        typer.echo(f"\nNext: {_next(seen, units, up, twisted)}")
+        typer.echo(f"\nNext: {_next(seen, units, up, twisted, thickness)}")
 
 
 def _rows(seen: Look) -> list[tuple[str, str]]:
@@ -84,7 +86,7 @@ def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
     return block.name, *words, size, f"{block.volume:.3g}", f"{block.bottom:.4g}", f"{block.top:.4g}"
 
 
-def _next(seen: Look, units: str | None, up: str | None, twisted: str | None) -> str:
+def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, thickness: float | None) -> str:
     """Return the command that makes a model of the file, with numbers to be put right by the user."""
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
@@ -93,6 +95,7 @@ def _next(seen: Look, units: str | None, up: str | None, twisted: str | None) ->
         stated, _, source = known.partition(", ")
         words += [option, stated.lower()] if given or source.startswith("guessed") else []
     words += ["--twisted", twisted] if twisted else []
+    words += ["--thickness", f"{thickness:g}"] if thickness else []
     words += ["--skip-bad"] if seen.faults else []
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)

@@ -107,6 +107,9 @@ Units = Annotated[
 Up = Annotated[
     str | None, typer.Option(help="Axis of FILE that points up: y or z [default: as FILE says, or z].")
 ]
+Thickness = Annotated[
+    float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
+]
 Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
 Workers = Annotated[
     int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)

@@ -18,6 +18,7 @@ from limitblocks.drawing.ties import moved, tie_lines
 from limitblocks.drawing.view import towards, view_of
 from limitblocks.geometry import polyhedron
 from limitblocks.model import Model
+from limitblocks.shown import many
 
 MARGIN = 12.0  # user units
 MOST_GHOSTS = 500  # more moving blocks, and only the outline around them shows where they were
@@ -76,7 +77,8 @@ class Picture:
     def summary(self) -> str:
         """What is seen, in a sentence."""
         count = sum(block.kind == "moving" for block in self.blocks)
-        return f"{count} of {len(self.blocks)} blocks move, {self.largest} most."
+        moving = f"{count} of {many(len(self.blocks), 'block')} {'moves' if count == 1 else 'move'}"
+        return f"{moving}, {self.largest} most."
 
     def sheet(self, title: str) -> Sheet:
         """Return the drawing with the axes below it."""

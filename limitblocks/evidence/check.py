@@ -25,7 +25,7 @@ from limitblocks.evidence.residuals import (
     static_residuals,
 )
 from limitblocks.evidence.standing import standing_state
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.problem import Flow, LimitProblem, State, turning_of
 from limitblocks.shown import Result
 
@@ -141,8 +141,7 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward
         If the claim belongs to another model, an array has the wrong shape or is not real and finite, or the
         tolerance is out of range.
     """
-    if not isinstance(model, Model):
-        raise ModelError(f"model is a {type(model).__name__}, expected a Model and then its result")
+    checked_model(model)
     least = real_number("tolerance", tolerance)
     if not least > 0.0:
         raise ModelError(f"tolerance is {tolerance!r}, expected a number above 0, such as {TOLERANCE:g}")
@@ -174,7 +173,7 @@ def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:
     dead = claim.dead_load_stresses
     proof = proof_of(problem, problem.in_si(state), state.x * problem.stress_units if dead is None else dead)
     beyond = max(claim.load_factor - proof.lower, proof.upper - upper)
-    said = proof.static or proof.kinematic or f"proven are {proof.lower!r} and {proof.upper!r}"
+    said = proof.static or proof.kinematic or f"proven are {proof.lower:.17g} and {proof.upper:.17g}"
     proven = Residual("proof", np.inf if beyond > 0.0 else 0.0, f"bounds that are theorems; {said}")
     return Residuals((*judged.entries, proven))
 

@@ -16,7 +16,7 @@ from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.problem import LimitProblem, Mode
 from limitblocks.shown import Tabular, many
 
@@ -132,7 +132,7 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     LimitBlocksError
         If the result has no stress state and mechanism, or belongs to another model.
     """
-    collapse = collapse_of(model, result)
+    collapse = collapse_of(checked_model(model), result)
     problem = model.problem
     axes = np.stack([interface.axes for interface in model.interfaces])
     centroid = np.stack([interface.centroid for interface in model.interfaces])

@@ -20,6 +20,7 @@ from limitblocks.arrays import Array, Indices, same_rows
 from limitblocks.evidence.rounding import EPS, UP, Products, products, size_of
 from limitblocks.evidence.spanning_tree import Tree
 from limitblocks.problem import LimitProblem
+from limitblocks.problem.cones import lengths
 
 POOREST = 1e-3  # error of a right inverse beyond which nothing is claimed of it
 
@@ -66,8 +67,9 @@ class Static:
         places, right, share, ways = self._ways
         force = size_of(unbalanced)
         for block, behind, transfer in ways:
-            np.add.at(force, behind, np.einsum("kij,kj->ki", transfer, force[block]))
-            force *= UP
+            there = (6 * behind[:, None] + np.arange(6)).ravel()
+            more = np.einsum("kij,kj->ki", transfer, force[block]).ravel()
+            force = (force + np.bincount(there, more, force.size).reshape(force.shape)) * UP
         change = np.zeros(self.problem.C.shape[0] + 1)
         change[places] = np.einsum("kij,kj->ki", np.abs(right), _exactly(force, share)) * UP
         if (force[~np.isfinite(share)] > 0.0).any():  # it cannot be carried, nor what it puts on others
@@ -140,14 +142,14 @@ class Kinematic:
         rows, row = _places(p.row_interface, m)
         columns, column = _places(p.stress_interface, m)
         F = p.F.tocoo()
-        shapes = np.stack([(rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)], axis=1)
-        for r, c in np.unique(shapes, axis=0):
-            these = np.flatnonzero((shapes == (r, c)).all(axis=1))
+        tall, wide = (rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)
+        for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
+            these = np.flatnonzero((tall == r) & (wide == c))
             index = np.full(m, -1)
             index[these] = np.arange(len(these))
-            k = index[p.row_interface[F.row]]
-            matrix = np.zeros((len(these), c, r))
-            matrix[k[k >= 0], column[F.col[k >= 0]], row[F.row[k >= 0]]] = F.data[k >= 0]
+            its = np.flatnonzero(index[p.row_interface[F.row]] >= 0)
+            i, j, matrix = F.row[its], F.col[its], np.zeros((len(these), c, r))
+            matrix[index[p.row_interface[i]], column[j], row[i]] = F.data[its]
             first, kind = same_rows(matrix.reshape(len(these), -1))
             parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix[first])))
         return parts
@@ -207,8 +209,8 @@ def _in_cones(problem: LimitProblem, rows: Array, reach: Array) -> tuple[Array, 
     cones = problem.cones
     need, room = [reach[: cones.linear]], [rows[: cones.linear]]
     for index in cones.groups:
-        t, norm = rows[index[:, 0]], np.linalg.norm(rows[index[:, 1:]], axis=1)
-        moved = reach[index[:, 0]] + np.linalg.norm(reach[index[:, 1:]], axis=1)
+        t, norm = rows[index[:, 0]], lengths(rows[index[:, 1:]])
+        moved = reach[index[:, 0]] + lengths(reach[index[:, 1:]])
         rounding = np.where(norm > 0.0, EPS * (np.abs(t) + (index.shape[1] + 4) * norm), 0.0)
         need.append((moved + rounding) * UP)
         room.append(t - norm)

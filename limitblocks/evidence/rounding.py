@@ -18,7 +18,7 @@ from limitblocks.arrays import Array
 
 EPS = float(np.finfo(float).eps)  # twice the unit roundoff: pays for the sums beside the products
 TINY = float(np.finfo(float).tiny)
-LEAST = 1e-150
+LEAST = 1e-150  # its square is no underflow
 UP = 1.0 + 2.0**-30  # pays for a million roundings of a sum of nonnegative numbers
 
 

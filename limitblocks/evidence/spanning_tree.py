@@ -46,7 +46,8 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     length = 1.0 / np.clip(share, LEAST, 1.0)
     order = np.argsort(length, kind="stable")
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
-    best = order[np.unique(pairs[order], axis=0, return_index=True)[1]]  # of several between two blocks
+    between = pairs[:, 0] * (n + 1) + pairs[:, 1]
+    best = order[np.unique(between[order], return_index=True)[1]]  # of several between two blocks
     i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
     graph = sparse.coo_array((length[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
     distances, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)

@@ -10,7 +10,7 @@ from limitblocks.errors import GeometryError
 from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
 from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.interface import Interface
-from limitblocks.shown import Shown
+from limitblocks.shown import Shown, many
 
 _SHOWN = 8
 _DEFAULT = Tolerances()
@@ -124,11 +124,23 @@ class Contacts(Shown):
         lines += [f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps[:_SHOWN]]
         if len(self.overlaps) > _SHOWN:
             lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")
-        lines += self._line("no interface between blocks that nearly touch", self.near_misses)
+        lines += self._line("no interface between blocks that nearly touch", self._near_pairs)
         lines += self._line("blocks without any interface", self.isolated)
         lines += self._line("contacts left out because they are too small", self.slivers)
         lines += self._line("strips left out because they are too narrow", self.strips)
         return lines + self._line("no contact where a third block lies between", self.through)
+
+    @property
+    def _near_pairs(self) -> list[str]:
+        """The largest near miss of each pair of blocks, with the number of the others."""
+        pairs: dict[tuple[str, str], list[NearMiss]] = {}
+        for one in self.near_misses:
+            pairs.setdefault((one.block_i, one.block_j), []).append(one)
+        return [
+            f"{max(faces, key=lambda one: one.area)}"
+            + (f" and {many(len(faces) - 1, 'more face')}" if len(faces) > 1 else "")
+            for faces in pairs.values()
+        ]
 
     @staticmethod
     def _line(words: str, things: Sequence[object]) -> list[str]:

@@ -9,6 +9,7 @@ from fnmatch import fnmatchcase
 
 from limitblocks.errors import ModelError, near
 from limitblocks.geometry.block import Block
+from limitblocks.shown import many
 
 Selection = str | Iterable[str] | Callable[[Block], bool]
 
@@ -42,7 +43,7 @@ def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") 
     if callable(wanted):
         picked = {block.name for block in blocks if wanted(block)}
         if not picked:
-            raise ModelError(f"{word}: the function is true for none of {len(blocks)} blocks")
+            raise ModelError(f"{word}: the function is true for none of {many(len(blocks), 'block')}")
     else:
         texts = [wanted] if isinstance(wanted, str) else list(wanted)
         picked, wrong = set[str](), list[str]()

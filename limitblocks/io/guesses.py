@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array
+from limitblocks.shown import many
 
 #: Words for blocks that do not move, in names and layers of the programs and languages of this field.
 SUPPORT_WORDS = re.compile(
@@ -82,12 +83,12 @@ def tilted(boxes: Boxes, up: str) -> str:
     n = len(boxes.low)
     if ground >= _HALF and ground_b <= ground / 2.0 and carried_b >= _HALF:
         return (
-            f"{round(ground * n)} of {n} blocks would lie on the ground with {this} up, "
+            f"{round(ground * n)} of {many(n, 'block')} would lie on the ground with {this} up, "
             f"{round(ground_b * n)} with {other} up"
         )
     if carried <= _MOST and ground_b <= _HALF and carried_b >= _ALL:
         return (
-            f"{round((1.0 - carried) * n)} of {n} blocks would have nothing below them with {this} up, "
+            f"{round((1.0 - carried) * n)} of {many(n, 'block')} would have nothing below with {this} up, "
             f"{round((1.0 - carried_b) * n)} with {other} up"
         )
     return ""

@@ -16,6 +16,7 @@ from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import contents_of, is_model_file
+from limitblocks.io.formats.dxf.elevation import elevation
 from limitblocks.io.imported import blocks_of
 from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
@@ -127,7 +128,12 @@ class Look:
 
 
 def look(
-    file: str | Path, *, units: str | None = None, up: str | None = None, twisted: Twisted | None = None
+    file: str | Path,
+    *,
+    units: str | None = None,
+    up: str | None = None,
+    twisted: Twisted | None = None,
+    thickness: float | None = None,
 ) -> Look:
     """Return what is in `file`, of any format in docs/files.md, before anything else is known.
 
@@ -137,6 +143,8 @@ def look(
         The suffix of its name says the format.
     units, up, twisted : str, optional
         As for :func:`limitblocks.read`.
+    thickness : float, optional
+        As for :func:`limitblocks.files.read_drawing`, of a DXF elevation, m.
 
     Raises
     ------
@@ -147,20 +155,20 @@ def look(
     """
     path = Path(file)
     if is_model_file(path):
-        if units or up or twisted:
+        if units or up or twisted or thickness:
             raise ModelError(f"{path}: a model file says units, axes and faces itself; leave these out")
         model = model_file.read(path)
         own = "m, as limitblocks reads model files", "Z, as in every model file"
         return _look(path, "limitblocks model", model.blocks, *own, marked=tuple(model.supports))
     with faults.named(path):
-        contents = contents_of(path)
+        contents = contents_of(path) if thickness is None else elevation(path, thickness, units)
         where = frame(contents, units, up)
         made = blocks_of(contents, where, twisted)
         if not made.blocks and made.wrong:
             raise refused(made.wrong, 0, made.twisted)
         return _look(
             path,
-            _FORMATS[path.suffix.lower()],
+            _FORMATS[path.suffix.lower()] if thickness is None else "DXF elevation",
             made.blocks,
             _units(contents, where, units),
             _up(contents, where, up),

@@ -16,6 +16,7 @@ from limitblocks.geometry.mend import TwistedFaces, mended
 from limitblocks.geometry.twisted import Twisted, rounding
 from limitblocks.io.colours import known
 from limitblocks.io.solid import WORDS, Solid
+from limitblocks.shown import many
 
 #: Distance of a corner from its plane over the accuracy that faces which touch show: as for healing.
 _TWIST = 4.0
@@ -96,7 +97,7 @@ def refused(wrong: Mapping[str, Sequence[str]], good: int, twisted: int = 0) -> 
     The first line says what to do: about twisted faces where these are what is wrong with most.
     """
     lines = [line for problems in wrong.values() for line in problems]
-    bad = f"{len(wrong)} of {good + len(wrong)} blocks are bad"
+    bad = f"{len(wrong)} of {many(good + len(wrong), 'block')} {'is' if len(wrong) == 1 else 'are'} bad"
     skip = "--skip-bad (skip_bad=True) leaves"
     if 2 * twisted > len(wrong) and good + len(wrong) > 1:
         most = f"{twisted} of them " * (twisted < len(wrong))

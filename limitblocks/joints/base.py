@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
@@ -114,14 +115,14 @@ def stress_words(stress: float) -> str:
 
 def checked_friction(friction: float) -> float:
     """Return `friction` as a float if it is a finite number >= 0, else raise ModelError."""
-    if not (np.isfinite(friction) and friction >= 0.0):
+    if not (isinstance(friction, Real) and 0.0 <= friction < np.inf):
         raise ModelError(f"friction is {friction!r}, expected a finite coefficient >= 0")
     return float(friction)
 
 
 def checked_stress(word: str, stress: float, positive: bool = False) -> None:
     """Raise ModelError unless `stress`, Pa, is a finite number >= 0, or > 0 if it must be `positive`."""
-    if not (np.isfinite(stress) and (stress > 0.0 if positive else stress >= 0.0)):
+    if not (isinstance(stress, Real) and np.isfinite(stress) and stress >= 0.0) or (positive and not stress):
         least = "> 0; None stands for no limit" if positive else ">= 0"
         raise ModelError(f"{word} is {stress!r} Pa, expected a finite stress {least}")
 

@@ -94,7 +94,8 @@ class Materials:
         bare = [block for block in blocks if block.name not in owner]
         if bare:
             raise ModelError(
-                f"{many(len(bare), 'block')} of no material of the table; among them {listed(bare)}",
+                f"{many(len(bare), 'block')} {'has' if len(bare) == 1 else 'have'} no material of the table; "
+                f"among them {listed(bare)}",
                 *warnings,
             )
         self._refuse_two_weights(blocks, owner)

@@ -13,9 +13,10 @@ from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface
 from limitblocks.geometry.polygon import areas, second_moments
-from limitblocks.joints.base import YieldRows, joint_of
+from limitblocks.joints.base import Joint, YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
-from limitblocks.problem import Cones, LimitProblem, Mode, Units, power_of_two, tied
+from limitblocks.mechanics.measures import row_units, units_of
+from limitblocks.problem import Cones, LimitProblem, Mode, Units
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,8 @@ def limit_problem(
     ModelError
         If the live load is zero, or neither load has a force to scale with.
     """
-    units = _units(free, interfaces, dead, live)
+    ends, centroids = _ends(free, interfaces), np.stack([block.centroid for block in free])
+    units = units_of(free, interfaces, ends, dead, live)
     groups, cones = _grouped(interfaces, units)
     n_stresses = sum(group.column_index.size for group in groups)
     resultants = _blocks(
@@ -74,11 +76,10 @@ def limit_problem(
         friction[group.interfaces] = group.rows.friction
     row_interface.flags.writeable = False
     F = per_row("F")
-    units = replace(units, row=_row_units(F, cones))
+    units = replace(units, row=row_units(F, cones))
     rows = sparse.diags_array(1.0 / units.row)
-    ends = _ends(free, interfaces)
     return LimitProblem(
-        C=(resultants.T @ _compatibility(free, interfaces, ends, units)).tocsr(),
+        C=(resultants.T @ _compatibility(centroids, interfaces, ends, units)).tocsr(),
         dead=read_only(dead.ravel() / units.loads),
         live=read_only(live.ravel() / (units.loads * units.live)),
         F=sparse.csr_array(rows @ F),
@@ -96,44 +97,8 @@ def limit_problem(
         units=units,
         blocks=tuple(block.name for block in free),
         interfaces=tuple(interface.name for interface in interfaces),
-        centroids=read_only(np.stack([block.centroid for block in free])),
+        centroids=read_only(centroids),
     )
-
-
-def _units(free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, live: Array) -> Units:
-    """Every block measured by the loads that may go through it, every interface by its lesser block."""
-    length = power_of_two(np.array([block.size for block in free]) / 2.0)
-
-    def magnitude(load: Array) -> Array:
-        return np.asarray(np.linalg.norm(load[:, :3], axis=1) + np.linalg.norm(load[:, 3:], axis=1) / length)
-
-    if not magnitude(live).any():
-        raise ModelError("the live load is zero on every free block, expected a force or moment to multiply")
-    own, push = magnitude(dead), magnitude(live)
-    own = np.where(own > 0.0, own, push * (own.sum() / push.sum() or 1.0))
-    ends = _ends(free, interfaces)
-    block = power_of_two(carried(own, ends))
-    return Units(
-        block_force=read_only(block),
-        block_length=read_only(length),
-        interface_force=read_only(np.where(ends >= 0, block[ends], np.inf).min(axis=1)),
-        interface_length=read_only(power_of_two(np.array([np.abs(i.polygon).max() for i in interfaces]))),
-        live=float(power_of_two((push / block).sum())),
-        row=np.ones(0),
-    )
-
-
-def carried(own: Array, ends: Indices) -> Array:
-    """The most that may go through each block, shape (n,): the largest load of those it is tied to.
-
-    Blocks are tied by chains of interfaces between free blocks. What does go through a block only an analysis
-    can tell; too large a unit of force loses digits that a second solution in its own units finds, too
-    small a one loses all.
-    """
-    part = tied(ends, len(own))
-    largest = np.zeros(len(own))
-    np.maximum.at(largest, part, own)
-    return np.asarray(np.where(largest > 0.0, largest, largest.max())[part])
 
 
 def _modes(rows: YieldRows) -> list[Mode]:
@@ -151,21 +116,25 @@ def _ends(free: Sequence[Block], interfaces: Sequence[Interface]) -> Indices:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def _row_units(F: sparse.csr_array, cones: Cones) -> Array:
-    """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
-    largest = np.zeros(cones.degree)
-    np.maximum.at(largest, cones.member, abs(F).max(axis=1).toarray().ravel())
-    return read_only(power_of_two(np.where(largest > 0.0, largest, 1.0))[cones.member])
+def _members(
+    interfaces: Sequence[Interface], units: Units
+) -> dict[tuple[Joint, int, float, float], list[int]]:
+    """Places of the interfaces of one joint, number of corners, unit of force and unit of length."""
+    number: dict[Joint, int] = {}  # equal joints are one: hashed once each, not for every interface
+    kinds = {id(interface.joint): interface for interface in interfaces}
+    joint = {own: number.setdefault(joint_of(interface), len(number)) for own, interface in kinds.items()}
+    scales = zip(units.interface_force.tolist(), units.interface_length.tolist(), strict=True)
+    members = defaultdict(list)
+    for k, (interface, scale) in enumerate(zip(interfaces, scales, strict=True)):
+        members[joint[id(interface.joint)], len(interface.polygon), *scale].append(k)
+    joints = list(number)
+    return {(joints[own], *rest): places for (own, *rest), places in members.items()}
 
 
 def _grouped(interfaces: Sequence[Interface], units: Units) -> tuple[list[_Group], Cones]:
     """Ask each joint for its rows, and order all rows: linear ones first, then cones by size."""
-    members = defaultdict(list)
-    for k, interface in enumerate(interfaces):
-        scale = float(units.interface_force[k]), float(units.interface_length[k])
-        members[joint_of(interface), len(interface.polygon), *scale].append(k)
     asked = []
-    for (joint, _, force, length), places in members.items():
+    for (joint, _, force, length), places in _members(interfaces, units).items():
         polygons = np.stack([interfaces[k].polygon for k in places]) / length
         asked.append((np.array(places), joint.yield_rows(polygons, force / length**2)))
     linear = sum(rows.linear * len(own) for own, rows in asked)
@@ -207,15 +176,14 @@ def _blocks(parts: list[tuple[Array, Indices, Indices]], shape: tuple[int, int])
 
 
 def _compatibility(
-    free: Sequence[Block], interfaces: Sequence[Interface], ends: Indices, units: Units
+    centroids: Array, interfaces: Sequence[Interface], ends: Indices, units: Units
 ) -> sparse.csr_array:
     """Compatibility matrix of the paper, rows in stress resultants, in the units of both."""
     at = np.stack([interface.centroid for interface in interfaces])
-    centroids = np.stack([block.centroid for block in free])
     axes = np.stack([interface.axes for interface in interfaces])
     block_i, block_j = ends.T
     C = compatibility_matrix(
-        axes, at - centroids[block_i], at - centroids[block_j], block_i, block_j, len(free)
+        axes, at - centroids[block_i], at - centroids[block_j], block_i, block_j, len(centroids)
     )
     return sparse.csr_array(sparse.diags_array(units.resultants) @ C @ sparse.diags_array(1.0 / units.loads))
 

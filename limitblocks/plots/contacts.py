@@ -31,6 +31,7 @@ from limitblocks.plots.style import (
     in_newtons,
 )
 from limitblocks.plots.views import canvas
+from limitblocks.shown import many
 
 LONGEST = 0.15  # arrow of the largest force, over the diagonal of the structure
 SHORTEST = 1e-2  # of the largest force: less is not drawn
@@ -142,7 +143,7 @@ def chain(model: Model) -> list[int]:
     """Positions of the interfaces in the order of a chain of blocks; ModelError if they are none."""
     if block := crowded(model):
         raise ModelError(
-            f"block {block[0]!r} has {block[1]} interfaces; "
+            f"block {block[0]!r} has {many(block[1], 'interface')}; "
             "a line of thrust needs a chain of blocks, at most two each"
         )
     lines = chains(model)

@@ -20,7 +20,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import joint_of
 from limitblocks.model import Model
 from limitblocks.practice.partial_factors import PartialFactors
-from limitblocks.shown import Result
+from limitblocks.shown import Result, many
 
 FRICTION = "friction"
 STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
@@ -170,7 +170,7 @@ def _values(model: Model, factors: PartialFactors) -> Iterator[DesignValue]:
     yield DesignValue("Q", "live loads", 1.0, "gamma_Q", factors.gamma_Q, "")
     count = _joints(model)
     for joint, number_of in count.items():
-        where = f"{number_of} of {len(model.interfaces)} interfaces"
+        where = f"{number_of} of {many(len(model.interfaces), 'interface')}"
         if isinstance(joint, Tie | Dowel | Guide):
             continue
         word, divisor = factors.of_friction

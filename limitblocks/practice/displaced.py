@@ -17,6 +17,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
 from limitblocks.mechanics.loads.load import Term
 from limitblocks.model import Model
+from limitblocks.practice.elements import Element
 from limitblocks.practice.resting import half_way, resting_axes
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
@@ -119,7 +120,8 @@ def contact(own: Interface, place: dict[str, int]) -> Contact:
 def moved(assembly: Assembly, displacements: Array) -> Assembly:
     """Return the structure after screws (n, 6) about the centroids: exact where their axes stay.
 
-    Loads keep their directions; added masses and point forces move with their blocks.
+    Loads keep their directions; added masses and point forces move with their blocks. The prestress of a tie
+    stays on its line.
     """
     model = assembly.model
     centres = np.stack([block.centroid for block in model.blocks])
@@ -145,11 +147,18 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
         )
         contacts.append(replace(turned, interface=placed(turned, blocks)))
     place = {block.name: k for k, block in enumerate(model.blocks)}
+    pulls = {
+        term: after
+        for old, new in zip(assembly.contacts, contacts, strict=True)
+        for term, after in zip(*(_prestress(one, model) for one in (old, new)), strict=True)
+    }
 
     def carried(load: Load) -> Load:
         terms: list[tuple[float, Term]] = []
         for factor, term in load.terms:
-            if isinstance(term, AddedMass | PointForce):
+            if term in pulls:
+                terms.append((factor, pulls[term]))
+            elif isinstance(term, AddedMass | PointForce):
                 x, y, z = at(place[term.block], np.array(term.at)).tolist()
                 terms.append((factor, replace(term, at=(x, y, z))))
             else:
@@ -160,6 +169,12 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
     dead, live = carried(model.dead), carried(model.live)
     now = replace(model, blocks=blocks, interfaces=interfaces, dead=dead, live=live)
     return Assembly(now, tuple(contacts))
+
+
+def _prestress(own: Contact, model: Model) -> list[Term]:
+    """Forces of the prestress of a tie, those of a structure with it among its dead loads."""
+    free = {block.name for block in model.free_blocks}
+    return [term for _, term in Element(own.interface).loads(free).terms]
 
 
 def _screw_shift(displacements: Array) -> Array:

@@ -46,7 +46,8 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     Raises
     ------
     ModelError
-        If the live load is not made of weights and added masses along one horizontal direction.
+        If the live load is not made of weights and added masses along one horizontal direction, or takes
+        another share of the weights than all.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
     found = []
@@ -69,6 +70,12 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
 def _masses(model: Model) -> Iterator[tuple[str, str, float, Array, Array]]:
     """Name, block, weight, place and direction of each mass of the live load."""
     direction: Array | None = None
+    pushed = [factor for factor, term in model.live.terms if isinstance(term, MassProportional)]
+    if pushed and (min(pushed) <= 0.0 or abs(sum(pushed) - 1.0) > 1e-9):
+        raise ModelError(
+            f"the live load has the weights times {sum(pushed):g}; expected 1: its load factor is the"
+            " acceleration over g"
+        )
     for factor, term in model.live.terms:
         if not isinstance(term, MassProportional | AddedMass):
             raise ModelError(f"the live load has a {type(term).__name__}; expected weights and added masses")

@@ -10,8 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
+from limitblocks.geometry.accuracy import GAP
 
-NEAR = 1e-4  # of the size of a block: a point as near to the plane of a face is on it
+NEAR = GAP  # of the size of a block: contacts are found across gaps up to it
 PARALLEL = 1e-6  # cosine from one of faces that slide on one another all over
 AT_RIM = 1e-3  # of the size of a joint: closed corners as near to the rim of a face are at its edge
 

@@ -17,10 +17,11 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
+from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
-from limitblocks.practice.elements import CORNERS, axes_of
+from limitblocks.practice.elements import CORNERS, Element, axes_of
 from limitblocks.shown import Result
 
 RIGID = 1e3  # strength of the guide over the weight of the structure
@@ -193,7 +194,9 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
     if not weight > 0.0:
         raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
-    held = float(_pressed(model, support) @ d)
+    pulled = sum((Element(own).loads({support}) for own in model.interfaces), Load())
+    at = pulled.on([block])[0, :3] if pulled.terms else np.zeros(3)
+    held = float((_pressed(model, support) + at) @ d)
     guide = Interface(
         others[0],
         support,
@@ -208,7 +211,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
         blocks=tuple(weightless if one is block else one for one in model.blocks),
         supports=tuple(others),
         interfaces=(*model.interfaces, guide),
-        dead=model.dead + force(support, (-held * d).tolist(), block.centroid.tolist()),
+        dead=model.dead + pulled + force(support, (-held * d).tolist(), block.centroid.tolist()),
         live=force(support, (weight * d).tolist(), block.centroid.tolist()),
     )
     return Settling(freed, support, read_only(d), held, weight)

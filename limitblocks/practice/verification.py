@@ -44,7 +44,7 @@ def verification(
     Parameters
     ----------
     model : Model
-        Its live load is mass-proportional and horizontal, added masses included: the load factor is an
+        Its live load is the whole weight along a horizontal, added masses included: the load factor is an
         acceleration over g.
     result : Nonassociated
         The mechanism, of this model; its load factor is alpha0.
@@ -71,7 +71,7 @@ def verification(
     Raises
     ------
     ModelError
-        If a number is out of range, the live load is no horizontal weight, or the curve does not end at zero.
+        If a number is out of range, the live load is not that, or the curve does not end at zero.
     LimitBlocksError
         If the result is not one of this model.
 

@@ -41,12 +41,15 @@ class Answer:
         Which result it is of.
     reason : str
         Why it is the one.
+    remarks : tuple of str
+        What to know of it.
     """
 
     load_factor: float | None = None
     certified: bool = False
     source: str = ""
     reason: str = NONE
+    remarks: tuple[str, ...] = ()
 
     @property
     def number(self) -> str:
@@ -80,9 +83,9 @@ def answer(sections: Sequence[Section]) -> Answer:
     """
     certified = sorted(design for one in sections for design in one.designs)
     if certified:
-        load_factor, source = certified[0]
+        load_factor, source, remarks = certified[0]
         least = f"{LEAST.format(len(certified))} " if len(certified) > 1 else ""
-        return Answer(load_factor, True, source, least + CERTIFIED)
+        return Answer(load_factor, True, source, least + CERTIFIED, remarks)
     upper = [one.upper for one in sections if one.upper is not None]
     return Answer(min(upper), False, "static bound", UPPER) if upper else Answer()
 

@@ -128,6 +128,7 @@ def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapte
     parts: list[Part] = [Headline(found.number, found.quantity(model), main=True), Text(found.reason)]
     if found.load_factor is not None and not found.certified:
         parts.append(Text(WARNING, warning=True))
+    parts += [Text(f"{remark[0].upper()}{remark[1:]}.", warning=True) for remark in found.remarks]
     said = verdict(found, labels.demand) if labels.demand is not None else None
     judged = [JUDGED.format(one.title, one.headline, one.quantity) for one in sections if one.judges]
     parts += [Text(words) for words in judged]

@@ -9,7 +9,7 @@ from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
-from limitblocks.reports.rows import SHOWN, backward, loose, number
+from limitblocks.reports.rows import SHOWN, backward, far, loose, number
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import some
 
@@ -31,7 +31,7 @@ def check_section(_model: Model, check: Check) -> Section:
         ),
         checks=checks_of(check.residuals, check.tolerance),
         tolerance=check.tolerance,
-        warnings=check.remarks + loose(check.tolerance),
+        warnings=check.remarks + (far(check.backward_error) if check.passed else ()) + loose(check.tolerance),
     )
 
 
@@ -56,7 +56,9 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
         tolerance=check.tolerance,
         rates=claim.displacement_rates,
         warnings=check.warnings,
-        designs=((claim.load_factor, "claimed solution, checked"),) if claim.certified else (),
+        designs=((claim.load_factor, "claimed solution, checked", check.warnings),)
+        if claim.certified
+        else (),
         upper=claim.load_factor if claim.check.accepted and not claim.certified else None,
     )
 

@@ -91,7 +91,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Weight of the free blocks", f"{known['weight'] / 1e3:.4g} kN"),
         ("Volume of the free blocks", f"{known['volume']:.4g} m³"),
         *(
-            (f"Unit weight {row[0]}", f"{many(row[1], 'block')}, {row[2]}, {row[3]}")
+            (f"Unit weight {row[0]}", f"{many(int(row[1]), 'block')}, {row[2]}, {row[3]}")
             for row in known["unit_weights"]
         ),
         ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),

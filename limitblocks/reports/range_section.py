@@ -52,7 +52,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         checks=checks_of(shown.check.residuals, result.tolerance) if shown else (),
         tolerance=result.tolerance,
         rates=shown.solution.displacement_rates if shown else None,
-        designs=tuple((one.load_factor, "range of load factors") for one in arrived),
+        designs=tuple((one.load_factor, "range of load factors", one.solution.remarks) for one in arrived),
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         parts=(

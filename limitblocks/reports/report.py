@@ -15,7 +15,7 @@ from limitblocks.drawing.picture import Picture, mechanism_picture
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.io import strict_json
 from limitblocks.kinds import KINDS
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.reports import files
 from limitblocks.reports.answer import answer, verdict
 from limitblocks.reports.as_json import as_dict
@@ -136,7 +136,8 @@ class Report:
 
     def __str__(self) -> str:
         found = answer(self.sections)
-        return f"report {self.title!r}: {found.number} {found.quantity(self.model)}"
+        number = "" if found.load_factor is None else f"{found.number} "
+        return f"report {self.title!r}: {number}{found.quantity(self.model)}"
 
     @property
     def _chosen(self) -> int:
@@ -214,6 +215,7 @@ def report(
     LimitBlocksError
         A result is of an unknown kind or belongs to another model, or the demand is no finite number > 0.
     """
+    checked_model(model)
     labels = Labels(title, author, project, notes, demand)
     made = Report(model, tuple(checked(model, result) for result in results), labels=labels)
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong

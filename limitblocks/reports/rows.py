@@ -12,6 +12,7 @@ from limitblocks.reports.comparison import NOT_CLAIMED
 from limitblocks.reports.words import some
 
 SHOWN = 4  # names in a cell
+KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
 Row = tuple[str, str, str]
 
 
@@ -42,6 +43,14 @@ def backward(error: BackwardError) -> Row:
     where = some([f"{name} ({change:.1e})" for name, change in error.places], SHOWN)
     said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")
     return "Backward error", f"{error.value:.1e}", said
+
+
+def far(error: BackwardError) -> tuple[str, ...]:
+    """Return a warning if no model near by was found of which a state is exact."""
+    said = (
+        f"the residuals pass, but no model within {KNOWN:.0%} was found of which this state is exact: {error}"
+    )
+    return (said,) if error.value > KNOWN else ()
 
 
 def loose(tolerance: float, usual: float = TOLERANCE) -> tuple[str, ...]:

@@ -47,9 +47,9 @@ class Section:
         What follows: tables, sentences, drawings of this kind of result.
     curve : Curve, optional
         A plot to draw.
-    designs : tuple of (float, str)
-        Certified load factors without dilatancy to which loading leads, and of what: the least of a report
-        is the one to design with.
+    designs : tuple of (float, str, tuple of str)
+        Certified load factors without dilatancy to which loading leads, of what, and what to know of each:
+        the least of a report is the one to design with.
     upper : float, optional
         An upper estimate of it.
     own : bool
@@ -71,7 +71,7 @@ class Section:
     quantity: str = "load factor α"
     parts: tuple[Part, ...] = ()
     curve: Curve | None = None
-    designs: tuple[tuple[float, str], ...] = ()
+    designs: tuple[tuple[float, str, tuple[str, ...]], ...] = ()
     upper: float | None = None
     own: bool = False
     judges: bool = False

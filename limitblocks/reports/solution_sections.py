@@ -13,9 +13,10 @@ from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.claims import USUAL_OF_BOUNDS
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
-from limitblocks.reports.rows import SHOWN, Row, backward, limits, loose
+from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import some
+from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
 NONASSOCIATED = "joints follow the flow rule stated: a collapse that can happen, not the only one"
@@ -31,7 +32,7 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         meaning=(
             "If sliding and twisting dilated the joints by the friction angle (associated flow), the "
             "structure would collapse at a load factor between the static value, of stresses in equilibrium "
-            "within the yield surface, and the kinematic value, of a mechanism. Each is solved by itself; "
+            "within the yield surface, and the kinematic value, of a mechanism. Each is judged by itself; "
             "where they agree, both are proven for the yield surface below. Real joints dilate less: their "
             "load factor is at most this one and can be smaller."
         ),
@@ -96,7 +97,7 @@ def path_section(model: Model, path: LoadPath) -> Section:
         ),
         headline=end.headline,
         values=(
-            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {len(path.steps)} steps"),
+            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {many(len(path.steps), 'step')}"),
             ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
             ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
             *(
@@ -131,9 +132,9 @@ def _steps(path: LoadPath) -> Table:
     return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
 
 
-def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str], ...]:
+def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tuple[str, ...]], ...]:
     sound = result.accepted and isfinite(result.load_factor)
-    return ((result.load_factor, source),) if sound else ()
+    return ((result.load_factor, source, _remarks(result)),) if sound else ()
 
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
@@ -158,4 +159,6 @@ def _confirmation(result: Nonassociated) -> tuple[Row, ...]:
 
 
 def _remarks(result: Nonassociated) -> tuple[str, ...]:
-    return (() if result.converged else (result.status.value,)) + result.remarks
+    if not result.converged:
+        return (result.status.value, *result.remarks)
+    return result.remarks + far(result.backward_error)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable
 from inspect import getdoc
@@ -17,6 +18,7 @@ from limitblocks.model import Model
 from limitblocks.units import gravity
 
 SHOWN = 8  # names in a line
+_OF_BLOCK = re.compile(r"block ('.*?'): (.*)")
 
 
 def joint_words(joint: Any) -> str:
@@ -85,6 +87,20 @@ def counted(words: Iterable[str]) -> dict[str, int]:
 def some(names: list[str], shown: int = SHOWN) -> str:
     """Return the first of some names as text."""
     return ", ".join(names[:shown]) + (f" and {len(names) - shown} more" if len(names) > shown else "")
+
+
+def together(notes: Iterable[str]) -> list[str]:
+    """Return notes that differ in the name of the block alone as one, with the first names."""
+    blocks: dict[str, list[str]] = {}
+    for note in notes:
+        name, said = found.groups() if (found := _OF_BLOCK.fullmatch(note)) else ("", note)
+        blocks.setdefault(said, []).append(name)
+    return [
+        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {some(names)}: {said}"
+        if names[0]
+        else said
+        for said, names in blocks.items()
+    ]
 
 
 def times(counts: dict[str, int]) -> str:

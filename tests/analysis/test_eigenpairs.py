@@ -35,6 +35,15 @@ def test_multipliers_are_those_of_the_pairs_and_across():
     np.testing.assert_allclose(found.rows @ s, found.slack)
 
 
+def test_a_small_multiplier_beside_a_large_slack_is_not_lost():
+    """Of a cone that slips: s = 5 (1, d) and y = 5e-4 (1, -d') with d' at an angle to d; kappa is 1e4."""
+    s, y = np.array([5.0, 3.0, 4.0]), 5e-4 * np.array([1.0, -0.8, -0.6])
+    found = pairs(Cones(0, ((1, 3),)), s, y)
+    np.testing.assert_allclose(
+        found.rows.T @ found.multiplier + found.across.T @ (found.across @ y), y, rtol=1e-12
+    )
+
+
 def test_planes_are_pairs_themselves():
     s, y = np.array([1.0, 0.0]), np.array([0.0, 2.0])
     found = pairs(Cones(2), s, y)

@@ -28,6 +28,11 @@ def block(joint=None, **change):
         (block(lb.OrdunaLourenco(0.6, cohesion=0.1)), "cohesion is 0.1 Pa: MPa? 0.1 MPa = 100000 Pa"),
         (block(unit_weight=20.0), "unit weight is 20 N/m3: kN/m3? 20 kN/m3 = 20000 N/m3"),
         (block(unit_weight=2000.0), "unit weight is 2000 N/m3: kg/m3? 2000 kg/m3 weigh 1.962e+04 N/m3"),
+        (block(unit_weight=20e6), "unit weight is 2e+07 N/m3, more than any material weighs"),
+        (
+            block(lb.OrdunaLourenco(0.6, compressive_strength=2e15)),
+            "compressive strength is 2e+15 Pa, more than any material bears",
+        ),
         (block(width=8000.0), "the structure is "),
         (block(width=0.01, height=0.01, depth=0.01), "the structure is "),
     ],
@@ -53,3 +58,18 @@ def test_questions_reach_whoever_imports_and_reports(tmp_path, caplog):
         lb.read(file, joint=lb.PointContact(30.0), supports="base", live=lb.mass_proportional((1, 0, 0)),
                 unit_weight=20e3)  # fmt: skip
     assert any(said in line for line in caplog.messages)
+
+
+def test_questions_are_asked_before_an_analysis(tmp_path):
+    """A unit weight in kN/m3 where the file states kN and mm: platinum weighs 210 kN/m3, this 2e10 kN/m3."""
+    file = tmp_path / "heavy.json"
+    text = """{"schema_version": 1, "units": {"length": "mm", "force": "kN"}, "supports": ["g"],
+     "blocks": [{"name": "g", "box": {"size": [4000, 1000, 200], "at": [0, 0, -100]}},
+                {"name": "s", "box": {"size": [500, 500, 1000], "at": [0, 0, 500]}, "unit_weight": 20}],
+     "joints": {"dry": {"type": "PointContact", "friction": 0.6}}, "interfaces": {"find": {"joint": "dry"}},
+     "live": [{"type": "MassProportional", "direction": [1, 0, 0]}]}"""
+    file.write_text(text)
+    result = CliRunner().invoke(app, ["bounds", str(file), "--json"])
+    assert result.exit_code == 0
+    assert "warning: unit weight is 2e+13 N/m3, more than any material weighs" in result.stderr
+    assert "warning" not in result.stdout

@@ -127,7 +127,7 @@ WRONG = {
     ),
     '["layer:BASE"]': (
         '["layer:BASS"]',
-        "of no material of the table; among them layers 'BASE' (1)",
+        "no material of the table; among them layers 'BASE' (1)",
     ),
     "friction = 0.6}": ("friction = -0.6}", "materials.limestone: friction is -0.6"),
 }

@@ -65,6 +65,12 @@ def test_cancelling_product_is_not_called_exact():
     assert off[0] > 0.0
 
 
+def test_a_product_that_underflows_is_not_called_exact():
+    value, off = Products((sparse.csr_array(np.array([[1e-200]])),)).of((np.array([1e-200]),))
+    assert value[0] == 0.0
+    assert off[0] > 0.0
+
+
 def test_product_of_nothing_is_exact():
     value, off = Products((sparse.csr_array(np.array([[1.0, 0.0]])),)).of((np.array([0.0, 3.0]),))
     assert value[0] == off[0] == 0.0
@@ -190,7 +196,10 @@ def test_bounds_are_proven_to_1e_8(model, pair):
     assert proof.lower == pair.lower
     assert proof.upper < pair.upper  # room for a machine that sums in another order
     assert proof_of(model.problem, state_of(model, pair), pair.dead_load_stresses, RESERVE).complete
-    assert lb.check_mcp(model, pair, tolerance=1e-6).passed
+    check = lb.check_mcp(model, pair, tolerance=1e-6)
+    assert check.passed
+    (told,) = [entry.meaning for entry in check.residuals.entries if entry.name == "proof"]
+    assert f"proven are {proof.lower:.17g} and {proof.upper:.17g}" in told
 
 
 @pytest.mark.parametrize("mu", [0.125, 0.5, 0.625])

@@ -187,3 +187,15 @@ def test_what_is_between_supports_is_left_out():
     assert values.isolated == ("other", "alone", "beside")
     assert "blocks without any interface: other, alone, beside" in values.warnings
     assert str(values).startswith("beside the interfaces of the model: ")
+
+
+def test_a_pair_of_blocks_that_nearly_touches_is_named_once():
+    """An L around a box nearly touches it with two faces, 0.5 m2 and 1 m2; the larger is shown."""
+    outline = [(0, 0), (2, 0), (2, 0.5), (1, 0.5), (1, 2), (0, 2)]
+    corner = Block.prism("corner", outline, (0, 1))
+    stone = box("stone", (0.5, 1, 1), (1.255, 0.5, 1.005))
+    contacts = find_contacts([corner, stone], None)
+    assert sorted(miss.area for miss in contacts.near_misses) == pytest.approx([0.5, 1.0])
+    (line,) = [line for line in contacts.warnings if "nearly touch" in line]
+    assert line.count("corner|stone") == 1
+    assert "1 m2) and 1 more face" in line

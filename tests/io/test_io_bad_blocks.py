@@ -37,7 +37,7 @@ def test_an_open_footing_can_be_left_out_and_is_named_later(tmp_path):
     with pytest.raises(lb.ModelError) as raised:
         lb.files.read_blocks(file)
     first, second = raised.value.problems
-    assert "1 of 3 blocks are bad; --skip-bad (skip_bad=True) leaves them out" in first
+    assert "1 of 3 blocks is bad; --skip-bad (skip_bad=True) leaves them out" in first
     assert "'footing': the surface is open" in second
     found = lb.files.read_blocks(file, skip_bad=True)
     assert [block.name for block in found.blocks] == ["a", "b"]
@@ -118,7 +118,7 @@ def test_twist_within_the_accuracy_of_the_joints_is_taken(tmp_path):
     with pytest.raises(lb.ModelError, match="twisted"):
         lb.files.read_blocks(tmp_path / "a.obj", twisted="refuse")
     bad = [("far", *box("far", (9.5, 0.5, 0.5), lift=0.1)[1:])]
-    with pytest.raises(lb.ModelError, match="1 of 17 blocks are bad"):  # one that is twisted by far more
+    with pytest.raises(lb.ModelError, match="1 of 17 blocks is bad"):  # one that is twisted by far more
         lb.files.read_blocks(obj(tmp_path / "b.obj", noisy + bad))
 
 

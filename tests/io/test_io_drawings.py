@@ -161,3 +161,24 @@ def test_all_bad_outlines_are_listed_and_can_be_left_out(tmp_path):
     imported = lb.files.read_drawing(file, thickness=1.0, skip_bad=True)
     assert (len(imported.blocks), len(imported.left_out)) == (1, 2)
     assert sum(note.startswith("left out: LWPOLYLINE") for note in imported.notes) == 2
+
+
+def test_an_elevation_is_looked_at_before_it_is_imported(tmp_path):
+    """Which way round an outline is drawn is no defect of it, and needs no note."""
+
+    def draw(space):
+        for layer, low, high in (("GROUND", (0, -1), (2, 0)), ("stone", (0.5, 0), (1.5, 2))):
+            corners = [low, (low[0], high[1]), high, (high[0], low[1])]  # clockwise
+            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    flat = CliRunner().invoke(app, ["look", str(path)])
+    assert flat.exit_code == 2
+    assert "an elevation needs the depth of its blocks: --thickness" in flat.stderr
+    seen = lb.files.look(path, thickness=0.5)
+    assert (seen.format, seen.volume) == ("DXF elevation", pytest.approx(2.0 * 0.5 + 2.0 * 0.5))
+    assert not [note for note in seen.notes if "inward" in note]
+    said = CliRunner().invoke(app, ["look", str(path), "--thickness", "0.5"], env={"COLUMNS": "200"}).stdout
+    assert "--thickness 0.5 --supports layer:GROUND" in said
+    with pytest.raises(lb.ModelError, match="thickness"):
+        lb.files.look(path, thickness=-1.0)

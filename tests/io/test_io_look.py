@@ -231,7 +231,7 @@ WRONG = {
     "nothing": ({"materials": {}}, "interfaces.find.joint is null, and there are no materials that have"),
     "pair": ({"pairs": [{"between": ["brick", "stone"], "joint": {"type": "PointContact", "friction": 1}}]},
              "pairs: pair names material 'stone', which is not there"),
-    "bare": ({"materials": {"rock": {"blocks": ["base"]}}}, "materials: 2 blocks of no material"),
+    "bare": ({"materials": {"rock": {"blocks": ["base"]}}}, "materials: 2 blocks have no material"),
 }  # fmt: skip
 
 

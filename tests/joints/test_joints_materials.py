@@ -100,7 +100,7 @@ def test_wrong_tables_are_told():
         Materials({})
     with pytest.raises(lb.ModelError, match=r"pair names material 'granit', .*; did you mean 'granite'"):
         Materials(TABLE.materials, {("granit", "limestone"): GRANITE})
-    with pytest.raises(lb.ModelError, match="1 block of no material of the table; among them layers 'BASE'"):
+    with pytest.raises(lb.ModelError, match="1 block has no material of the table; among them layers 'BASE'"):
         Materials({"x": Material(1.0, GRANITE, ["layer:WALL", "key"])}).on(BOXES)
     heavy = [block.labelled(unit_weight=20e3, layer=block.layer, material="") for block in BOXES]
     with pytest.raises(

@@ -18,6 +18,7 @@ from rectangles import (
 )
 
 import limitblocks as lb
+from limitblocks.geometry.polygon import centroids
 from limitblocks.joints.interaction import rectangle_torsion_bending
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
 
@@ -101,6 +102,32 @@ def test_torsion_strength_of_fig_12():
         torsion = plain.strength(lb.joints.interface(RECTANGLE, plain), (0, 0, 0, 0, 0, 1), COMPRESSION)
         assert torsion == pytest.approx(16.26, abs=0.005)
         assert torsion == pytest.approx(rectangle_torsion_bending(L1, L2, MU, N, 0, 0), rel=1e-13)
+
+
+def test_half_sides_of_other_polygons_are_those_of_the_same_radii_of_gyration():
+    """A rectangle with a fifth vertex on a side keeps its own; of a regular hexagon I / A = 5 a^2 / 24."""
+    five = np.array([(0.3, -0.2), (0.3, 0.0), (0.3, 0.2), (-0.3, 0.2), (-0.3, -0.2)])
+    angles = np.arange(6) * np.pi / 3
+    six = np.column_stack([np.cos(angles), np.sin(angles)])
+    assert equivalent_half_sides(five[None])[0] == pytest.approx([0.3, 0.2])
+    assert equivalent_half_sides(six[None])[0] == pytest.approx([np.sqrt(5 / 8)] * 2)
+
+
+@pytest.mark.parametrize("sides", [3, 5, 6, "trapezium"])
+def test_a_force_at_a_corner_is_within_the_surface_of_any_polygon(sides):
+    """There it hinges, which Eq. (30) must not forbid: it is within up to the corner and not beyond it."""
+    if sides == "trapezium":
+        polygon = np.array([(-0.5, -0.2), (0.5, -0.2), (0.2, 0.2), (-0.2, 0.2)])
+    else:
+        angles = 0.1 + 2.0 * np.pi * np.arange(sides) / sides
+        polygon = np.column_stack([np.cos(angles), np.sin(angles)])
+    polygon = polygon - centroids(polygon[None])[0]
+    rows = lb.OrdunaLourenco(0.6, slip="paper").yield_rows(polygon[None])
+    for corner in polygon:
+        for share, within in ((1.0 - 1e-9, True), (1.0 + 1e-6, False)):
+            e1, e2 = share * corner
+            Q = np.array([0.0, 0.0, -1.0, -e2, e1, 0.0])  # e1 = -M2 / N, e2 = M1 / N
+            assert ((rows.F[0] @ Q + rows.g[0]).min() >= 0.0) == within
 
 
 def test_vertex_order_does_not_matter():

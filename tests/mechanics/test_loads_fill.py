@@ -93,6 +93,18 @@ def test_a_hole_in_the_fill():
     assert load[3:] == pytest.approx(np.cross((0.3, 0.2, 0), (0, 0, GAMMA)), abs=1e-6)
 
 
+def test_a_plate_and_a_stone_that_leans_over_cover_what_is_below_them():
+    """The plate is .05 thick; the stone, beside the slab, leans over it from x = 1 at its top to x = 0."""
+    slab = lb.Block.box("slab", (3, 4, 1), (-0.5, 0, 0.5), 1.0)
+    plate = lb.Block.box("plate", (1, 1, 0.05), (-1, 0, 1.025), 1.0)
+    assert lb.loads.fill(GAMMA, 2.0, blocks="slab").on([slab, plate])[0, 2] == pytest.approx(-GAMMA * 11)
+    outline = [(2, 0), (3, 0), (0.2, 2), (0, 2)]
+    points = [(x, y, z) for y in (-1, 1) for x, z in outline]
+    faces = [(0, 1, 2, 3), (7, 6, 5, 4), *((k + 4, (k + 1) % 4 + 4, (k + 1) % 4, k) for k in range(4))]
+    stone = lb.Block("stone", points, faces, 1.0)
+    assert lb.loads.fill(GAMMA, 3.0, blocks="slab").on([slab, stone])[0, 2] == pytest.approx(-2 * GAMMA * 10)
+
+
 def test_level_through_a_slope_fills_the_lower_part():
     """Slope from z = 0 at x = 2 to z = 1 at x = 0, level 0.5: a prism 1 long, 0.5 high, 3 deep."""
     wedge = lb.Block(
@@ -133,3 +145,17 @@ def test_fill_strengthens_and_models_can_be_analysed():
 def test_wrong_fill_is_refused(load, said):
     with pytest.raises(lb.ModelError, match=said):
         load().on(ARCH.free_blocks)
+
+
+def test_a_block_that_is_not_convex_covers_itself_and_no_more():
+    """Below its own overhang there is no fill; in a courtyard there is, whatever stands around."""
+    hooked = lb.Block.prism(
+        "C", [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (3, 2), (3, 3), (0, 3)], (0, 1), 1.0
+    )
+    load = lb.loads.fill(1.0, 4.0).on([hooked])
+    assert load[0, 2] == pytest.approx(-3.0 * 1.0)
+    assert load[0, 4] == pytest.approx(3.0 * (1.5 - hooked.centroid[0]))
+    around = [(0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)]
+    walls = lb.Block.prism("walls", around, (0, 2), 1.0, along="z")
+    court = lb.Block.box("court", (1, 2, 1), (1.5, 2.0, 0.5), 1.0)
+    assert lb.loads.fill(1.0, 3.0).on([walls, court])[:, 2] == pytest.approx([-7.0 * 1.0, -2.0 * 2.0])

@@ -55,6 +55,12 @@ def test_an_edge_belongs_to_the_first_block():
         assert load.any(axis=1).tolist() == [True, False]
 
 
+def test_at_an_edge_the_higher_block_is_on_top_if_only_by_a_little():
+    low, high = SLABS[0], lb.Block.box("beside", (2, 2, 1.001), (1, 0, 0.5005), 1.0)
+    load = lb.loads.top_force(FORCE, (0.0, 0.0)).on([low, high])
+    assert load.any(axis=1).tolist() == [False, True]
+
+
 def test_line_load_is_shared_by_length():
     load = lb.loads.line_load((0, 0, -1e3), (-1.5, 0.1), (1.8, 0.1)).on(SLABS)
     assert load[:, 2] == pytest.approx([-1.5e3, -1.0e3, -0.8e3])
@@ -109,3 +115,14 @@ def test_line_along_a_joint_acts_once():
 def test_wrong_place_is_refused(load, said):
     with pytest.raises(lb.ModelError, match=said):
         load().on(SLABS)
+
+
+def test_blocks_that_are_not_convex_have_the_top_right_there():
+    """A step: high over its riser, low over its tread; a horizontal force tells the height by its moment."""
+    outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+    step = lb.Block.prism("step", outline, (0, 1), 1.0)
+    for x, height in ((0.5, 3.0), (2.0, 1.0)):
+        load = lb.loads.top_force((1e3, 0, 0), (x, 0.5)).on([step])
+        assert load == pytest.approx(lb.loads.force("step", (1e3, 0, 0), (x, 0.5, height)).on([step]))
+    line = about_origin(lb.loads.line_load((1e3, 0, 0), (0.1, 0.5), (2.9, 0.5)).on([step]), [step])
+    assert line[[0, 4]] == pytest.approx([2.8e3, 0.9e3 * 3.0 + 1.9e3 * 1.0])

@@ -253,3 +253,26 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
     control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
     _, _, found = capacity._ahead(there, control, point, 0.4, 1.0)
     assert 0.15 <= found.displacement < 0.3
+
+
+@pytest.mark.parametrize("away", [1.0, 9.0])
+def test_prestress_stays_on_the_line_of_its_tie(away):
+    """A tie that yields pulls with its strength whatever of it is prestress: moments about the toe."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    block, toe = model.free_blocks[0], toe_corner(model) - [0, 0, H]
+    head, foot = toe + np.array([[-B, 0, 0.8 * H], [-B - away, 0, 0.8 * H]])
+    most = 0.1 * block.weight
+    rod = tie("block 1", head, "base", foot, area=1e-4, strength=most / 1e-4, prestress=most / 2)
+    curve = capacity_curve(reinforced(model, rod), control=("block 1", toe_corner(model)), steps=3)
+    turned = np.arcsin(curve.displacements / H)
+    middle, anchor = (
+        toe
+        + np.stack(
+            [x * np.cos(turned) + z * np.sin(turned), 0 * turned, z * np.cos(turned) - x * np.sin(turned)], 1
+        )
+        for x, z in ((-B / 2, H / 2), (-B, 0.8 * H))
+    )
+    along = (foot - anchor) / np.linalg.norm(foot - anchor, axis=1, keepdims=True)
+    arms = anchor - toe
+    held = most * (arms[:, 0] * along[:, 2] - arms[:, 2] * along[:, 0]) + block.weight * (toe - middle)[:, 0]
+    assert curve.load_factors == pytest.approx(held / (block.weight * (middle - toe)[:, 2]), abs=1e-9)

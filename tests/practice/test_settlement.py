@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 import limitblocks as lb
-from limitblocks.practice import settlement, settling
+from limitblocks.practice import reinforced, settlement, settling, tie
 
 LENGTH, BEARING, DEPTH, WEIGHT = 3.0, 0.4, 0.5, 20e3
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -186,3 +186,15 @@ def test_only_support():
     model = lb.structures.block(JOINTS[0], width=1.0, height=1.0)
     with pytest.raises(lb.ModelError, match="the only support"):
         settlement(model, model.supports[0], DOWN)
+
+
+@pytest.mark.parametrize("prestress", [0.0, 1e3, 5e3])
+def test_prestress_between_block_and_support_is_within_the_tie(prestress):
+    """Rod at x into the support that sinks: N (L - b) = W (L/2 - b) + T (x - b), reaction N - T."""
+    model, x, most = lintel(JOINTS[0]), LENGTH - BEARING / 2, 6e3
+    rod = tie(
+        "lintel", (x, 0, DEPTH), "right", (x, 0, -0.9), area=1e-4, strength=most / 1e-4, prestress=prestress
+    )
+    found = settlement(reinforced(model, rod), "right", DOWN)
+    normal = (WEIGHT * LENGTH * DEPTH * (LENGTH / 2 - BEARING) + most * (x - BEARING)) / (LENGTH - BEARING)
+    assert [found.lower, found.upper, found.nonassociated] == pytest.approx([normal - most] * 3, rel=1e-6)

@@ -1,11 +1,14 @@
 """Verification of a facade of one block by closed forms; spectra; misuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
 
 import limitblocks as lb
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
+from limitblocks.practice.spectra import Place
 
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 
@@ -183,10 +186,19 @@ def test_floor_spectrum():
         assert floor.acceleration(SITE, period - 1e-9) == pytest.approx(
             floor.acceleration(SITE, period + 1e-9), rel=1e-5
         )
+    excess = 1.1 * 0.05**-0.5 - 1.0
+    half = (1.0 + excess) / (1.0 + excess * 0.5**1.6)  # [C7.2.6] at half of a T_1
+    assert floor.acceleration(SITE, 0.5 * 0.8 * 0.4) == pytest.approx(half * largest)
     for period in np.linspace(0.0, 4.0, 50):
         assert floor.acceleration(SITE, period) >= SITE.acceleration(period)
     still = Floor((FloorMode(period=0.4, participation=1.3, shape=0.0),))
     assert still.acceleration(SITE, 0.7) == pytest.approx(SITE.acceleration(0.7))
+    assert still.largest(SITE) == pytest.approx(SITE.a_g * SITE.S)
+
+
+def test_displacement_is_at_least_that_at_the_period_before_it_is_set_off():
+    assert Place(None, 2.0).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(2.0))
+    assert Place(None, 0.2).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(0.3))
 
 
 def test_mechanism_on_a_floor(facade, answer):
@@ -224,6 +236,14 @@ def test_loads_that_are_no_weights(facade, answer):
     )
     with pytest.raises(lb.ModelError, match="expected one horizontal direction"):
         verification(tilted, lb.nonassociated(tilted), SITE, q=2.0)
+
+
+@pytest.mark.parametrize("share", [0.5, -1.0])
+def test_a_share_of_the_weights_is_no_acceleration_over_g(facade, share):
+    """Half the weight has twice the load factor, and would have twice the acceleration."""
+    half = replace(facade, live=share * facade.live)
+    with pytest.raises(lb.ModelError, match=f"the weights times {share:g}; expected 1"):
+        verification(half, lb.bounds(half), SITE, q=2.0)
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from limitblocks.evidence.ending import Status
 from limitblocks.reports import terminal
 from limitblocks.reports.answer import Answer, answer, verdict
 from limitblocks.reports.document import Chapter, Table
+from limitblocks.reports.facts import fact_rows
 from limitblocks.reports.interfaces import relative_motion
 from limitblocks.reports.pdf import latin, pdf
 
@@ -251,3 +252,30 @@ def test_a_load_factor_is_not_shown_without_the_self_stress_that_it_needs():
     model = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), push)
     chapter = lb.report(model, lb.stability(model)).text
     assert "stands only by self-stress" in chapter[:600]
+
+
+def test_what_to_know_of_the_number_stands_beside_it(house, results):
+    """A remark of the answer, and a backward error larger than what is known of friction: 20 %."""
+    result = results[1]
+    error = result.backward_error
+    told = replace(result, remarks=("another way led here",))
+    far = replace(told, backward_error=replace(error, limits=replace(error.limits, value=1.3, where="a|b")))
+    near = replace(told, backward_error=replace(error, limits=replace(error.limits, value=0.19)))
+    for one, said in ((told, 1), (near, 1), (far, 2)):
+        head = lb.report(house, one, results[0], demand=0.1).document.chapters[0]
+        warned = [part.text for part in head.parts if getattr(part, "warning", False)]
+        assert len(warned) == said
+        assert warned[0] == "Another way led here."
+    assert "backward error 1.3e+00 (limits at a|b)" in warned[1]
+    lowest = replace(told, load_factor=result.load_factor / 2, remarks=("lower",))
+    head = lb.report(house, told, lowest).document.chapters[0]
+    assert [part.text for part in head.parts if getattr(part, "warning", False)] == ["Lower."]
+
+
+def test_an_empty_report_says_so_in_a_line(house):
+    assert str(lb.report(house, title="The house")) == "report 'The house': no load factor to design with"
+
+
+def test_one_block_is_one_block():
+    facts = dict(fact_rows(lb.report(lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)).facts))
+    assert facts["Unit weight 20 kN/m³"].startswith("1 block, ")

@@ -17,8 +17,7 @@ from limitblocks.problem import Flow, State
 
 ROUNDS = 30
 AHEAD = 10  # rounds: where the gap would take more at its last factor they are given up
-SMALL = 10.0  # of the tolerance: a gap that is not found closer
-NEAR = 1e-5  # residual where pivots are tried
+NEAR = 1e-5  # residual where pivots are tried: from 1e-4 on they change nothing
 
 
 def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float) -> tuple[State, int]:
@@ -51,7 +50,7 @@ def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float)
         if worst < least:
             best, least = state, worst
         gap = float((problem.F @ x + problem.g) @ mechanism[1])
-        if least <= tolerance or gap * min(gap / last, 1.0) ** AHEAD > SMALL * tolerance:
+        if least <= tolerance or gap * min(gap / last, 1.0) ** AHEAD > tolerance:
             return best, k
         last = gap
     return best, ROUNDS

@@ -165,7 +165,7 @@ def outer_loop(
         _, state, k = min(closed, key=lambda one: one[0])
         return state, f"fixed point, {many(k, 'round')}"
     best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
-    return best, f"fixed point, not closed in {len(met) - 1} rounds"
+    return best, f"fixed point, not closed in {many(len(met) - 1, 'round')}"
 
 
 def _closed(

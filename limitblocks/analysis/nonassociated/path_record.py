@@ -10,7 +10,7 @@ from typing import NamedTuple
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
-LARGE, ROUNDS, IN_HALF = "large barrier", "rounds of the fixed point", "in one half"
+LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
 
 
 def off_load_path(how: str) -> tuple[str, ...]:

@@ -29,6 +29,7 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
+from limitblocks.shown import many
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
@@ -203,7 +204,7 @@ def _in_rounds(
         best, rounds = closed(flow, nearest, state, tolerance)
     except KeyboardInterrupt:
         return state, f"{how}, {INTERRUPTED}"
-    return best, f"{how}, {rounds} {ROUNDS}"
+    return best, f"{how}, {many(rounds, 'round')} {ROUNDS}"
 
 
 def _increments(

@@ -10,6 +10,7 @@ from shapely.geometry.polygon import orient
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
+from limitblocks.mechanics.loads.faces import part_where
 
 _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not cover it
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
@@ -33,7 +34,7 @@ def open_to_the_sky(
     block, face
         The block and the number of its face.
     blocks : sequence of Block
-        What may cover it: the part of each that lies above the plane of the face.
+        What may cover it: the part of each above the plane of the face; of its own block if not convex.
     bounds : tuple of Array
         :func:`boxes` of these blocks.
     """
@@ -44,7 +45,7 @@ def open_to_the_sky(
     low, high = corners.min(axis=0), corners.max(axis=0)
     over = (bounds[1] > low).all(axis=1) & (bounds[0][:, :2] < high[:2]).all(axis=1)
     for other in (blocks[k] for k in np.flatnonzero(over).tolist()):
-        if other is not block and not left.is_empty:
+        if not left.is_empty and not (other is block and block.convex):
             left = left.difference(_shadow(other, other.vertices @ normal - offset))
     for part in shapely.get_parts(left):
         if part.geom_type == "Polygon" and not part.is_empty:
@@ -58,7 +59,12 @@ def _shadow(block: Block, above: Array) -> shapely.Geometry:
     """Plan of the part of `block` above a plane; `above` are the distances of its vertices from the plane."""
     if above.max() <= _CLEAR * block.size:
         return shapely.Polygon()
-    above = above + _IN_PLANE * block.size
+    near = _IN_PLANE * block.size
+    if not block.convex:  # a vertical line leaves the body through a face that looks up
+        sides = block.triangles[above[block.triangles].max(axis=1) > _CLEAR * block.size]
+        parts = (part_where(block.vertices[side], above[side] + near)[0][:, :2] for side in sides)
+        return shapely.union_all([own for own in map(shapely.Polygon, parts) if own.exterior.is_ccw])
+    above = above + near
     start, end = block.mesh.start, block.mesh.end
     a, b = above[start], above[end]
     cut = a * b < 0.0

@@ -12,7 +12,7 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, triple, vector
 
-_SIDE = 1e-9  # of a face normal's length: a smaller Z component counts as vertical
+_SIDE = 1e-9  # of a block's size squared: a triangle with a smaller area in plan counts as vertical
 _TOUCH = 1e-9  # of the blocks' size: an edge belongs to both its blocks, and the first of them counts
 
 
@@ -102,21 +102,32 @@ def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
     Indices, Array
         Position in `blocks` and Z in m, shape (m,).
     """
-    normals = np.concatenate([block.normals for block in blocks])
-    room = np.concatenate([block.offsets for block in blocks])[:, None] - normals[:, :2] @ places.T
-    counts = np.array([len(block.faces) for block in blocks])
-    first = np.cumsum(counts) - counts
-    rise = normals[:, 2:]
-    up, down = rise > _SIDE, rise < -_SIDE
-    z = room / np.where(up | down, rise, 1.0)
-    top = np.minimum.reduceat(np.where(up, z, np.inf), first)
-    bottom = np.maximum.reduceat(np.where(down, z, -np.inf), first)
-    inside = np.minimum.reduceat(np.where(up | down, np.inf, room), first)
-    touch = _TOUCH * np.array([block.size for block in blocks])[:, None]
-    height = np.where((inside >= -touch) & (bottom <= top + touch), top, -np.inf)
+    corners, first, sizes = _upward(blocks)
+    flat, end = corners[:, :, :2], np.roll(corners[:, :, :2], -1, axis=1)
+    side = end - flat
+    inwards = np.stack([-side[..., 1], side[..., 0]], axis=-1) / np.linalg.norm(side, axis=2, keepdims=True)
+    far = np.einsum("tsa,tsa->ts", inwards, np.roll(end, -1, axis=1) - flat)  # of the corner across
+    near = np.einsum("tsa,ma->tsm", inwards, places) - np.einsum("tsa,tsa->ts", inwards, flat)[..., None]
+    touch = _TOUCH * sizes[:, None]
+    z = np.einsum("tsm,ts->tm", near, np.roll(corners[:, :, 2], -2, axis=1) / far)
+    z = np.clip(z, corners[:, :, 2].min(axis=1)[:, None], corners[:, :, 2].max(axis=1)[:, None])
+    every = np.where((near >= -touch[:, None]).all(axis=1), z, -np.inf)
+    height, touch = np.maximum.reduceat(every, first), touch[first]
     best = (height >= height.max(axis=0) - touch).argmax(axis=0)
     highest = height[best, np.arange(len(places))]
     return np.where(np.isfinite(highest), best, -1), highest
+
+
+def _upward(blocks: Sequence[Block]) -> tuple[Array, Indices, Array]:
+    """Triangles (t, 3, 3) of faces that look up, the first of each block, the sizes of their blocks."""
+    points, sides = [block.vertices for block in blocks], [block.triangles for block in blocks]
+    sizes = np.array([block.size for block in blocks])
+    owner = np.repeat(np.arange(len(blocks)), [len(side) for side in sides])
+    before = np.cumsum([0, *(len(own) for own in points[:-1])])
+    corners = np.concatenate(points)[np.concatenate(sides) + before[owner][:, None]]
+    (a, b), (c, d) = np.moveaxis(corners[:, 1:, :2] - corners[:, :1, :2], 0, 2)
+    up = a * d - b * c > _SIDE * sizes[owner] ** 2  # twice the area in plan
+    return corners[up], np.searchsorted(owner[up], np.arange(len(blocks))), sizes[owner[up]]
 
 
 def _on_tops(forces: Array, places: Array, blocks: Sequence[Block]) -> Array:

@@ -8,7 +8,7 @@ from limitblocks.arrays import Array, Indices, same_rows
 from limitblocks.problem.plane.places import Place
 
 EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
-AGREE = 1e-12  # of numbers up to one: places that agree within it are judged once
+AGREE = 0.01 * EXACT  # of numbers up to one: places that agree within it are judged once
 
 
 def classes(*numbers: Array) -> tuple[Indices, Indices]:

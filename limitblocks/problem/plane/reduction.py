@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.arrays import Array, Indices, largest_in_rows, read_only
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.alike import EXACT
@@ -91,12 +91,13 @@ def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
     still, paired = image == blocks, image != blocks
     parts = [(block, blocks[still], column[still]), (np.eye(6), blocks[paired], column[paired])]
     parts.append((mirror.rates, image[paired], column[paired]))
-    u = sparse.csr_array((6 * n, 6 * len(blocks)))
+    triplets = []
     for own, i, j in parts:
-        u = sparse.csr_array(
-            u + sparse.kron(sparse.coo_array((np.ones(len(i)), (i, j)), (n, len(blocks))), own)
-        )
-    return u
+        a, b = np.nonzero(own)
+        entries = np.tile(own[a, b], len(i)), (6 * i[:, None] + a).ravel(), (6 * j[:, None] + b).ravel()
+        triplets.append(entries)
+    data, rows, columns = (np.concatenate(part) for part in zip(*triplets, strict=True))
+    return sparse.coo_array((data, (rows, columns)), shape=(6 * n, 6 * len(blocks))).tocsr()
 
 
 def _ends(ends: Indices, image: Indices, blocks: Indices) -> Indices:
@@ -184,7 +185,6 @@ def _joined(parts: list[PlaneRows], height: int) -> tuple[Indices, sparse.csr_ar
 def _cleaned(matrix: Any) -> sparse.csr_array:
     """The matrix without entries that are rounding of nothing."""
     A: sparse.csr_array = sparse.csr_array(matrix).copy()
-    largest = abs(A).max(axis=1).toarray().ravel() if A.nnz else np.zeros(A.shape[0])
-    A.data[np.abs(A.data) <= NOTHING * np.repeat(largest, np.diff(A.indptr))] = 0.0
+    A.data[np.abs(A.data) <= NOTHING * np.repeat(largest_in_rows(A), np.diff(A.indptr))] = 0.0
     A.eliminate_zeros()
     return A

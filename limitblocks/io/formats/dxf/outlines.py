@@ -20,7 +20,7 @@ _FLAT = 1e-6  # height differences, over the size of the outline, of a drawing i
 
 
 class Outline(NamedTuple):
-    """A closed polyline: corners (n, 2) in the drawing, its entity."""
+    """A closed polyline: corners (n, 2) in the drawing, counter-clockwise, and its entity."""
 
     corners: Array
     part: Part
@@ -74,7 +74,7 @@ def _sound(
     if not shapely.is_valid(ring):
         near = f"{corners[0, 0]:.6g}, {corners[0, 1]:.6g}"
         raise ModelError(f"{word} near ({near}) crosses or touches itself; an outline is one simple loop")
-    return Outline(corners, part)
+    return Outline(corners if shapely.LinearRing(corners).is_ccw else corners[::-1], part)
 
 
 def _once(points: Array, closing: float) -> tuple[Array, int]:

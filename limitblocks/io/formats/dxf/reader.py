@@ -59,7 +59,8 @@ def _instead(left_out: Counter[str]) -> str:
     drawn = left_out["LWPOLYLINE"] + left_out["POLYLINE"]
     if drawn:
         return (
-            f" but {drawn} polylines; limitblocks.files.read_drawing makes blocks of outlines and a thickness"
+            f" but {drawn} polylines; an elevation needs the depth of its blocks: --thickness in the shell, "
+            "limitblocks.files.read_drawing in Python"
         )
     return f" but {listed(left_out)}" if left_out else ""
 

@@ -19,6 +19,7 @@ from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
+from limitblocks.shown import many
 
 _DEEPEST = 32  # instances within instances
 #: Metres per unit of Rhino's unit systems.
@@ -101,7 +102,8 @@ def _model(rhino3dm: ModuleType, path: Path) -> tuple[Any, list[str]]:
         if model is None:
             raise ModelError("is not sound 3dm: rhino3dm cannot read it; save it again in Rhino")
         lost = chunks.objects(data) - len(model.Objects)
-    return model, [f"left out: {lost} objects that rhino3dm cannot read, damaged or of plug-ins"] * (lost > 0)
+    said = f"left out: {many(lost, 'object')} that rhino3dm cannot read, damaged or of plug-ins"
+    return model, [said] * (lost > 0)
 
 
 def _metres(model: Any) -> tuple[float | None, list[str]]:

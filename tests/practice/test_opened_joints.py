@@ -1,0 +1,75 @@
+"""Opened joints: gaps and steps of faces, rims overrun by a little, pressure off closed corners."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.geometry.accuracy import GAP
+from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.resting import face_at
+from limitblocks.practice.touching import across, pressed_in
+from limitblocks.practice.trimmed import trimmed
+
+B, H, PHI = 0.2, 1.0, 0.1
+
+
+def opened(gap=0.0, slide=0.0, base=1.0):
+    """A block turned by PHI about its toe, 1 m long, which then slides along it; on a base across a gap."""
+    stones = [
+        lb.Block.box("base", (base, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("block", (B, 1, H), (0, 0, H / 2 + gap), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    toe, screw = found[0].centroid + np.array([B / 2, 0, 0]), np.zeros((2, 6))
+    screw[1, 4] = PHI
+    screw[1, :3] = PHI * np.cross([0, 1, 0], stones[1].centroid - toe)
+    along = np.zeros((2, 6))
+    along[1, 1] = slide
+    return moved(moved(assembly_of(model), screw), along)
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-5, 0.4 * GAP])
+def test_a_joint_found_across_a_gap_rests_on_the_face(gap):
+    """The toe is within the face of the base, whose normal is vertical; not half way, at PHI / 2."""
+    (own,) = opened(gap).contacts
+    assert own.interface.axes[2] == pytest.approx([0, 0, 1], abs=1e-12)
+
+
+def test_a_step_in_a_face_is_not_part_of_it():
+    """Treads of 1 m x 1 m, the upper one higher by a hundredth of the size of the block."""
+    outline = [(0, 0), (2, 0), (2, 1.02), (1, 1.02), (1, 1), (0, 1)]
+    n = len(outline)
+    points = [(x, y, z) for y in (0, 1) for x, z in outline]
+    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
+    block = lb.Block("step", points, [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *sides], 1.0)
+    plane, up = np.eye(3)[:2], np.array([0.0, 0.0, 1.0])
+    for x, z in ((0.5, 1.0), (1.5, 1.02)):
+        assert face_at(block, up, np.array([x, 0.5, z]), plane).area == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("slide", [1e-5, 1e-3])
+def test_a_joint_over_the_rim_by_a_little_is_cut_by_as_much(slide):
+    there = opened(slide=slide)
+    (left,) = trimmed(there.contacts[0], there.model.blocks, there.size)
+    assert np.sort(np.ptp(left.interface.polygon, axis=0))[-1] == pytest.approx(1.0 - slide, abs=1e-9)
+
+
+@pytest.mark.parametrize(("off", "named"), [(0.0, 0), (3e-4, 0), (3e-3, 1)])
+def test_a_centre_of_pressure_off_the_closed_corners_is_named(off, named):
+    """At `off` times the half length, .5 m, from the toe, on which it should be."""
+    there = opened()
+    own = there.contacts[0].interface
+    closed = there.contacts[0].ways[:, 2] < 1e-9
+    at = own.polygon[closed].mean(axis=0)
+    at = at * (1.0 - 0.5 * off / np.linalg.norm(at))
+    Q = np.array([[0.0, 0.0, -1.0, -at[1], at[0], 0.0]])  # e1 = -M2 / N, e2 = M1 / N
+    assert len(across(there, Q, [0])) == named
+
+
+def test_what_presses_no_more_than_an_answer_is_accurate_does_not_press():
+    """Answers are accurate to 1e-8 of what acts; a hundred-thousandth of the largest force is one."""
+    arch = assembly_of(lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=2))
+    Q = np.zeros((3, 6))
+    Q[:, 2] = -1.0, -1e-8, -1e-5
+    assert [own.pressed for own in pressed_in(arch, [0, 1, 2], Q).contacts] == [True, False, True]

@@ -1,0 +1,70 @@
+"""What a newcomer gives by mistake is named, with what would be right."""
+
+from dataclasses import replace
+
+import pytest
+
+import limitblocks as lb
+from limitblocks.reports.words import together
+
+
+@pytest.fixture(scope="module")
+def wall():
+    return lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=2)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lb.bounds,
+        lb.nonassociated,
+        lb.load_path,
+        lb.stability,
+        lb.load_factor_range,
+        lb.diagnose,
+        lb.report,
+        lambda model: lb.check_mcp(model, None),
+        lambda model: lb.interface_states(model, None),
+        lambda model: lb.sensitivities(model, None),
+    ],
+)
+def test_the_name_of_a_file_is_no_model(ask):
+    with pytest.raises(
+        lb.ModelError, match=r"model is a str, expected a Model; limitblocks.read\('wall.json'\)"
+    ):
+        ask("wall.json")
+
+
+@pytest.mark.parametrize(
+    ("word", "value", "said"),
+    [
+        ("supports", "base", "supports is 'base', expected a sequence of str"),
+        ("blocks", ["base"], "blocks holds 'base', expected a sequence of Block"),
+        ("interfaces", None, "interfaces is None, expected a sequence of Interface"),
+        ("live", (1.0, 0.0, 0.0), "live is .*expected a load such as mass_proportional"),
+        ("dead", None, "dead is None, expected a load"),
+    ],
+)
+def test_parts_of_a_model_are_what_they_should_be(wall, word, value, said):
+    with pytest.raises(lb.ModelError, match=said):
+        replace(wall, **{word: value})
+
+
+def test_all_contacts_are_no_interfaces(wall):
+    found = lb.find_contacts(wall.blocks, lb.PointContact(0.6))
+    with pytest.raises(lb.ModelError, match="expected a sequence of Interface"):
+        replace(wall, interfaces=found)
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.PointContact])
+def test_friction_is_a_number(joint):
+    with pytest.raises(lb.ModelError, match="friction is 'high'"):
+        joint(friction="high")
+
+
+def test_notes_on_many_blocks_are_one():
+    notes = ["block 'a': is mended", "unit of length is mm", *(f"block 'b{k}': is turned" for k in range(9))]
+    said = together(notes)
+    assert said[:2] == ["block 'a': is mended", "unit of length is mm"]
+    shown = ", ".join(f"'b{k}'" for k in range(8))
+    assert said[2:] == [f"9 blocks {shown} and 1 more: is turned"]
