@@ -81,14 +81,16 @@ class SolveError(LimitBlocksError):
 class NoEquilibrium(SolveError):
     """The dead loads alone cannot stand; `blocks` names the blocks that fall.
 
-    `left_out` are parts of the file of the model that are no blocks of it.
+    `left_out` are parts of the file of the model that are no blocks of it, `loads` says what falls.
     """
 
-    def __init__(self, blocks: tuple[str, ...], left_out: Sequence[str] = ()) -> None:
+    def __init__(
+        self, blocks: tuple[str, ...], left_out: Sequence[str] = (), loads: str = "the dead loads alone"
+    ) -> None:
         self.blocks, self.left_out = blocks, tuple(left_out)
         shown = ", ".join(blocks[:8]) + (f" and {len(blocks) - 8} more" if len(blocks) > 8 else "")
         super().__init__(
-            f"the dead loads alone cannot stand: {shown} would fall; "
+            f"{loads} cannot stand: {shown} would fall; "
             + "; ".join(["check supports, missing interfaces, friction and strengths", *missing(left_out)])
         )
 

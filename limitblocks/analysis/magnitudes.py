@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,8 @@ _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
 _KILO, _DENSITY = 5e2, 5e3
 #: Unit weight, N/m3, and strength, Pa, that no material has: platinum weighs 2.1e5, diamond bears 1e11.
 _HEAVY, _STRONG = 2.2e5, 1e12
+#: Axle load, N, below which it may be in kN: a bicycle has 500.
+_LIGHT = 1e3
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
 _LARGE, _SMALL = 3e2, 5e-2
 
@@ -37,6 +39,13 @@ def of_size(size: float) -> list[str]:
         return [f"the structure is {size:.4g} m large: millimetres? then {size / 1e3:.4g} m; see units"]
     if size < _SMALL:
         return [f"the structure is {size:.4g} m large: is it in metres? see units"]
+    return []
+
+
+def of_axles(axles: Sequence[float]) -> list[str]:
+    """Return the question for the axle loads of a vehicle, N."""
+    if (heaviest := max(axles)) < _LIGHT:
+        return [f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N"]
     return []
 
 

@@ -58,12 +58,15 @@ def vehicle(
 ) -> None:
     """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
     with clean_errors():
+        from limitblocks.analysis.magnitudes import of_axles
         from limitblocks.practice import Deck, Vehicle
 
         if (first is None) != (last is None):
             raise typer.BadParameter("give both or neither", param_hint="--first, --last")
         loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)
         between = None if first is None or last is None else (first, last)
+        for question in of_axles(loads.axles):
+            typer.echo(f"warning: {question}", err=True)
         settings: Any = {"deck": Deck(level, spread), "between": between, "positions": count}
         answer(analyses.vehicle, model, kept, vehicle=loads, **settings)
 

@@ -128,7 +128,8 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
     else:
         rows = study.rows()
         errors = [row.pop("error") for row in rows]
-        heads = tuple(key.replace("_", " ").capitalize() for key in rows[0])
+        words = [study.head(key).replace("_", " ") for key in rows[0]]
+        heads = tuple(word[0].upper() + word[1:] for word in words)
         print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
         print_warnings(f"row {k + 1}: {error}" for k, error in enumerate(errors) if error)
         typer.echo(f"\n{study}")

@@ -50,7 +50,7 @@ class Bounds(Result):
     solvers : tuple of str
         Solver of the stress state and of the mechanism.
     tolerance : float
-        Largest residual and gap accepted.
+        Largest residual and gap asked for; what is proven may lie farther apart, and the text says so.
     digest : str
         SHA-256 of the model.
     """
@@ -102,8 +102,17 @@ class Bounds(Result):
         word = "proven" if self.proven else "not proven"
         return (
             f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
-            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._as_read}"
+            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._wide}"
+            f"{self._as_read}"
         )
+
+    @property
+    def _wide(self) -> str:
+        """What is said of proven bounds farther apart than the tolerance."""
+        width = self.proof.width
+        if not self.proven or width <= self.tolerance:
+            return ""
+        return f"; the bounds are {width:.1e} of it apart, more than the tolerance of {self.tolerance:g}"
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""

@@ -162,6 +162,7 @@ def kinematic_residuals(
     )
 
 
+@np.errstate(over="ignore", invalid="ignore")  # those of a state that ran away are infinite
 def mcp_residuals(flow: Flow, state: State) -> Residuals:
     """Recompute the residuals of Eqs (54)-(59) of a dimensionless state.
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, NoEquilibrium, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
@@ -133,7 +133,10 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     refuse_kind(factors, PartialFactors, "factors")
     design = design_model(model, factors)
     values = tuple(_values(model, factors))
-    pair = bounds(design)
+    try:
+        pair = bounds(design)
+    except NoEquilibrium as error:
+        raise NoEquilibrium(error.blocks, error.left_out, "with design values the dead loads alone") from None
     result = nonassociated(design) if without_dilatancy else None
     return Adequacy(factors, values, bounds(model), design, pair, result, model.digest)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +15,7 @@ from limitblocks.geometry import Block, Interface
 from limitblocks.joints import Tie
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
-from limitblocks.mechanics.loads.load import Term
+from limitblocks.mechanics.loads.load import Term, Vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import Element
 from limitblocks.practice.resting import half_way, resting_axes
@@ -23,6 +23,7 @@ from limitblocks.practice.resting import half_way, resting_axes
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
 
 Truths = npt.NDArray[np.bool_]
+Pulls = dict[tuple[str, Vector], tuple[Array, PointForce]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,35 +147,43 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
             axes_j=own.axes_j @ turns[j].T,
         )
         contacts.append(replace(turned, interface=placed(turned, blocks)))
-    place = {block.name: k for k, block in enumerate(model.blocks)}
     pulls = {
-        term: after
-        for old, new in zip(assembly.contacts, contacts, strict=True)
-        for term, after in zip(*(_prestress(one, model) for one in (old, new)), strict=True)
+        (old.block, old.at): (np.array(old.force), new)
+        for own, turned in zip(assembly.contacts, contacts, strict=True)
+        for old, new in zip(_prestress(own, model), _prestress(turned, model), strict=True)
     }
-
-    def carried(load: Load) -> Load:
-        terms: list[tuple[float, Term]] = []
-        for factor, term in load.terms:
-            if term in pulls:
-                terms.append((factor, pulls[term]))
-            elif isinstance(term, AddedMass | PointForce):
-                x, y, z = at(place[term.block], np.array(term.at)).tolist()
-                terms.append((factor, replace(term, at=(x, y, z))))
-            else:
-                terms.append((factor, term))
-        return Load(tuple(terms))
-
+    place = {block.name: k for k, block in enumerate(model.blocks)}
+    dead, live = (
+        _carried(load, lambda name, point: at(place[name], point), pulls) for load in (model.dead, model.live)
+    )
     interfaces = tuple(own.interface for own in contacts)
-    dead, live = carried(model.dead), carried(model.live)
     now = replace(model, blocks=blocks, interfaces=interfaces, dead=dead, live=live)
     return Assembly(now, tuple(contacts))
 
 
-def _prestress(own: Contact, model: Model) -> list[Term]:
-    """Forces of the prestress of a tie, those of a structure with it among its dead loads."""
+def _carried(load: Load, at: Callable[[str, Array], Array], pulls: Pulls) -> Load:
+    """The load on moved blocks: `at` says where a point of a block is, `pulls` what becomes of prestress."""
+    terms: list[tuple[float, Term]] = []
+    for factor, term in load.terms:
+        if isinstance(term, PointForce) and (term.block, term.at) in pulls:
+            pull, after = pulls[term.block, term.at]
+            share = float(pull @ term.force) / float(pull @ pull)  # a partial factor may be in either
+            if np.allclose(share * pull, term.force):
+                terms.append((factor * share, after))
+                continue
+        if isinstance(term, AddedMass | PointForce):
+            x, y, z = at(term.block, np.array(term.at)).tolist()
+            terms.append((factor, replace(term, at=(x, y, z))))
+        else:
+            terms.append((factor, term))
+    return Load(tuple(terms))
+
+
+def _prestress(own: Contact, model: Model) -> list[PointForce]:
+    """Forces of the prestress of a tie, which are among the dead loads of a structure with it."""
     free = {block.name for block in model.free_blocks}
-    return [term for _, term in Element(own.interface).loads(free).terms]
+    found = (term for _, term in Element(own.interface).loads(free).terms)
+    return [term for term in found if isinstance(term, PointForce)]
 
 
 def _screw_shift(displacements: Array) -> Array:

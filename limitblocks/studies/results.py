@@ -6,7 +6,7 @@ import csv
 import io
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -38,6 +38,7 @@ class Study(Saved):
     load_factors: Array
     results: tuple[Result | None, ...]
     errors: tuple[str, ...]
+    units: ClassVar[dict[str, str]] = {}  # of columns
 
     @property
     def least(self) -> int:
@@ -73,14 +74,20 @@ class Study(Saved):
 
     def table(self) -> str:
         """Return the rows as lines of text in columns."""
-        return in_columns(self.rows())
+        return in_columns([{self.head(name): value for name, value in row.items()} for row in self.rows()])
+
+    def head(self, name: str) -> str:
+        """Return the name of a column with its unit."""
+        return f"{name}, {self.units[name]}" if name in self.units else name
 
     def __str__(self) -> str:
         failures = sum(map(bool, self.errors))
         lost = f"; {failures} without an answer" if failures else ""
         if not np.isfinite(self.load_factors).any():
             return f"{len(self.errors)} analyses, no load factor{lost}"
-        where = ", ".join(f"{name} {_short(value)}" for name, value in self._key(self.least).items())
+        units = {name: f" {unit}" for name, unit in self.units.items()}
+        here = self._key(self.least).items()
+        where = ", ".join(f"{name} {_short(value)}{units.get(name, '')}" for name, value in here)
         least = self.load_factors[self.least]
         return f"{len(self.errors)} analyses, least load factor {least:.6g} at {where}{lost}"
 
@@ -99,6 +106,7 @@ class Directions(Study):
     """
 
     directions: Array
+    units: ClassVar[dict[str, str]] = {"angle": "rad"}
 
     @property
     def angles(self) -> Array:
@@ -123,6 +131,7 @@ class MovingLoad(Study):
     """
 
     positions: Array
+    units: ClassVar[dict[str, str]] = {"x": "m", "y": "m"}
 
     @property
     def worst_position(self) -> tuple[float, float]:

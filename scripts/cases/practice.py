@@ -10,6 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import brentq
 
 import limitblocks as lb
 from cases.case import Case, of_print
@@ -148,6 +149,31 @@ def wedge_in_fill():
     return nonassociated(reinforced(model, *passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)))
 
 
+def rocks_with_prestress(strength=2e3, z=4.5, away=9.0):
+    """Zero of a wall held by a tie of which half is prestress, m of its top."""
+    model = reinforced(facade(0.0), tie("wall", (-T / 2, 0, z), "ground", (-T / 2 - away, 0, z), area=1e-4,
+                                        strength=strength / 1e-4, prestress=strength / 2))  # fmt: skip
+    return capacity_curve(model, control=("wall", (T / 2, 0.5, H)), steps=3).zero
+
+
+def zero_with_tie(strength=2e3, z=4.5, away=9.0):
+    """The same by moments about the toe, where the anchor and the tie are at a turn of the wall."""
+
+    def moment(turn):
+        c, s = math.cos(turn), math.sin(turn)
+        x, height = z * s - T * c, z * c + T * s
+        run, rise = -T - away - x, z - height
+        return OWN * (T * c - H * s) / 2 - strength * (height * run - x * rise) / math.hypot(run, rise)
+
+    return H * math.sin(brentq(moment, 0.0, 1.0, xtol=1e-14))
+
+
+def sinks_with_prestress():
+    """The rod from the lintel into the support that sinks carries 6 kN, 5 kN of them prestress."""
+    rod_ = tie("beam", (2.75, 0, 0.5), "right", (2.75, 0, -0.9), area=1e-4, strength=6e7, prestress=5e3)
+    return settlement(reinforced(lintel(), rod_), "right", (0, 0, -1)).nonassociated
+
+
 def bridge(**settings):
     """Quarter span of the first arch, clear span 3 m, no fill, one metre of width."""
     model = arch_bridge(lb.PointContact(0.6), span=3.0, rise=0.75, thickness=0.22, voussoirs=15, **settings)
@@ -252,6 +278,11 @@ def practice():
     yield case("block that slides, dowel", "non-associated", "mu + F / W", 0.35, pinned)
     yield case("block 0.2 m x 1.0 m rocks", "displacement of no resistance, m", "h sin(atan(b / h))",
                math.sin(math.atan(0.2)), rocked, quick=False)  # fmt: skip
+    yield case("facade, tie of 2 kN, half of it prestress", "displacement of no resistance, m",
+               "moments about toe", zero_with_tie(), rocks_with_prestress, quick=False)  # fmt: skip
+    yield case("lintel, rod into the support that settles", "least reaction, N",
+               "(W (L/2 - b) - T (L - x))/(L - b)", (40e3 * 1.5 - 6e3 * 0.25) / 2.5,
+               sinks_with_prestress)  # fmt: skip
     weights, ways = np.array([OWN, FLOOR]), np.array([H / 2, H])
     mass = (weights @ ways) ** 2 / (G * weights @ ways**2)
     e = G * mass / weights.sum()

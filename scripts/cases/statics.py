@@ -106,6 +106,16 @@ def balanced_stack(overhang):
     return model_of([table, *blocks], lb.PointContact(0.5))
 
 
+def step(joint):
+    """Not convex: a riser of 3 m and a tread of 1 m; its weight pushes on top of the riser."""
+    outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 3), (0, 3)]
+    blocks = [
+        lb.Block.box("ground", (6, 2, 1), (1.5, 0, -0.5)),
+        lb.Block.prism("step", outline, (-0.5, 0.5), 20e3),
+    ]
+    return model_of(blocks, joint, live=lb.loads.top_force((100e3, 0, 0), (0.5, 0)))
+
+
 def statics():
     group, root = "Statics of a few blocks", math.sqrt
     mu, fc, cohesion, tension = 0.55, 1e6, 50e3, 20e3
@@ -118,6 +128,7 @@ def statics():
          (root(0.75) / (2 * math.cos(0.2)),) * 2, 0.9, hexagon),
         ("wedge of 40 degrees between two blocks", "equilibrium of the three, all joints sliding",
          (wedge_force(0.25),) * 2, 0.25, wedge_between_two),
+        ("step that is not convex, pushed on top of its riser", "W x / (W z)", (1.9 / 3,) * 2, 0.9, step),
         ("block that slides, rod askew in plan", "|alpha W + rod| = mu W",
          ((800 + root((0.6 * 21600) ** 2 - 600**2)) / 21600,) * 2, 0.6, tied),
     ]  # fmt: skip

@@ -255,6 +255,23 @@ def test_tolerance_is_obeyed():
     assert said.count("residual") == 1
 
 
+def test_proven_bounds_of_an_accurate_solution_are_returned_although_wider_than_the_tolerance(monkeypatch):
+    """A second solution costs many times the first, and its proof takes as much."""
+
+    def repeated(*_):
+        raise AssertionError("solved again")
+
+    model = structures.wall(lb.OrdunaLourenco(0.65, slip="paper"), length=6.8, courses=12)
+    reference = lb.bounds(model)
+    monkeypatch.setattr("limitblocks.analysis.bounds._with_care", repeated)
+    asked = reference.proof.width / 3.0
+    found = lb.bounds(model, tolerance=asked)
+    assert found.proven
+    assert max(found.lower, reference.lower) <= min(found.upper, reference.upper)
+    assert f"of it apart, more than the tolerance of {asked:g}" in str(found)
+    assert "apart" not in str(reference)
+
+
 def test_numbers_far_apart_and_singular_are_factorised():
     """A block that moves freely, in units of a state: neither is regular without a shift of its own size."""
     free = np.ones((2, 2))

@@ -73,3 +73,10 @@ def test_a_negative_multiplier_counts_the_same_in_any_unit_of_its_row(problem):
     for name in ("flow", "multipliers", "yield"):
         assert one[name] == pytest.approx(two[name], rel=1e-12)
     assert one["multipliers"] > 0.0
+
+
+def test_a_state_that_ran_away_has_residuals_without_limit():
+    """Its squares overflow; no warning of that gets out (warnings are errors in these tests)."""
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
+    far = [np.full(n, 1e200) for n in (problem.C.shape[0], problem.C.shape[1], len(problem.g))]
+    assert mcp_residuals(Flow(problem), State(1.0, *far)).worst.value > 1.0

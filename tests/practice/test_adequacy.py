@@ -144,3 +144,19 @@ def test_command(tmp_path):
 def test_misuse(make, words):
     with pytest.raises(lb.ModelError, match=words):
         make()
+
+
+def test_what_stands_with_characteristic_values_alone_is_said_to():
+    """A block on a slope of 1 in 5 stands at friction 0.3 and slides at 0.3 / 2."""
+    pair = [lb.Block.prism("slope", [(0, 0), (5, 0), (5, 1)], (0, 1))]
+    pair.append(
+        lb.Block.prism("stone", [(2, 0.4), (3, 0.6), (2.8, 1.6), (1.8, 1.4)], (0, 1), unit_weight=20e3)
+    )
+    push = lb.mass_proportional((1, 0, 0))
+    interfaces = lb.find_interfaces(pair, lb.PointContact(0.3))
+    model = lb.Model(pair, ["slope"], interfaces, lb.self_weight(), push)
+    assert lb.stability(model).stands
+    with pytest.raises(
+        lb.errors.NoEquilibrium, match="with design values the dead loads alone cannot stand: stone"
+    ):
+        adequacy(model, PartialFactors(1.0, 1.0, 2.0))

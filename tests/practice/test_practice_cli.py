@@ -212,6 +212,8 @@ def test_vehicle(beam):
     found = json.loads(done.stdout)
     assert found["position"] == pytest.approx(3.8, abs=1e-3)
     assert found["bounds"]["lower"] == pytest.approx(40e3 / 10e3 / (found["position"] - 3.0), rel=1e-3)
+    light = run("vehicle", beam, "--axles", "20", "--level", 0.5, "--first", 3, "--last", 4, "--count", 3)
+    assert "warning: the heaviest axle is 20 N: kN? 20 kN = 20000 N" in light.output
     assert "--axles" in run("vehicle", beam, "--axles", "x", "--level", 0.5, "--first", 3, "--last", 4).output
 
 

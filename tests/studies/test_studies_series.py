@@ -87,7 +87,7 @@ def test_load_moving_over_a_cantilever():
     assert np.isnan(series.load_factors[4])
     assert "no free block" in series.errors[4]
     assert series.worst_position == (2.4, 0.0)
-    assert "least load factor 14.2857 at x 2.4, y 0; 2 without an answer" in str(series)
+    assert "least load factor 14.2857 at x 2.4 m, y 0 m; 2 without an answer" in str(series)
 
 
 def test_load_moving_over_an_arch_is_symmetric_and_worst_off_the_crown():
@@ -185,7 +185,7 @@ def test_a_process_that_dies_is_our_error():
 def test_rows_as_text_numbers_and_csv(tmp_path):
     series = studies.directions(block(), lb.loads.compass(2, vertical=True))
     table = series.table().splitlines()
-    assert table[0].split()[:5] == ["angle", "x", "y", "z", "load_factor"]
+    assert table[0].split()[:6] == ["angle,", "rad", "x", "y", "z", "load_factor"]
     assert len(table) == 5
     file = series.write_csv(tmp_path / "rows.csv")
     with file.open(newline="", encoding="utf-8") as stream:
@@ -203,3 +203,11 @@ def test_rows_as_text_numbers_and_csv(tmp_path):
     assert written["rows"][3]["load_factor"] is None  # JSON has no infinity
     with pytest.raises(lb.ModelError, match="holds a study"):
         lb.read_result(tmp_path / "rows.json")
+
+
+def test_tables_say_units():
+    block = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)
+    found = lb.studies.directions(block, 4, workers=1)
+    assert found.table().startswith("angle, rad")
+    assert " rad, x " in str(found)
+    assert "angle" in found.rows()[0]
