@@ -6,6 +6,8 @@ Vectors of a group of cones stand side by side, shape (size, count, ...): sums o
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from limitblocks.arrays import Array
@@ -18,20 +20,14 @@ def minkowski(a: Array, b: Array) -> Array:
 
 
 def quotient(cones: Cones, s: Array, q: Array) -> Array:
-    """Return L(s)^-1 q: what times s is q; shape (R,), or (R, k) of columns."""
-    rows, s = np.empty_like(q), s.reshape(-1, *[1] * (q.ndim - 1))
-    rows[: cones.linear] = q[: cones.linear] / s[: cones.linear]
+    """Return L(s)^-1 q: what times s is q."""
+    rows, k = np.empty_like(q), slice(0, cones.linear)
+    rows[k] = q[k] / s[k]
     for index in cones.groups:
-        rows[index.T] = _divided(s[index.T], q[index.T])
+        v, w = s.take(index.T), q.take(index.T)
+        first = minkowski(v, w) / minkowski(v, v)
+        rows[index.T] = np.vstack([first, (w[1:] - first * v[1:]) / v[0]])
     return rows
-
-
-def _divided(v: Array, w: Array) -> Array:
-    """L(v)^-1 w of each cone, shapes (size, count, ...)."""
-    divided = np.empty_like(w)
-    divided[0] = minkowski(v, w) / minkowski(v, v)
-    divided[1:] = (w[1:] - divided[0] * v[1:]) / v[0]
-    return divided
 
 
 def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
@@ -44,7 +40,7 @@ def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
     s, y = np.empty_like(v), np.empty_like(v)
     s[k], y[k] = _halves(v[k], products[k])
     for index in cones.groups:
-        w, product = v[index.T], products[index[:, 0]]
+        w, product = v.take(index.T), products.take(index[:, 0])
         size = np.sqrt((w[1:] * w[1:]).sum(axis=0))
         axis = w[1:] / np.where(size > 0.0, size, 1.0)
         large, small = _halves(w[0] + size, product), _halves(w[0] - size, product)
@@ -60,18 +56,36 @@ def _halves(v: Array, product: Array) -> tuple[Array, Array]:
     return np.where(v > 0.0, large, small), np.where(v > 0.0, small, large)
 
 
-def slope(cones: Cones, s: Array, y: Array, rows: Array) -> Array:
-    """Return L(s)^-1 L(y) applied to rows, shape (R, k): how multipliers fall with the slack."""
+def slope(cones: Cones, s: Array, y: Array) -> Callable[[Array], Array]:
+    """Return what applies L(s)^-1 L(y) to rows (R,) or (R, k): how multipliers fall with the slack."""
     k = slice(0, cones.linear)
-    slopes = np.empty_like(rows)
-    slopes[k] = rows[k] * (y[k] / s[k])[:, None]
-    for index in cones.groups:
-        w, F = y[index.T][:, :, None], rows[index.T]
-        product = w[0] * F
-        product[0] = (w * F).sum(axis=0)
-        product[1:] += F[0] * w[1:]
-        slopes[index.T] = _divided(s[index.T][:, :, None], product)
-    return slopes
+    line = y[k] / s[k]
+    matrices = [_slopes(s.take(index.T), y.take(index.T)) for index in cones.groups]
+
+    def applied(rows: Array) -> Array:
+        fall = np.empty_like(rows)
+        fall[k] = (rows[k].T * line).T
+        for index, matrix in zip(cones.groups, matrices, strict=True):
+            part = slice(index[0, 0], index[-1, -1] + 1)
+            fall[part] = (matrix @ rows[part].reshape(*index.shape, -1)).reshape(rows[part].shape)
+        return fall
+
+    return applied
+
+
+def _slopes(v: Array, w: Array) -> Array:
+    """L(v)^-1 L(w) of each cone, shape (count, size, size)."""
+    size, count = v.shape
+    matrix = np.empty((size, size, count))
+    matrix[0, 0] = minkowski(v, w)
+    matrix[0, 1:] = v[0] * w[1:] - w[0] * v[1:]
+    matrix[0] /= minkowski(v, v)
+    matrix[1:] = -v[1:, None] * matrix[0]
+    matrix[1:, 0] += w[1:]
+    diagonal = np.arange(1, size)
+    matrix[diagonal, diagonal] += w[0]
+    matrix[1:] /= v[0]
+    return np.ascontiguousarray(matrix.transpose(2, 0, 1))
 
 
 def curvature(cones: Cones, v: Array, a: Array) -> Array:
@@ -83,7 +97,7 @@ def curvature(cones: Cones, v: Array, a: Array) -> Array:
     curved = np.empty_like(a)
     curved[k] = a[k] / v[k] ** 2
     for index in cones.groups:
-        w, p = v[index.T], a[index.T]
+        w, p = v.take(index.T), a.take(index.T)
         size = minkowski(w, w)
         part = (2.0 * minkowski(w, p) / size * w - p) / size
         part[1:] *= -1.0
@@ -96,7 +110,7 @@ def spread(cones: Cones, s: Array, y: Array, target: Array) -> float:
     k = slice(0, cones.linear)
     products = [s[k] * y[k] / target[k]]
     for index in cones.groups:
-        p, q, aim = s[index.T], y[index.T], target[index[:, 0]]
+        p, q, aim = s.take(index.T), y.take(index.T), target.take(index[:, 0])
         half = (p * q).sum(axis=0)
         both = minkowski(p, p) * minkowski(q, q)
         large = half + np.sqrt(np.maximum(half * half - both, 0.0))

@@ -68,11 +68,11 @@ def test_rounds_go_on_where_the_gap_falls_fast_enough(factor, rounds, monkeypatc
 
 @pytest.mark.parametrize("pivots", [True, False])
 def test_pivots_close_rounds_near_a_solution(pivots, monkeypatch):
-    """Without them rounds are given up, and a larger barrier leads to another solution, 28 % higher."""
+    """Without them rounds are given up, and a larger barrier leads to another solution, 29 % higher."""
     monkeypatch.setattr(ways, "LARGE", 10)
     if not pivots:
         monkeypatch.setattr(closing, "pivoted", lambda flow, state: state)
-    found = lb.nonassociated(lb.structures.EXAMPLES["buttressed_wall"](lb.OrdunaLourenco(0.6)))
+    found = lb.nonassociated(lb.structures.EXAMPLES["buttressed_wall"](lb.OrdunaLourenco(0.62)))
     assert found.converged
     assert found.how.endswith("rounds of the fixed point") is pivots
 
@@ -225,13 +225,12 @@ def test_a_path_in_one_half_is_followed_where_the_whole_one_is_given_up():
 
 
 def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
-    """The facade crushes at a corner of yield; the path leaves 3e-8, repair of its stresses 4e-9."""
+    """Of a vault that crushes the path leaves some 1e-8: start stresses changed by rounding give the same."""
     joint = lb.OrdunaLourenco(0.6, compressive_strength=0.3e6)
-    door = [(1.2, 0.0, 0.8, 1.2)]
-    model = lb.structures.facade(
-        joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=(1, 1, 0)
+    model = lb.structures.barrel_vault(
+        joint, radius=1.5, thickness=0.4, length=1.8, courses=7, stones=3, direction=(1, 1, 0)
     )
-    settings = {"means": [Means(Barrier(0.02, 2.0), 1, 300)], "throw": False}
+    settings = {"means": MEANS[:1], "confirm": False, "throw": False}
     assert lb.nonassociated(model, **settings).residuals.worst.value <= 1e-10
     monkeypatch.setattr(ways, "pivoted", lambda flow, state: state)
-    assert lb.nonassociated(model, **settings).residuals.worst.value > 1e-9
+    assert not lb.nonassociated(model, **settings).converged

@@ -19,6 +19,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
     Point,
     inner,
+    moved,
     moved_on,
     residuals,
     theta_slope,
@@ -204,12 +205,29 @@ def test_the_derivative_is_that_of_the_equations(joint, rule):
     z, _ = centred(path)
     random = np.random.default_rng(0)
     q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))
-    (d,) = Newton(path, z).solve(q)
+    q = replace(q, multiplier=1e-3 * random.normal(size=z.y.shape))
+    d = Newton(path, z).solve(q)
     h = 1e-5
-    ends = [residuals(path, z.moved(t, d)) for t in (h, -h)]
-    for name in ("flow", "balance", "work", "slack", "product"):
+    points = [z.moved(t, d) for t in (h, -h)]
+    ends = [residuals(path, point) for point in points]
+    for name in ("flow", "balance", "work", "slack"):
         slope = (getattr(ends[0], name) - getattr(ends[1], name)) / (2.0 * h)
         np.testing.assert_allclose(slope, getattr(q, name), atol=1e-6)
+    products = [path.cones.product(point.s, point.y) for point in points]
+    asked = path.cones.product(z.s, q.multiplier)
+    np.testing.assert_allclose((products[0] - products[1]) / (2.0 * h), asked, atol=1e-6)
+
+
+def test_the_products_of_moved_points_are_those_of_their_theta():
+    flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
+    path = path_from(flow, x0, weights, Barrier(), 1)
+    z, _ = centred(path)
+    tangent = Newton(path, z).solve(theta_slope(path, z).negative())
+    ahead = moved(path, z, 0.1, replace(tangent, theta=1.0))
+    for point in (z, ahead):
+        products = path.cones.product(point.s, point.y)
+        np.testing.assert_allclose(products, path.target(point.theta), rtol=1e-9, atol=1e-12)
+    assert ahead.theta == pytest.approx(1.1)
 
 
 def direction(random, z, size):
@@ -221,7 +239,7 @@ def test_the_stresses_move_on_without_a_jump_of_the_path():
     flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
     path = path_from(flow, x0, weights, Barrier(floor=2.0), 0)
     z, _ = centred(path)
-    (d,) = Newton(path, z).solve(theta_slope(path, z).negative())
+    d = Newton(path, z).solve(theta_slope(path, z).negative())
     z = z.moved(0.5, d)
     onward = moved_on(path, z)
     assert np.abs(onward.x0 - path.x0).max() > 1e-3

@@ -109,7 +109,7 @@ def test_report_has_design_beside_characteristic_values():
     (chapter,) = (one for one in made.document.chapters if one.title == "Adequacy with partial factors")
     (table,) = (part for part in chapter.parts if getattr(part, "caption", "").startswith("Characteristic"))
     rows = {row[0].text: [cell.text for cell in row] for row in table.rows}
-    assert rows["mu"] == ["mu", "1 of 1 interfaces", "0.3", "gamma_phi", "1.25", "0.24"]
+    assert rows["mu"] == ["mu", "1 of 1 interface", "0.3", "gamma_phi", "1.25", "0.24"]
     assert rows["G"][3:] == ["gamma_G", "1.35", "1.35"]
     assert "LESS than one" in made.markdown
     assert "not judged here" in made.text

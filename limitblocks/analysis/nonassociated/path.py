@@ -165,8 +165,8 @@ class Walk:
         self.factorisations += 1
         try:
             newton = Newton(self.path, self.z)
-            slope = theta_slope(self.path, self.z)
-            step, turn = newton.solve(left.negative(), slope.negative())
+            step = newton.solve(left.negative())
+            turn = newton.solve(theta_slope(self.path, self.z).negative())
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
             self._retreat()
             return

@@ -105,21 +105,24 @@ class Path:
 
 @dataclass(frozen=True, eq=False)
 class Equations:
-    """What is left of the five equations of a path: flow, equilibrium, normalisation, slacks, products."""
+    """What is left of the equations of a path: flow, equilibrium, normalisation, slacks, products.
+
+    `multiplier` is L(s)^-1 times what is left of the products.
+    """
 
     flow: Array
     balance: Array
     work: float
     slack: Array
-    product: Array
+    multiplier: Array
 
     def negative(self) -> Equations:
         """Return the same with the other sign."""
-        return Equations(-self.flow, -self.balance, -self.work, -self.slack, -self.product)
+        return Equations(-self.flow, -self.balance, -self.work, -self.slack, -self.multiplier)
 
 
 def residuals(path: Path, z: Point) -> Equations:
-    """Return the residuals at a point."""
+    """Return the residuals at a point, of which the products are exact."""
     p = path.flow.problem
     elastic = path.rho(z.theta) * path.elastic * (z.x - path.x0)
     return Equations(
@@ -127,7 +130,7 @@ def residuals(path: Path, z: Point) -> Equations:
         p.dead + z.load_factor * p.live - path.layout.balance @ z.x,
         float(p.live @ z.u - 1.0),
         p.F @ z.x + p.g - z.s,
-        p.cones.product(z.s, z.y) - path.target(z.theta),
+        np.zeros_like(z.y),
     )
 
 
@@ -136,7 +139,7 @@ def theta_slope(path: Path, z: Point) -> Equations:
     p, power = path.flow.problem, path.barrier.power
     rho = 0.0 if path.at_floor(z.theta) else power * z.theta ** (power - 1.0)
     flow = rho * path.elastic * (z.x - path.x0) - path.carried
-    return Equations(flow, np.zeros_like(p.dead), 0.0, np.zeros_like(z.s), -path.target(1.0))
+    return Equations(flow, np.zeros_like(p.dead), 0.0, np.zeros_like(z.s), -z.y / z.theta)
 
 
 def distance(path: Path, z: Point, left: Equations) -> float:

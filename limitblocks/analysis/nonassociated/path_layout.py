@@ -94,12 +94,17 @@ class Layout:
         local[entries.row, self.stress_place[entries.col]] = entries.data
         return local
 
+    @cached_property
+    def interface_rows(self) -> Indices:
+        """Rows of each interface, shape (m, r); R where there is none."""
+        n = len(self.row_place)
+        table = np.full((self.interfaces, int(self.row_place.max()) + 1), n)
+        table[self.problem.row_interface, self.row_place] = np.arange(n)
+        return table
+
     def by_interface(self, rows: Array) -> Array:
         """Return rows (R, k) gathered by interface, shape (m, r, k)."""
-        shape = (self.interfaces, int(self.row_place.max()) + 1, rows.shape[1])
-        gathered = np.zeros(shape)
-        gathered[self.problem.row_interface, self.row_place] = rows
-        return gathered
+        return np.concatenate([rows, np.zeros_like(rows[:1])]).take(self.interface_rows, axis=0)
 
     @cached_property
     def yield_rows(self) -> Array:
@@ -172,20 +177,28 @@ class Layout:
         return diagonal_factors(matrix, "NATURAL")
 
     def solved(self, lu: Any, right: Array) -> Array:
-        """Return the solution of those factors for right-hand sides (6 n + 1, c)."""
+        """Return the solution of those factors for a right-hand side (6 n + 1,)."""
         order = self._pattern[-1]
         ordered = np.empty_like(right)
         ordered[order] = right
-        return np.asarray(lu.solve(ordered)[order])
+        return np.asarray(lu.solve(ordered).take(order))
+
+    @cached_property
+    def _stress_at(self) -> Indices:
+        return np.asarray(self.problem.stress_interface * self.stresses.shape[1] + self.stress_place)
+
+    @cached_property
+    def _row_at(self) -> Indices:
+        return np.asarray(self.problem.row_interface * self.interface_rows.shape[1] + self.row_place)
 
     def per_interface(self, x: Array) -> Array:
-        """Return stresses (s,) or (s, c) by interface, shape (m, k) or (m, k, c)."""
-        return np.concatenate([x, np.zeros_like(x[:1])])[self.stresses]
+        """Return stresses (s,) by interface, shape (m, k)."""
+        return np.append(x, 0.0).take(self.stresses)
 
     def per_stress(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, k, ...) as stresses (s, ...)."""
-        return np.asarray(blocks[self.problem.stress_interface, self.stress_place])
+        """Return what stands by interface (m, k) as stresses (s,)."""
+        return blocks.take(self._stress_at)
 
     def per_row(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, r, ...) as rows (R, ...)."""
-        return np.asarray(blocks[self.problem.row_interface, self.row_place])
+        """Return what stands by interface (m, r) as rows (R,)."""
+        return blocks.take(self._row_at)

@@ -58,7 +58,7 @@ def path_from(
     C = layout.compatibility
     lu = layout.factors(np.swapaxes(C, 1, 2) @ stiffness @ C)
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
-    rho0 = float(layout.solved(lu, np.append(np.zeros(p.C.shape[1]), 1.0)[:, None])[-1, 0]) / power
+    rho0 = float(layout.solved(lu, np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
     logarithms = np.zeros(p.cones.degree)
     if seed:
         logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
@@ -76,6 +76,5 @@ def centred(path: Path) -> tuple[Point | None, int]:
         left = residuals(path, z)
         if k and distance(path, z, left) <= 1.0:
             return z, k
-        (d,) = Newton(path, z).solve(left.negative())
-        z = moved(path, z, 1.0, d)
+        z = moved(path, z, 1.0, Newton(path, z).solve(left.negative()))
     return None, ITERATIONS
