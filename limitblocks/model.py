@@ -70,12 +70,8 @@ class Model(Viewed):
     left_out: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        for word, kind in {
-            "blocks": Block,
-            "supports": str,
-            "interfaces": Interface,
-            "left_out": str,
-        }.items():
+        kinds = {"blocks": Block, "supports": str, "interfaces": Interface, "left_out": str}
+        for word, kind in kinds.items():
             object.__setattr__(self, word, sequence_of(word, getattr(self, word), kind))
         problems = _name_problems(self)
         if not problems:
