@@ -136,10 +136,6 @@ def near(name: str, known: Iterable[str]) -> str:
     return f"; did you mean {letters[names[0]]!r}?" if names else ""
 
 
-def __dir__() -> list[str]:
-    return __all__
-
-
 def sequence_of(word: str, given: Any, kind: type) -> tuple[Any, ...]:
     """Return a sequence of one kind of things as a tuple, or raise ModelError."""
     if isinstance(given, str) or not isinstance(given, Iterable):
@@ -149,3 +145,7 @@ def sequence_of(word: str, given: Any, kind: type) -> tuple[Any, ...]:
     if wrong:
         raise ModelError(f"{word} holds {wrong[0]!r}, expected a sequence of {kind.__name__}")
     return members
+
+
+def __dir__() -> list[str]:
+    return __all__

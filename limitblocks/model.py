@@ -70,12 +70,8 @@ class Model(Viewed):
     left_out: Sequence[str] = ()
 
     def __post_init__(self) -> None:
-        for word, kind in {
-            "blocks": Block,
-            "supports": str,
-            "interfaces": Interface,
-            "left_out": str,
-        }.items():
+        kinds = {"blocks": Block, "supports": str, "interfaces": Interface, "left_out": str}
+        for word, kind in kinds.items():
             object.__setattr__(self, word, sequence_of(word, getattr(self, word), kind))
         problems = _name_problems(self)
         if not problems:
@@ -237,13 +233,15 @@ def _floating_problems(model: Model) -> list[str]:
 
 
 def _load_problems(model: Model) -> list[str]:
-    problems = []
+    problems, known = [], {block.name for block in model.blocks}
     for word, load in (("dead", model.dead), ("live", model.live)):
         if not isinstance(load, Load):
             problems.append(f"{word} is {load!r}, expected a load such as mass_proportional((1, 0, 0))")
             continue
         try:
             values = load.on(model.free_blocks)
+            missing = {name for _, term in load.terms for name in getattr(term, "joins", ())} - known
+            problems += [f"{word} load: block {name!r} of a joint is missing" for name in sorted(missing)]
         except ModelError as error:
             problems += [f"{word} load: {problem}" for problem in error.problems]
         else:

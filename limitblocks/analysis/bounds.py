@@ -147,9 +147,8 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     # another solution is no better where this one is accurate, and only its proof takes more
-    return (
-        (dead, pair, proof) if good or (proof.complete and raw.residuals.worst.value <= tolerance) else None
-    )
+    good = good or (proof.complete and raw.residuals.worst.value <= tolerance)
+    return (dead, pair, proof) if good else None
 
 
 def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof]:

@@ -22,8 +22,8 @@ def off_load_path(how: str) -> tuple[str, ...]:
     if LARGE in how:
         return (
             *symmetric,
-            "a large barrier led to this solution: it is not that of the load path, and most of them are "
-            "higher; load_factor_range shows others",
+            "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
+            "load_factor_range shows others",
         )
     if ROUNDS in how:
         return (
