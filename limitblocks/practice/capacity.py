@@ -64,8 +64,8 @@ def capacity_curve(
         blocks, and keep their directions.
     control : (str, sequence of float), optional
         Block and point (m) whose displacement along the live load is measured. Default: of the block that
-        moves fastest along it the foremost of the highest corners: on a wall that of the outer face, whose
-        displacement at zero is the least.
+        moves fastest along it, of several the highest, the foremost of the highest corners: on a wall that of
+        the outer face, whose displacement at zero is the least.
     steps : int
         Points to the zero that the slope of the curve foretells. Between two of them the mechanism of the
         first is followed: more steps see sooner where another takes over.
@@ -216,7 +216,9 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     direction = read_only(push / np.linalg.norm(push))
     rates = result.displacement_rates
     if given is None:
-        block = model.blocks[int((rates[:, :3] @ direction).argmax())]
+        speeds, tops = rates[:, :3] @ direction, np.array([b.vertices[:, 2].max() for b in model.blocks])
+        tops[speeds < (1.0 - STILL) * speeds.max()] = -np.inf  # of blocks that move as one, the highest
+        block = model.blocks[int((tops >= tops.max() - CLOSED * moving.assembly_of(model).size).argmax())]
         height = block.vertices[:, 2]
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]

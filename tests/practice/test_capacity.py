@@ -306,3 +306,19 @@ def test_curve_ends_where_the_control_point_turns_back():
         assert turned < 1e-12  # never back
     turns = [one.model.blocks[1].centroid[0] for one in curve.points]
     assert np.all(np.diff(turns) > 0)
+
+
+@pytest.mark.parametrize("upside_down", [False, True])
+def test_default_control_of_blocks_that_slide_as_one_is_on_the_highest(upside_down):
+    """Three stones slide on the ground together; which is listed first does not matter."""
+    stones = [lb.Block.box(name, (1, 1, 0.2), (0, 0, 0.2 * k + 0.1), 20e3) for k, name in enumerate("abc")]
+    ground = lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5))
+    found = [
+        replace(one, joint=lb.PointContact(0.1)) if "ground" in (one.block_i, one.block_j) else one
+        for one in lb.find_interfaces([ground, *stones], lb.PointContact(0.6))
+    ]
+    blocks = [ground, *(stones[::-1] if upside_down else stones)]
+    model = lb.Model(blocks, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, steps=2, largest=0.01)
+    assert curve.control.block == "c"
+    assert curve.control.point[[0, 2]] == pytest.approx([0.5, 0.6], abs=1e-9)
