@@ -233,13 +233,15 @@ def _floating_problems(model: Model) -> list[str]:
 
 
 def _load_problems(model: Model) -> list[str]:
-    problems = []
+    problems, known = [], {block.name for block in model.blocks}
     for word, load in (("dead", model.dead), ("live", model.live)):
         if not isinstance(load, Load):
             problems.append(f"{word} is {load!r}, expected a load such as mass_proportional((1, 0, 0))")
             continue
         try:
             values = load.on(model.free_blocks)
+            missing = {name for _, term in load.terms for name in getattr(term, "joins", ())} - known
+            problems += [f"{word} load: block {name!r} of a joint is missing" for name in sorted(missing)]
         except ModelError as error:
             problems += [f"{word} load: {problem}" for problem in error.problems]
         else:

@@ -17,7 +17,7 @@ REGULAR = 1e-13  # eps of the quasidefinite system
 REFINEMENTS = 6
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 EXACT = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
-ROUNDS = 8  # steps, each without the rows whose multipliers turned negative
+ROUNDS = 8  # steps, each without the rows whose multipliers turned negative; fewer where they leave as much
 
 
 def nearest_mechanism(
@@ -34,7 +34,8 @@ def nearest_mechanism(
     blocks: list[list[Any]] = [[problem.C, strains], [live, None]]
     J = sparse.csr_array(sparse.block_array(blocks if len(w) else [row[:1] for row in blocks]))
     right, kept = np.append(np.zeros(len(J.indptr) - 2), 1.0), np.ones(len(w), dtype=bool)
-    for _ in range(ROUNDS):
+    before = np.inf  # what the round before left, of the same rows
+    for further in reversed(range(ROUNDS)):
         w = np.where(kept, w, 0.0)
         left = right - J @ np.append(u, w)
         if _share(left, u) > EXACT:
@@ -44,9 +45,13 @@ def nearest_mechanism(
             u, w = u + d[:n], w + d[n:]
             left = right - J @ np.append(u, w)
         negative = may.along & (w < -EXACT * np.abs(w).max(initial=0.0))
-        if _share(left, u) <= EXACT and not negative.any():
+        share = _share(left, u)
+        if share <= EXACT and not negative.any():
             return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
+        if share * (share / before) ** further > EXACT:  # at this rate not within the rounds
+            return None
         kept &= ~negative[may.ray]
+        before = np.inf if negative.any() else share
     return None
 
 

@@ -129,8 +129,8 @@ def _unknown_names(document: ModelDocument) -> list[str]:
     for word in ("dead", "live"):
         terms = enumerate(getattr(document, word))
         for k, term in terms:
-            if hasattr(term, "block"):
-                used.append((f"{word}[{k}].block", term.block, blocks, "block"))
+            keys = [key for key in ("block", "block_i", "block_j") if hasattr(term, key)]
+            used += [(f"{word}[{k}].{key}", getattr(term, key), blocks, "block") for key in keys]
             named = enumerate(getattr(term, "blocks", ()))
             used += [(f"{word}[{k}].blocks[{n}]", name, blocks, "block") for n, name in named]
     if isinstance(document.interfaces, list):

@@ -18,7 +18,7 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import force
+from limitblocks.mechanics.loads import JointPressure, force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, Element, axes_of
@@ -145,7 +145,8 @@ def settlement(
     Returns
     -------
     Settlement
-        Reactions are components against the direction, N; the weight of the support itself is left out.
+        Reactions are components against the direction, N, with the pressure of water in the joints of the
+        support; the weight of the support itself is left out.
 
     Raises
     ------
@@ -195,7 +196,8 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     if not weight > 0.0:
         raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
     pulled = sum((Element(own).loads({support}) for own in model.interfaces), Load())
-    at = pulled.on([block])[0, :3] if pulled.terms else np.zeros(3)
+    water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
+    at = (pulled + water).on([block])[0, :3]
     held = float((_pressed(model, support) + at) @ d)
     guide = Interface(
         others[0],

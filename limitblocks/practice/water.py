@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import force
+from limitblocks.mechanics.loads import JointPressure
 from limitblocks.mechanics.loads.faces import integrals, part_where
-from limitblocks.mechanics.loads.load import number
+from limitblocks.mechanics.loads.load import number, of, vector
 from limitblocks.model import Model
 
 WATER = 9810.0  # N/m3
@@ -26,7 +26,8 @@ def uplift(
     """Return the pressure of water in joints below a level, as forces that push their blocks apart.
 
     The pressure ``share * unit_weight * (level - z)`` acts normal to the joint on the part of it below the
-    level; its resultant and its place, the centre of pressure, are exact.
+    level; its resultant and its place, the centre of pressure, are exact. It acts on the structure as it is:
+    capacity curves, verifications and settlements until collapse, in which joints turn and open, refuse it.
 
     Parameters
     ----------
@@ -50,7 +51,6 @@ def uplift(
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
     if not 0.0 < share <= 1.0:
         raise ModelError(f"share of the water pressure is {share!r}, expected more than 0 and at most 1")
-    free = {block.name for block in model.free_blocks}
     total = Load()
     for own in model.interfaces if interfaces is None else interfaces:
         corners = own.centroid + own.polygon @ own.axes[:2]
@@ -61,7 +61,6 @@ def uplift(
                 raise ModelError(f"interface {own.name} lies above the water at {level:g} m")
             continue
         at = own.centroid + first / push
-        for block, sign in ((own.block_i, -1.0), (own.block_j, 1.0)):
-            if block in free:
-                total = total + force(block, (sign * push * own.axes[2]).tolist(), at.tolist())
+        on_j = vector((push * own.axes[2]).tolist(), "force")
+        total = total + of(JointPressure(own.block_i, own.block_j, on_j, vector(at.tolist(), "at")))
     return total

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import limitblocks as lb
-from limitblocks.mechanics.loads import LoadTerm
+from limitblocks.mechanics.loads import JointPressure, LoadTerm
 
 THIRD = 1 / 3
 MASS = lb.loads.added_mass("right", (1.0, THIRD, 2.0), mass=700)
@@ -17,6 +17,9 @@ TERMS = {
     "MassProportional": lb.self_weight(),
     "AddedMass": lb.mass_proportional((1, 2, 3), [MASS]),
     "PointForce": lb.loads.force("left", (1, 2, 3), (0, 0, 1)),
+    "JointPressure": lb.loads.Load(
+        ((2.0, JointPressure("left", "lintel", (1.0, 2.0, 3.0), (-1.0, 0.0, 2.0))),)
+    ),
     "Moment": lb.loads.moment("left", (1, 2, THIRD)),
     "Pressure": lb.loads.pressure("left", 7, facing=(-1, 0, 0))
     + lb.loads.pressure("left", -THIRD, at=(-1.25, 0, 1)),

@@ -1,5 +1,7 @@
 """Least reinforcement, water, vehicles, rocking: closed forms and misuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -100,6 +102,13 @@ def test_uplift_of_a_dam_block():
     lifted = lb.Model(model.blocks, model.supports, model.interfaces, model.dead + water, model.live)
     share = 9810.0 * 0.6 * area / block.weight
     assert lb.nonassociated(lifted).load_factor == pytest.approx(0.3 * (1 - share), rel=1e-8)
+
+
+def test_pressure_in_a_joint_of_no_block():
+    model = lb.structures.block(lb.PointContact(0.3), width=2.0, height=1.0)
+    ((_, term),) = uplift(model, 0.6).terms
+    with pytest.raises(lb.ModelError, match="dead load: block 'grund' of a joint is missing"):
+        replace(model, dead=lb.loads.Load(((1.0, replace(term, block_i="grund")),)))
 
 
 def test_uplift_in_an_inclined_joint_acts_at_the_centre_of_pressure():

@@ -1,11 +1,21 @@
 """Settlement of a support: closed forms, the arch of least thickness, weak duality, misuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 import limitblocks as lb
-from limitblocks.practice import reinforced, settlement, settling, tie
+from limitblocks.practice import (
+    capacity_curve,
+    reinforced,
+    settlement,
+    settlement_to_collapse,
+    settling,
+    tie,
+    uplift,
+)
 
 LENGTH, BEARING, DEPTH, WEIGHT = 3.0, 0.4, 0.5, 20e3
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -36,6 +46,23 @@ def test_lintel_follows_a_support_that_sinks(joint):
     assert found.upper - found.lower <= 1e-6 * weight
     assert found.nonassociated == pytest.approx(least, rel=1e-8)
     assert lb.check_mcp(found.settling.model, found.result).passed
+
+
+def test_water_presses_on_the_support_that_sinks():
+    """Moments about the other inner edge: water p b at the middle of the bearing, stone on its far edge."""
+    model, weight, head = lintel(JOINTS[0]), WEIGHT * LENGTH * DEPTH, 0.5
+    bearing = [one for one in model.interfaces if "right" in (one.block_i, one.block_j)]
+    wet = replace(model, dead=model.dead + uplift(model, head, interfaces=bearing))
+    water, arm = 9810.0 * head * BEARING, LENGTH - BEARING
+    stone = (weight * (LENGTH / 2 - BEARING) - water * (arm - BEARING / 2)) / arm
+    found = settlement(wet, "right", DOWN)
+    assert found.nonassociated == pytest.approx(stone + water, rel=1e-8)
+    assert found.lower <= (stone + water) * (1 + 1e-9)
+    assert found.upper == pytest.approx(stone + water, rel=1e-6)
+    with pytest.raises(lb.ModelError, match="JointPressure, which does not move with the blocks"):
+        settlement_to_collapse(wet, "right", DOWN)
+    with pytest.raises(lb.ModelError, match="JointPressure, which does not move with the blocks"):
+        capacity_curve(wet)
 
 
 def test_lintel_is_lifted_by_the_greatest_reaction():

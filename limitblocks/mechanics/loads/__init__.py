@@ -2,6 +2,7 @@
 
 from limitblocks.mechanics.loads.forces import (
     AddedMass,
+    JointPressure,
     MassProportional,
     Moment,
     PointForce,
@@ -17,11 +18,14 @@ from limitblocks.mechanics.loads.surfaces import Fill, Pressure, fill, pressure
 from limitblocks.mechanics.loads.tops import LineLoad, TopForce, line_load, top_force
 
 #: Every term that a model file may name.
-LoadTerm = MassProportional | AddedMass | PointForce | Moment | Pressure | Fill | TopForce | LineLoad
+LoadTerm = (
+    MassProportional | AddedMass | PointForce | JointPressure | Moment | Pressure | Fill | TopForce | LineLoad
+)
 
 __all__ = [
     "AddedMass",
     "Fill",
+    "JointPressure",
     "LineLoad",
     "Load",
     "LoadTerm",

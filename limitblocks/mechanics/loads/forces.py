@@ -85,6 +85,38 @@ class PointForce:
 
 
 @dataclass(frozen=True)
+class JointPressure:
+    """A force (N, global axes) at the point `at` (m) of a joint: on block j, its opposite on block i.
+
+    A block that does not move takes its own without effect, until its settlement is asked for.
+    """
+
+    block_i: str
+    block_j: str
+    force: Vector
+    at: Vector
+
+    @property
+    def joins(self) -> tuple[str, str]:
+        """Names of both blocks, of which one may be a support."""
+        return self.block_i, self.block_j
+
+    def on(self, blocks: Sequence[Block]) -> Array:
+        """Return forces and moments at the centroids, shape (n, 6)."""
+        on_j = np.array(self.force)
+        names, load = {block.name for block in blocks}, np.zeros((len(blocks), 6))
+        for name, push in ((self.block_i, -on_j), (self.block_j, on_j)):
+            if name in names:
+                load += _at_point(name, push, self.at, blocks)
+        return load
+
+    def in_words(self) -> str:
+        """Return the term in words."""
+        where = f"from the joint with {self.block_i!r} at {triple(self.at)} m"
+        return f"a force {triple(self.force, 1e3)} kN on block {self.block_j!r} {where}, and its opposite"
+
+
+@dataclass(frozen=True)
 class Moment:
     """A moment (N m, global axes, right-hand rule) on the block named `block`."""
 
