@@ -10,10 +10,12 @@ from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.joints import Backfill
-from limitblocks.mechanics.loads import fill
+from limitblocks.mechanics.loads import Fill
 from limitblocks.mechanics.loads.load import number, unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, Element, axes_of
+
+STEEP = 1e-9  # slope of a face along the deck that counts as none
 
 
 def passive_fill(
@@ -29,8 +31,8 @@ def passive_fill(
 
     A block that moves into the fill along +-`along` meets up to ``coefficient unit_weight depth`` on the
     projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
-    associated, mobilised at once, no friction between fill and masonry. Each resistance holds the block from
-    behind, at the height of the resultant, and is held by the first support.
+    associated, mobilised at once, no friction between fill and masonry. The resistance of each face holds the
+    block from behind, on the line of its resultant, and is held by the first support.
 
     Fill over a pier between two spans leans on the other span, not on the ground: name in `blocks` those of
     the end spans that push towards an abutment, unless backing or spandrel walls hold the rest.
@@ -58,19 +60,15 @@ def passive_fill(
     number(coefficient, "coefficient of passive pressure", "", above=0.0)
     number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
     d = np.array(unit_vector(along, "direction along the deck"))
-    free, names = model.free_blocks, tuple(blocks)
-    pressed = fill(unit_weight, level, blocks=names, earth_pressure=coefficient).on(free)
-    pressed = pressed - fill(unit_weight, level, blocks=names).on(free)
-    across = np.cross((0.0, 0.0, 1.0), d)
-    elements = []
-    for block, load in zip(free, pressed, strict=True):
-        push = float(load[:3] @ d)
-        if not abs(push) > 0.0:
+    free, elements = model.free_blocks, []
+    for k, face, weight, first in Fill(unit_weight, level, tuple(blocks)).on_faces(free):
+        normal, block = free[k].normals[face], free[k]
+        push = -coefficient * weight * float(normal @ d) / float(normal[2])
+        if not abs(push) > STEEP * coefficient * weight:
             continue
-        height = float(load[3:] @ across) / push  # of the resultant over the centroid
-        at = block.centroid + np.array([0.0, 0.0, height])
+        place = first / weight  # of the resultant about the centroid; where along the deck does not matter
+        at = block.centroid + place - (place @ d) * d
         passive = coefficient * unit_weight * (level - at[2])  # pressure where the resultant acts
-        area = abs(push) / passive
         elements.append(
             Element(
                 Interface(
@@ -78,7 +76,7 @@ def passive_fill(
                     model.supports[0],
                     read_only(at),
                     read_only(axes_of(np.sign(push) * d)),
-                    read_only(np.sqrt(area) * CORNERS),
+                    read_only(np.sqrt(abs(push) / passive) * CORNERS),
                     Backfill(passive),
                 )
             )

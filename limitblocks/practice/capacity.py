@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.arrays import read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
@@ -67,7 +67,8 @@ def capacity_curve(
         moves fastest along it the foremost of the highest corners: on a wall that of the outer face, whose
         displacement at zero is the least.
     steps : int
-        Points to the zero that the slope of the curve foretells.
+        Points to the zero that the slope of the curve foretells. Between two of them the mechanism of the
+        first is followed: more steps see sooner where another takes over.
     largest : float
         Displacement at which the curve ends, m; at most the size of the structure.
     progress : callable, optional
@@ -116,7 +117,14 @@ def _curve(
             size = "" if largest <= whole else ", the size of the structure,"
             yield f"the displacement {end:g} m{size} is reached"
             return
-        next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps)
+        if not (pace := _pace(assembly, control, point.result.displacement_rates)) > STILL:
+            yield (
+                f"the control point of block {control.block!r} moves along the live load no more at "
+                f"{point.displacement:.6g} m; take one that goes on with the mechanism"
+            )
+            return
+        # no block moves farther than that, however slow the control point is
+        next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
         if isinstance(found, str) or still:
@@ -215,7 +223,13 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
     else:
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
-    largest = float(np.linalg.norm(rates[:, :3], axis=1).max())
-    if not velocity(moving.assembly_of(model), control, rates) @ direction > STILL * largest:
+    if not _pace(moving.assembly_of(model), control, rates) > STILL:
         raise ModelError(f"the control point of block {block.name!r} does not move along the live load")
     return control
+
+
+def _pace(assembly: Assembly, control: Control, rates: Array) -> float:
+    """Speed of the control point along the live load over the largest of a centroid."""
+    return float(
+        velocity(assembly, control, rates) @ control.direction / np.linalg.norm(rates[:, :3], axis=1).max()
+    )

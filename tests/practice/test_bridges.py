@@ -7,6 +7,7 @@ import pytest
 from planar_bridge import Bridge, least_pulls, load_factor, measures
 
 import limitblocks as lb
+from limitblocks.geometry.polygon import areas
 from limitblocks.loads import top_force
 from limitblocks.practice import (
     Deck,
@@ -129,6 +130,29 @@ def test_another_program_with_passive_fill():
     fill = passive_fill(model, level, unit_weight=gamma, coefficient=K)
     found = lb.bounds(reinforced(model, *fill))
     assert found.upper == pytest.approx(load_factor(own, -0.75, pulls=pulls), rel=1e-6)
+
+
+def test_passive_fill_of_faces_askew_and_on_both_sides():
+    """Triangles of area A, pressures p at corners x: int p x = A (sum p sum x + sum p x) / 12."""
+    corners = np.array([(0.0, 0, 0), (3.0, 0, 0), (0.0, 2, 0), (0.5, 0.4, 1.5)])
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    stones = [lb.Block.box("ground", (9, 9, 1), (0, 0, -0.5)), lb.Block("stone", corners, faces, 20e3)]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    d, level, K, gamma = np.array([0.8, 0.6, 0]), 2.0, 3.0, 18e3
+    fill = passive_fill(model, level, unit_weight=gamma, coefficient=K, along=d)
+    assert len(fill) == 3
+    for one, face in zip(fill, faces[1:], strict=True):
+        x = corners[list(face)]
+        area = np.cross(x[1] - x[0], x[2] - x[0]) @ d / 2  # on the upright plane across the deck
+        p = K * gamma * (level - x[:, 2])
+        push = abs(area) * p.mean()
+        at = (p.sum() * x.sum(axis=0) + p @ x) / 12 / p.mean()
+        own = one.interface
+        assert own.joint.strength * areas(own.polygon) == pytest.approx(push, rel=1e-12)
+        assert own.axes[2] == pytest.approx(-np.sign(area) * d, abs=1e-12)
+        off = own.centroid - at
+        assert off - off @ d * d == pytest.approx(np.zeros(3), abs=1e-12)
 
 
 def test_bonded_rings_are_one_ring():

@@ -283,3 +283,26 @@ def test_prestress_stays_on_the_line_of_its_tie(away, gamma):
         + gamma * block.weight * (toe - middle)[:, 0]
     )
     assert curve.load_factors == pytest.approx(held / (block.weight * (middle - toe)[:, 2]), abs=1e-9)
+
+
+def test_curve_ends_where_the_control_point_turns_back():
+    """A stone rocks; a point .5 m beyond its edge and .05 m above goes on by hypot(.5, .05) - .5 at most."""
+    stones = [
+        lb.Block.box("ground", (2, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("stone", (3, 1, 2), (0, 0, 1), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(2.0))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    curve = capacity_curve(model, control=("stone", (1.5, 0, 0.05)), steps=20)
+    most, leans = np.hypot(0.5, 0.05), np.arctan2(0.05, 0.5)
+    assert curve.zero is None
+    assert "control point of block 'stone' moves along the live load no more" in curve.ended
+    assert curve.points[-1].displacement <= most - 0.5 + 1e-9
+    for one in curve.points:
+        x, z = next(b for b in one.model.blocks if b.name == "stone").centroid[[0, 2]] - [1, 0]
+        turned = np.arctan2(z, x) - np.arctan2(1, -1)
+        assert one.load_factor == pytest.approx(np.tan(np.pi / 4 + turned), abs=1e-9)
+        assert one.displacement == pytest.approx(most * np.cos(leans + turned) - 0.5, abs=1e-9)
+        assert turned < 1e-12  # never back
+    turns = [one.model.blocks[1].centroid[0] for one in curve.points]
+    assert np.all(np.diff(turns) > 0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,14 +112,13 @@ class Fill:
 
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces and moments at the centroids, shape (n, 6)."""
-        named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
-        load = np.zeros((len(blocks), 6))
-        lowest, bounds = np.inf, boxes(blocks)
-        for k in named or range(len(blocks)):
-            block = blocks[k]
-            for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():
-                load[k] += self._on_face(block, face, blocks, bounds)
-                lowest = min(lowest, float(block.vertices[list(block.faces[face]), 2].min()))
+        load, lowest = np.zeros((len(blocks), 6)), np.inf
+        for k, face, weight, first in self.on_faces(blocks):
+            normal = blocks[k].normals[face]
+            # vertical stress p and horizontal stress K p act on the face; its area is the plan's over n_z
+            traction = np.array([*(self.coefficient * normal[:2] / normal[2]), 1.0])
+            load[k] -= np.concatenate([weight * traction, np.cross(first, traction)])
+            lowest = min(lowest, float(blocks[k].vertices[list(blocks[k].faces[face]), 2].min()))
         if not load.any():
             raise ModelError(
                 f"fill: level {self.level:g} m leaves no fill on any block: all faces lie above it (the "
@@ -133,19 +132,21 @@ class Fill:
         earth = f", coefficient of horizontal earth pressure {self.coefficient:.4g}" * bool(self.coefficient)
         return f"{said} on {some(self.blocks) if self.blocks else 'all blocks'}{earth}"
 
-    def _on_face(
-        self, block: Block, face: int, blocks: Sequence[Block], bounds: tuple[Array, Array]
-    ) -> Array:
-        corners = block.vertices[list(block.faces[face])]
-        under, _ = part_where(corners, self.level - corners[:, 2])
-        normal, about = block.normals[face], block.centroid
-        weight, first = 0.0, np.zeros(3)
-        for ring in open_to_the_sky(under, block, face, blocks, bounds):
-            p, px = integrals(ring - about, self.unit_weight * (self.level - ring[:, 2]), UP)
-            weight, first = weight + p, first + px
-        # vertical stress p and horizontal stress K p act on the face; its area is the plan's over n_z
-        traction = np.array([*(self.coefficient * normal[:2] / normal[2]), 1.0])
-        return -np.concatenate([weight * traction, np.cross(first, traction)])
+    def on_faces(self, blocks: Sequence[Block]) -> Iterator[tuple[int, int, float, Array]]:
+        """Yield block, upward face, weight on it (N), and its first moments about the centroid (N m)."""
+        named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
+        bounds = boxes(blocks)
+        for k in named or range(len(blocks)):
+            block = blocks[k]
+            for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():
+                corners = block.vertices[list(block.faces[face])]
+                under, _ = part_where(corners, self.level - corners[:, 2])
+                weight, first = 0.0, np.zeros(3)
+                for ring in open_to_the_sky(under, block, face, blocks, bounds):
+                    stress = self.unit_weight * (self.level - ring[:, 2])
+                    p, px = integrals(ring - block.centroid, stress, UP)
+                    weight, first = weight + p, first + px
+                yield k, face, weight, first
 
 
 def pressure(
