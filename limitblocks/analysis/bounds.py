@@ -146,8 +146,8 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     state, proof = certified(problem, state, dead, close=close, patience=patience, splitting=splitting)
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
-    # another solution is no better where this one is accurate, and only its proof takes more
-    good = good or (proof.complete and raw.residuals.worst.value <= tolerance)
+    # another solution is no better where this one is that accurate, and only its proof takes more
+    good = good or (proof.complete and raw.residuals.worst.value <= min(close, tolerance))
     return (dead, pair, proof) if good else None
 
 

@@ -30,6 +30,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
+from limitblocks.problem.limit_problem import in_units
 
 PROXIMAL = 1e-6  # delta
 REGULAR = 1e-11  # eps of the least solution
@@ -99,8 +100,7 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING, patience: int |
     if least <= until:
         return best
     for solution in (_proximal_solution, _least_solution)[: 1 if patience else 2]:
-        for iterate in _steps(flow, state, solution, patience or PATIENCE):
-            worst = defect(flow, iterate)
+        for iterate, worst in _steps(flow, state, solution, patience or PATIENCE):
             if worst < least:
                 best, least = iterate, worst
             if least <= until:
@@ -108,8 +108,8 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING, patience: int |
     return best
 
 
-def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Iterator[State]:
-    """States of a semismooth Newton method, until they get worse."""
+def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Iterator[tuple[State, float]]:
+    """States of a semismooth Newton method and their residuals, until they get worse."""
     p, now, least, failed = flow.problem, state, defect(flow, state), 0
     for _ in range(STEPS):
         s = p.F @ now.x + p.g
@@ -124,7 +124,7 @@ def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Itera
         worst = defect(flow, iterate)
         failed = failed + 1 if worst >= least else 0
         least = min(least, worst)
-        yield iterate
+        yield iterate, worst
         if failed == patience:
             return
 
@@ -146,7 +146,8 @@ def _step(flow: Flow, now: State, active: Active, solution: Solution) -> State:
 def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
     """Solution of J d = r from J + delta I with refinement; the first n equations negated."""
     sign = np.where(np.arange(len(r)) < n, -1.0, 1.0)
-    lu = diagonal_factors(sparse.diags_array(sign) @ J + PROXIMAL * sparse.eye_array(len(r)))
+    signed = in_units(J, sign, np.ones(len(r)))
+    lu = diagonal_factors(signed + PROXIMAL * sparse.eye_array(len(r), format="csr"))
     d = lu.solve(sign * r)
     for _ in range(REFINEMENTS):
         d = d + lu.solve(sign * (r - J @ d))
@@ -197,16 +198,16 @@ def _complementarity(
 ) -> tuple[Indices, Array, sparse.csr_array, sparse.csr_array]:
     """Yielding rows, their conditions s = 0 or s o y = 0, and the derivatives by x and by y of these rows."""
     rows, cones = active.rows, p.cones
-    both = np.zeros(cones.height)
-    both[active.on_boundary] = 1.0
+    both = np.zeros(cones.height, dtype=bool)
+    both[active.on_boundary] = True
     # a cone on the boundary counts in units of its larger part
     unit = np.maximum(np.abs(s[cones.heads]), np.abs(y[cones.heads]))[cones.member]
-    weight = np.where(both > 0.0, 1.0 / np.maximum(unit, 1e-300), 1.0)
-    conditions = np.where(both > 0.0, cones.product(s, y), s) * weight
-    on, tight = sparse.diags_array(both * weight), sparse.diags_array(1.0 - both)
-    by_stress = sparse.csr_array((on @ cones.arrow(y) + tight) @ p.F)[rows]
-    by_multiplier = sparse.csr_array(on @ cones.arrow(s))[rows][:, rows]
-    return rows, conditions[rows], by_stress, by_multiplier
+    unit = np.maximum(unit, 1e-300)
+    factor = np.where(both, y / unit, cones.identity)  # s = s o e, e the identity
+    by_stress, by_multiplier = cones.arrow(factor)[rows], cones.arrow(np.where(both, s / unit, 0.0))[rows]
+    for arrow in (by_stress, by_multiplier):
+        arrow.eliminate_zeros()
+    return rows, cones.product(s, factor)[rows], by_stress @ p.F, by_multiplier[:, rows]
 
 
 def admissible(cones: Cones, state: State) -> State:

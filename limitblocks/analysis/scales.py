@@ -132,7 +132,7 @@ class Scaled:
     def measured(self, state: State) -> Scaled | None:
         """Return the problem in the units of a state; None where its units are so already."""
         p, measure = self.problem, Measure(self.problem, state)
-        acting = abs(p.C).T @ np.abs(state.x) + np.abs(p.dead) + np.abs(state.load_factor * p.live)
+        acting = p.acting @ np.abs(state.x) + np.abs(p.dead) + np.abs(state.load_factor * p.live)
         least = IDLE * np.repeat(measure.block, 6)
         carried = np.zeros(len(p.interfaces))
         np.maximum.at(carried, p.stress_interface, np.abs(state.x) / frictional(p))

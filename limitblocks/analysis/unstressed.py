@@ -64,7 +64,7 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
         step = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
         if step.accepted:
             x, springs = np.split(step.point.x, [-n])
-            acting = np.abs(problem.dead) + abs(problem.C).T @ np.abs(x)
+            acting = np.abs(problem.dead) + problem.acting @ np.abs(x)
             share = min(max(0.01, CARRIED * stiffness), 0.9)
             return np.asarray(_largest(np.abs(springs)) > share * _largest(acting))
     return None

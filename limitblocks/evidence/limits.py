@@ -100,6 +100,11 @@ class Limits:
         np.divide(lacking, strength, out=change, where=(strength > 0.0) & (lacking != 0.0))
         return change
 
+    def rows(self, x: Array, change: Array) -> Array:
+        """Return F x + g of the problem that `scaled` makes, shape (R,)."""
+        p = self.problem
+        return np.asarray(p.F @ x + p.g + change[p.cones.member] * (self.strength @ x + self.constant))
+
     def scaled(self, change: Array) -> LimitProblem:
         """Return the problem with the strength of each linear row and cone scaled by 1 + change (degree,)."""
         p = self.problem

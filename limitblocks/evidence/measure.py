@@ -34,7 +34,7 @@ class Measure:
     def block(self) -> Array:
         """What acts on each block, in its unit of force, shape (n,)."""
         p, z = self.problem, self.state
-        acting = abs(p.C).T @ np.abs(z.x) + np.abs(p.dead) + np.abs(z.load_factor * p.live)
+        acting = p.acting @ np.abs(z.x) + np.abs(p.dead) + np.abs(z.load_factor * p.live)
         return np.asarray(acting.reshape(-1, 6).max(axis=1))
 
     @cached_property

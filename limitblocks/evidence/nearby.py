@@ -45,11 +45,24 @@ class Nearby(NamedTuple):
 
 
 class _Choice(NamedTuple):
-    """Rates and multipliers of the changed problem, and which linear rows and cones flow."""
+    """Rates and multipliers of the changed problem, the flow of each linear row and cone, and which do."""
 
     u: Array
     y: Array
+    each: sparse.csr_array
     flows: Flags
+
+
+class _Flowing(NamedTuple):
+    """What stresses ask for: change of limits (degree,), multipliers, and by how much the flow is off.
+
+    `off` is C u + G^T y wherever y flows, (s,), `angle` the tangent of the angle of it at places (places,).
+    """
+
+    change: Array
+    y: Array
+    off: Array
+    angle: Array
 
 
 def nearby(given: Given, level: float, held: bool = False) -> Nearby | None:
@@ -73,20 +86,25 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     """The problem of which stresses and mechanism are exact, where the flow of `y` is that of u."""
     flow, state = given.flow, given.state
     p = flow.problem
-    rates = np.sqrt(by_member(p, given.G, y).power(2).sum(axis=1))
+    each = by_member(p, given.G, y)
+    rates = np.sqrt(each.power(2).sum(axis=1))
     flows = (rates > NOISE * np.abs(p.C @ u).max(initial=0.0)) & ~given.still(u)[given.places[0]]
-    choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), flows)
+    choice = _Choice(
+        u, np.where(flows[p.cones.member], y, 0.0), sparse.diags_array(1.0 * flows) @ each, flows
+    )
     x = _cheapest(given, choice)
-    scaled, exact, G, angle, change = _flowing(given, x, choice)
-    dead = p.C.T @ exact.x - state.load_factor * p.live
+    at = _flowing(given, x, choice)
+    dead = p.C.T @ x - state.load_factor * p.live
     # dilatancy and what turns about the centre of pressure are in G and pivot already
-    problem = replace(scaled, G=G, dead=dead, pivot=flow.pivot, friction=np.ones(len(p.friction)))
+    scaled = given.limits.scaled(_finite(at.change))
+    ones = np.ones(len(p.friction))
+    problem = replace(scaled, G=_turned(given, at), dead=dead, pivot=flow.pivot, friction=ones)
     return Nearby(
         Flow(problem, 0.0, flow.turning, flow.softening),
-        exact,
+        State(state.load_factor, x, u, at.y),
         State(state.load_factor, state.x, u, choice.y),
-        change,
-        angle,
+        at.change,
+        at.angle,
         np.abs(dead - p.dead).reshape(-1, 6).max(axis=1) / Measure(p, state).loaded,
     )
 
@@ -102,25 +120,35 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     choices = np.array([given.state.x, moved, np.zeros_like(moved)])
     costs = []
     for x in choices:
-        *_, angle, change = _flowing(given, x, choice)
+        at = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
         slight = (by == 0.0) | (given.force <= SLIGHT)
-        cost = np.maximum(angle, np.where(slight, by, np.inf))
-        np.maximum.at(cost, members, np.abs(change))
+        cost = np.maximum(at.angle, np.where(slight, by, np.inf))
+        np.maximum.at(cost, members, np.abs(at.change))
         costs.append(cost)
     return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])
 
 
-def _flowing(
-    given: Given, x: Array, choice: _Choice
-) -> tuple[LimitProblem, State, sparse.csr_array, Array, Array]:
-    """Problem of limits changed for stresses x, state, G, its angles, and the changes of limits."""
+def _flowing(given: Given, x: Array, choice: _Choice) -> _Flowing:
+    """What stresses x ask for."""
+    flow, p = given.flow, given.flow.problem
     change = given.limits.changes(x)
     change = np.where(choice.flows | (change > 0.0), change, 0.0)
-    scaled = given.limits.scaled(np.where(np.isfinite(change), change, 0.0))
-    y = _aligned(scaled, given.G, x, choice.y)
-    exact = State(given.state.load_factor, x, choice.u, y)
-    return scaled, exact, *_turned(given, exact, choice.y), change
+    y = _aligned(given, given.limits.rows(x, _finite(change)), choice)
+    rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
+    rates = p.C @ choice.u
+    meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
+    off = np.where(meant[columns], rates + flow.matrix(x).T @ y, 0.0)
+    lever = _levers(p)
+    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
+    tangent = np.where(by_angle > 0.0, np.inf, 0.0)
+    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
+    return _Flowing(change, y, off, tangent)
+
+
+def _finite(change: Array) -> Array:
+    """Changes of limits that can be made."""
+    return np.where(np.isfinite(change), change, 0.0)
 
 
 def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_array:
@@ -130,9 +158,10 @@ def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_arra
     return sparse.csr_array(each.tocsr() @ G)
 
 
-def _aligned(p: LimitProblem, G: sparse.csr_array, x: Array, y: Array) -> Array:
+def _aligned(given: Given, s: Array, choice: _Choice) -> Array:
     """The multipliers of cones on the ray opposite to s = F x + g, nearest in flow to those given."""
-    s, ray, fixed = p.F @ x + p.g, y.copy(), [np.zeros(p.cones.linear, dtype=bool)]
+    p, y = given.flow.problem, choice.y
+    ray, fixed = y.copy(), [np.zeros(p.cones.linear, dtype=bool)]
     for rows in p.cones.groups:
         z, w = s[rows][:, 1:], y[rows]
         size = np.linalg.norm(z, axis=1)
@@ -141,33 +170,26 @@ def _aligned(p: LimitProblem, G: sparse.csr_array, x: Array, y: Array) -> Array:
         w[on] = np.column_stack([np.ones(on.sum()), -z[on] / size[on, None]])
         ray[rows] = w
         fixed.append(on)
-    given, along = by_member(p, G, y), by_member(p, G, ray)
-    both, square = given.multiply(along).sum(axis=1), along.power(2).sum(axis=1)
+    along = by_member(p, given.G, ray)
+    both, square = choice.each.multiply(along).sum(axis=1), along.power(2).sum(axis=1)
     part = np.maximum(both, 0.0) / np.where(square > 0.0, square, 1.0)
     return np.asarray(np.where(np.concatenate(fixed), part, 1.0)[p.cones.member] * ray)
 
 
-def _turned(given: Given, exact: State, asked: Array) -> tuple[sparse.csr_array, Array]:
-    """G of twists about the centroid with G^T y = -C u wherever y flows, and its angle at places (places,).
+def _turned(given: Given, at: _Flowing) -> sparse.csr_array:
+    """G of twists about the centroid with G^T y = -C u wherever y flows.
 
     Place by place the least change of G: y e^T / (y . y), with e = C u + G^T y.
     """
-    flow, p, y = given.flow, given.flow.problem, exact.y
+    p, y = given.flow.problem, at.y
     rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
-    rates = p.C @ exact.u
-    meant = np.bincount(rows, weights=np.abs(asked), minlength=count) > 0.0
-    off = np.where(meant[columns], rates + flow.matrix(exact.x).T @ y, 0.0)
     square = np.bincount(rows, weights=y * y, minlength=count)
     share = y / np.where(square > 0.0, square, 1.0)[rows]
     R, s = p.F.shape
     Y = sparse.coo_array((share, (np.arange(R), rows)), shape=(R, count)).tocsr()
-    E = sparse.coo_array((off, (columns, np.arange(s))), shape=(count, s)).tocsr()
-    centroid = Flow(p, flow.dilatancy, Turning.CENTROID).matrix(exact.x)
-    lever = _levers(p)
-    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
-    tangent = np.where(by_angle > 0.0, np.inf, 0.0)
-    np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
-    return sparse.csr_array(centroid - Y @ E), tangent
+    E = sparse.coo_array((at.off, (columns, np.arange(s))), shape=(count, s)).tocsr()
+    centroid = replace(given.flow, turning=Turning.CENTROID).matrix(given.state.x)
+    return sparse.csr_array(centroid - Y @ E)
 
 
 def _levers(p: LimitProblem) -> Array:

@@ -160,6 +160,11 @@ class LimitProblem:
         return interface
 
     @cached_property
+    def acting(self) -> sparse.csc_array:
+        """|C|^T: the sum of sizes in each equation of equilibrium per size of each stress, shape (6 n, s)."""
+        return sparse.csc_array(abs(self.C).T)
+
+    @cached_property
     def parts(self) -> Indices:
         """Number of the part each free block belongs to, shape (n,); interfaces tie the blocks of a part."""
         return tied(self.ends, len(self.blocks))
