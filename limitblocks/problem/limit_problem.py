@@ -212,6 +212,7 @@ class LimitProblem:
             state.y / self.multiplier_units,
         )
 
+    @np.errstate(over="ignore")  # of a state that ran away
     def measured(self, block_force: Array) -> LimitProblem:
         """Return the same problem with other units of force: block by block, and by the lesser at interfaces.
 

@@ -80,3 +80,11 @@ def test_a_state_that_ran_away_has_residuals_without_limit():
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
     far = [np.full(n, 1e200) for n in (problem.C.shape[0], problem.C.shape[1], len(problem.g))]
     assert mcp_residuals(Flow(problem), State(1.0, *far)).worst.value > 1.0
+
+
+def test_units_of_a_state_that_ran_away_do_not_warn():
+    """Compliances have the square of a force (warnings are errors in these tests)."""
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
+    far = problem.measured(np.full(len(problem.blocks), 2.0**700))
+    assert np.isinf(far.compliance).all()
+    assert np.isfinite(far.C.data).all()
