@@ -141,13 +141,14 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     tell("proof")
     state, name = found
     patience = 1 if plane is not None and plane.flat else programs.form.patience
-    close = max(CLOSE, min(PER_BLOCK * len(problem.blocks), tolerance / 10.0))
+    accurate = max(CLOSE, PER_BLOCK * len(problem.blocks))
+    close = max(CLOSE, min(accurate, tolerance / 10.0))
     raw = _Pair(problem, state, name)
     state, proof = certified(problem, state, dead, close=close, patience=patience, splitting=splitting)
     pair = _Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     # another solution is no better where this one is that accurate, and only its proof takes more
-    good = good or (proof.complete and raw.residuals.worst.value <= min(close, tolerance))
+    good = good or (proof.complete and raw.residuals.worst.value <= min(accurate, tolerance))
     return (dead, pair, proof) if good else None
 
 
