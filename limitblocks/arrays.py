@@ -27,6 +27,23 @@ def largest_in_rows(matrix: sparse.csr_array) -> Array:
     return largest
 
 
+def positions(owner: Indices) -> Indices:
+    """Running number of each entry among those of its owner, shape (len,)."""
+    order = np.argsort(owner, kind="stable")
+    first = np.searchsorted(owner[order], owner[order])
+    position = np.empty(len(owner), dtype=np.int64)
+    position[order] = np.arange(len(owner)) - first
+    return position
+
+
+def owned(owner: Indices, count: int) -> tuple[Indices, Indices]:
+    """Numbers (count, most) of what each owner has, len(owner) beyond; the position of each (len,)."""
+    position = positions(owner)
+    table = np.full((count, int(position.max(initial=-1)) + 1), len(owner))
+    table[owner, position] = np.arange(len(owner))
+    return table, position
+
+
 def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     """The first of each class of rows (K, d) that agree within a distance, and the class of each (K,).
 

@@ -44,7 +44,7 @@ UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
 )
-PER_BLOCK = 1e-10  # width of an interval that a polish of many blocks costs more than it betters
+PER_BLOCK = 1e-10  # accuracy of a solution of many blocks: a polish costs more than it betters
 Tell = Callable[[str], None]
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 

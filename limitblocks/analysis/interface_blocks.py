@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from limitblocks.arrays import owned
 from limitblocks.problem import LimitProblem
 
 
@@ -14,22 +15,14 @@ class InterfaceBlocks:
     """Places of the generalised stresses of each interface; smaller blocks are padded with ones."""
 
     def __init__(self, problem: LimitProblem) -> None:
-        B = problem.resultants.tocoo()
-        m, n = len(problem.interfaces), B.shape[1]
-        self.interface = np.zeros(n, dtype=np.int64)
-        self.interface[B.col] = B.row // 6
-        count = np.bincount(self.interface, minlength=m)
-        order = np.argsort(self.interface, kind="stable")
-        self.place = np.empty(n, dtype=np.int64)
-        self.place[order] = np.arange(n) - np.repeat(np.cumsum(count) - count, count)
-        size = int(count.max())
-        table = np.full((m, size), -1)
-        table[self.interface, self.place] = np.arange(n)
+        self.interface = problem.stress_interface
+        table, self.place = owned(self.interface, len(problem.interfaces))
+        (m, size), n = table.shape, len(self.place)
         shape = (m, size, size)
         rows, columns = np.broadcast_to(table[:, :, None], shape), np.broadcast_to(table[:, None, :], shape)
-        self.inside = (rows >= 0) & (columns >= 0)
+        self.inside = (rows < n) & (columns < n)
         self.entries = rows[self.inside], columns[self.inside]
-        self.padding = np.eye(size) * (table < 0)[:, :, None]
+        self.padding = np.eye(size) * (table == n)[:, :, None]
 
     def inverse(self, matrix: Any) -> sparse.csr_array:
         """Return the inverse of a sparse matrix of this pattern; LinAlgError if a block is singular."""

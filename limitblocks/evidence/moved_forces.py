@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, positions
 from limitblocks.evidence.limits import ROUNDING, Flags
 from limitblocks.problem import Cones, LimitProblem
 
@@ -68,7 +68,7 @@ def _least_norm(matrix: sparse.csr_array, right: Array, row_place: Indices, stre
     """Least-norm least-squares solution of matrix d = right, whose rows and columns belong to places."""
     if not len(right):
         return np.zeros(len(stresses))
-    row_at, column_at = _running(row_place), _running(stresses)
+    row_at, column_at = positions(row_place), positions(stresses)
     count = int(max(row_place.max(), stresses.max())) + 1
     blocks = np.zeros((count, int(row_at.max()) + 1, int(column_at.max()) + 1))
     values = np.zeros(blocks.shape[:2])
@@ -78,13 +78,3 @@ def _least_norm(matrix: sparse.csr_array, right: Array, row_place: Indices, stre
     values[row_place, row_at] = right
     solution = np.einsum("pkr,pr->pk", np.linalg.pinv(blocks, rcond=RANK), values)
     return np.asarray(solution[stresses, column_at])
-
-
-def _running(owner: Indices) -> Indices:
-    """Running number of each entry among those of its owner."""
-    order = np.argsort(owner, kind="stable")
-    sorted_owner = owner[order]
-    first = np.searchsorted(sorted_owner, sorted_owner)
-    place = np.empty(len(owner), dtype=np.int64)
-    place[order] = np.arange(len(owner)) - first
-    return place

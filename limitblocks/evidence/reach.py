@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, same_rows
+from limitblocks.arrays import Array, Indices, owned, same_rows
 from limitblocks.evidence.rounding import EPS, UP, Products, products, size_of
 from limitblocks.evidence.spanning_tree import Tree
 from limitblocks.problem import LimitProblem
@@ -139,8 +139,8 @@ class Kinematic:
         And its error. Interfaces of one kind have the same numbers.
         """
         p, m, parts = self.problem, len(self.problem.interfaces), []
-        rows, row = _places(p.row_interface, m)
-        columns, column = _places(p.stress_interface, m)
+        rows, row = owned(p.row_interface, m)
+        columns, column = owned(p.stress_interface, m)
         F = p.F.tocoo()
         tall, wide = (rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)
         for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
@@ -179,7 +179,7 @@ def _exactly(size: Array, share: Array) -> Array:
 def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, Array]:
     """Places (n, S) of the stresses of the tree's interfaces, and what they put on block and parent."""
     p, n = problem, len(problem.blocks)
-    places, position = _places(p.stress_interface, len(p.interfaces))
+    places, position = owned(p.stress_interface, len(p.interfaces))
     child = np.full(len(p.interfaces), -1)
     child[tree.interface] = np.arange(n)
     C = p.C.tocoo()
@@ -191,17 +191,6 @@ def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, A
         matrix[k[its], C.col[its] % 6, position[C.row[its]]] = C.data[its]
         matrices.append(matrix)
     return places[tree.interface], matrices[0], matrices[1]
-
-
-def _places(owner: Indices, count: int) -> tuple[Indices, Indices]:
-    """Places (count, most) of what each interface owns, len(owner) beyond it; the position of each (len,)."""
-    own = np.bincount(owner, minlength=count)
-    order = np.argsort(owner, kind="stable")
-    position = np.empty(len(owner), dtype=np.int64)
-    position[order] = np.arange(len(owner)) - np.repeat(np.cumsum(own) - own, own)
-    places = np.full((count, int(own.max())), len(owner))
-    places[owner, position] = np.arange(len(owner))
-    return places, position
 
 
 def _in_cones(problem: LimitProblem, rows: Array, reach: Array) -> tuple[Array, Array]:

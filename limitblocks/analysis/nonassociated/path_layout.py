@@ -13,18 +13,9 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, owned
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
-
-
-def _places(owner: Indices, m: int) -> Indices:
-    """Running number of each entry among those of its owner."""
-    count = np.bincount(owner, minlength=m)
-    order = np.argsort(owner, kind="stable")
-    place = np.empty(len(owner), dtype=np.int64)
-    place[order] = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    return place
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,17 +56,18 @@ class Layout:
         return len(self.problem.interfaces)
 
     @cached_property
-    def stress_place(self) -> Indices:
-        """Place of each stress in its interface, shape (s,)."""
-        return _places(self.problem.stress_interface, self.interfaces)
+    def _owned_stresses(self) -> tuple[Indices, Indices]:
+        return owned(self.problem.stress_interface, self.interfaces)
 
-    @cached_property
+    @property
     def stresses(self) -> Indices:
         """Stresses of each interface, shape (m, k); s where there is none."""
-        n = len(self.stress_place)
-        table = np.full((self.interfaces, int(self.stress_place.max()) + 1), n)
-        table[self.problem.stress_interface, self.stress_place] = np.arange(n)
-        return table
+        return self._owned_stresses[0]
+
+    @property
+    def stress_place(self) -> Indices:
+        """Place of each stress in its interface, shape (s,)."""
+        return self._owned_stresses[1]
 
     @cached_property
     def padding(self) -> Array:
@@ -84,23 +76,24 @@ class Layout:
         return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
 
     @cached_property
+    def _owned_rows(self) -> tuple[Indices, Indices]:
+        return owned(self.problem.row_interface, self.interfaces)
+
+    @property
+    def interface_rows(self) -> Indices:
+        """Rows of each interface, shape (m, r); R where there is none."""
+        return self._owned_rows[0]
+
+    @property
     def row_place(self) -> Indices:
         """Place of each row in its interface, shape (R,)."""
-        return _places(self.problem.row_interface, self.interfaces)
+        return self._owned_rows[1]
 
     def rows(self, matrix: sparse.csr_array) -> Array:
         """Return the rows of a (R, s) matrix in the places of their own interface, shape (R, k)."""
         local, entries = np.zeros((matrix.shape[0], self.stresses.shape[1])), matrix.tocoo()
         local[entries.row, self.stress_place[entries.col]] = entries.data
         return local
-
-    @cached_property
-    def interface_rows(self) -> Indices:
-        """Rows of each interface, shape (m, r); R where there is none."""
-        n = len(self.row_place)
-        table = np.full((self.interfaces, int(self.row_place.max()) + 1), n)
-        table[self.problem.row_interface, self.row_place] = np.arange(n)
-        return table
 
     def by_interface(self, rows: Array) -> Array:
         """Return rows (R, k) gathered by interface, shape (m, r, k)."""
@@ -118,10 +111,7 @@ class Layout:
         n = self.problem.C.shape[1]
         pairs = np.unique(self.problem.stress_interface[entries.row] * n + entries.col)
         owner, rate = pairs // n, pairs % n
-        place = _places(owner, self.interfaces)
-        table = np.full((self.interfaces, int(place.max()) + 1), n)
-        table[owner, place] = rate
-        return table
+        return np.append(rate, n)[owned(owner, self.interfaces)[0]]
 
     @cached_property
     def compatibility(self) -> Array:

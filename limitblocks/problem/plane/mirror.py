@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, owned
 from limitblocks.problem.limit_problem import LimitProblem, Units
 from limitblocks.problem.plane.alike import EXACT, alike, classes, close, numbers, size_of
 from limitblocks.problem.plane.candidates import candidates
-from limitblocks.problem.plane.places import Place, kinds_of, owned
+from limitblocks.problem.plane.places import Place, kinds_of
 
 SNAP = 1e-10  # distance of a normal from an axis that is rounding
 
@@ -229,7 +229,7 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
     free = np.where(goal[:, 0] >= 0, 0, 1)
     least, image, turn = np.full(K, np.inf), np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):
-        there = table[wanted, k]
+        there = np.minimum(table[wanted, k], K - 1)  # any beyond its number
         turned_round = kind.ends[there, 0] != goal[:, 0]
         strain = np.where(turned_round[:, None, None, None], wide[there, ::-1], wide[there])
         own = strain[np.arange(K), free, :, :6]

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, owned
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.places import places
 
@@ -122,14 +122,3 @@ def _alike(
     for own in np.unique(table, axis=0).tolist():
         conic = tuple(kind for kind, k in zip(kinds, own[2:], strict=True) for _ in range(k))
         yield np.flatnonzero((table == own).all(axis=1)), own[1], conic
-
-
-def owned(owner: Indices, count: int) -> tuple[Indices, Indices]:
-    """Numbers (count, most) of what each place owns, in their order, and the position of each (len,)."""
-    own = np.bincount(owner, minlength=count)
-    order = np.argsort(owner, kind="stable")
-    position = np.empty(len(owner), dtype=np.int64)
-    position[order] = np.arange(len(owner)) - np.repeat(np.cumsum(own) - own, own)
-    table = np.zeros((count, int(own.max(initial=0))), dtype=np.int64)
-    table[owner, position] = np.arange(len(owner))
-    return table, position
