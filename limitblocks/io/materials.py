@@ -46,7 +46,8 @@ def materials_of(document: MaterialsDocument | ModelDocument, wrong: faults.Faul
     """Return the materials in a document in SI; None, with the reason in `wrong`, where they are none."""
     before, metre = len(wrong), METRES[document.units.length]
     materials = {
-        name: wrong.made(f"materials.{name}", _material, one, metre) for name, one in document.materials.items()
+        name: wrong.made(f"materials.{name}", _material, one, metre)
+        for name, one in document.materials.items()
     }
     pairs = {
         pair.between: wrong.made(f"pairs[{k}].joint", joint_of, pair.joint)
