@@ -159,7 +159,9 @@ def test_faces_in_one_plane_around_a_window_are_one(where, off):
     load = lb.loads.pressure("wall", 1e3, **where).on([wall])[0]
     assert load == pytest.approx(np.array([0, 6e3, 0, 0, 0, 0]), abs=6e3 * (1e-9 + 4 * off))
     water = lb.loads.pressure("wall", unit_weight=WATER, level=1.0, **where).on([wall])[0]
-    force, moment = (4.0 * 1.0**k / k - 2.0 * 0.5**k / k for k in (2, 3))  # of depth and its square, by height
+    force, moment = (
+        4.0 * 1.0**k / k - 2.0 * 0.5**k / k for k in (2, 3)
+    )  # of depth and its square, by height
     expected = WATER * np.array([0.0, force, 0.0, moment, 0.0, 0.0])
     assert water == pytest.approx(expected, abs=WATER * (1e-9 + 8 * off))
 
