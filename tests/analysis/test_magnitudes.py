@@ -34,7 +34,10 @@ def block(joint=None, **change):
             block(lb.OrdunaLourenco(0.6, compressive_strength=2e15)),
             "compressive strength is 2e+15 Pa, more than any stone bears",
         ),
-        (block(lb.OrdunaLourenco(0.6, compressive_strength=1.5e9)), "compressive strength is 1.5e+09 Pa, more"),
+        (
+            block(lb.OrdunaLourenco(0.6, compressive_strength=1.5e9)),
+            "compressive strength is 1.5e+09 Pa, more",
+        ),
         (block(width=8000.0), "the structure is "),
         (block(width=0.01, height=0.01, depth=0.01), "the structure is "),
     ],
@@ -78,7 +81,7 @@ def test_questions_are_asked_before_an_analysis(tmp_path):
 
 
 def with_roof(dead, live):
-    """A block of 10 kN with a roof of 5 kN on top that is given to the dead load, to the live load, or both."""
+    """A block with a roof on top that is given to the dead load, to the live load, or to both."""
     model, roof = block(), lb.loads.added_mass("block 1", at=(0.0, 0.0, 1.0), weight=5e3)
     loads = lb.self_weight([roof] * dead), lb.mass_proportional((1, 0, 0), [roof] * live)
     return replace(model, dead=loads[0], live=loads[1])
