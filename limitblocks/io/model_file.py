@@ -92,6 +92,7 @@ def _model(document: ModelDocument) -> Model:
     live = wrong.all_made("live", _load, document.live)
     tolerances = Tolerances(**document.tolerances.model_dump()) if document.tolerances else None
     contacts: Contacts | None = None
+    interfaces: Sequence[Interface] = ()
     if isinstance(document.interfaces, list):
         interfaces = wrong.all_made("interfaces", _interface, document.interfaces, joints)
     elif not wrong:
