@@ -217,8 +217,12 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
         dead=model.dead + pulled + force(support, (-held * d).tolist(), block.centroid.tolist()),
         live=force(support, (weight * d).tolist(), block.centroid.tolist()),
     )
-    on_support = (pulled + water + force(support, (-held * d).tolist(), block.centroid.tolist())).on([block])[0]
-    return Settling(_as_before(model, freed, support, on_support, weight), support, read_only(d), held, weight)
+    on_support = (pulled + water + force(support, (-held * d).tolist(), block.centroid.tolist())).on([block])[
+        0
+    ]
+    return Settling(
+        _as_before(model, freed, support, on_support, weight), support, read_only(d), held, weight
+    )
 
 
 def _as_before(model: Model, freed: Model, support: str, on_support: Array, weight: float) -> Model:
