@@ -44,6 +44,29 @@ def owned(owner: Indices, count: int) -> tuple[Indices, Indices]:
     return table, position
 
 
+def repeated(count: Indices) -> tuple[Indices, Indices]:
+    """Each of (c,) as often as it counts: which one it is, and its position among its copies."""
+    which = np.repeat(np.arange(len(count)), count)
+    return which, np.arange(len(which)) - np.repeat(np.cumsum(count) - count, count)
+
+
+def sums(owner: Indices, vectors: Array, count: int) -> Array:
+    """Sum of the vectors (k, d) of each of `count` owners, shape (count, d)."""
+    return np.column_stack([np.bincount(owner, x, count) for x in vectors.T]).astype(np.float64)
+
+
+def tied(pairs: Indices, count: int) -> Indices:
+    """Number of the part that each of `count` things belongs to, where `pairs` (p, 2) tie them, (count,)."""
+    graph = sparse.coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    return np.asarray(sparse.csgraph.connected_components(graph, directed=False)[1], dtype=np.int64)
+
+
+def first_tied(pairs: Indices, count: int) -> Indices:
+    """The first of all that each of `count` things is tied to, as in :func:`tied`, (count,)."""
+    part = tied(pairs, count)
+    return np.asarray(np.unique(part, return_index=True)[1][part])
+
+
 def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     """The first of each class of rows (K, d) that agree within a distance, and the class of each (K,).
 

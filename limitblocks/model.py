@@ -5,8 +5,8 @@ from __future__ import annotations
 import hashlib
 import json
 from collections import Counter
-from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, fields, is_dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -14,18 +14,16 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
-from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.floating import floating
-from limitblocks.joints.base import joint_of
+from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
 from limitblocks.shown import Viewed, many
-from limitblocks.written import write
+from limitblocks.written import tagged, write
 
 SCHEMA_VERSION = 1
-_BESIDE = ("tolerances", "left_out")  # of a model: what is told of it, not what it is
 _WORDS = ("layer", "material", "groups", "colour")
 # results keep the hash of their model, not the model: copies in other processes and saved ones stay small
 _MODELS: WeakValueDictionary[str, Model] = WeakValueDictionary()
@@ -97,32 +95,40 @@ class Model(Viewed):
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of the document less tolerances and what was left out; same models have the same.
+        """SHA-256 of the model less tolerances and what was left out; same models have the same.
 
-        Of its text, with the shapes of arrays, and then of their bytes, little endian.
+        Of its columns as text, with the sizes of arrays, and then of their bytes, little endian.
         """
-        numbers: list[Array] = []
-
-        def shape(array: Array) -> tuple[int, ...]:
-            numbers.append(array.ravel())
-            return array.shape
-
-        document = {key: value for key, value in self._document(shape).items() if key not in _BESIDE}
-        sha = hashlib.sha256(json.dumps(document, sort_keys=True).encode())
-        sha.update(np.concatenate(numbers).astype("<f8").tobytes())
+        blocks, interfaces = self.blocks, self.interfaces
+        joint, joints = joints_of(interfaces)
+        faces: dict[Any, int] = {}  # blocks share them
+        columns = [
+            [faces.setdefault(block.faces, len(faces)) for block in blocks],
+            list(faces),
+            *([getattr(block, key) or None for block in blocks] for key in ("name", *_WORDS)),
+            [(block.unit_weight, len(block.vertices)) for block in blocks],
+            [(i.block_i, i.block_j, joint[id(i.joint)], len(i.polygon)) for i in interfaces],
+            [SCHEMA_VERSION, self.name, self.supports, joints, self._loads],
+        ]
+        sha = hashlib.sha256(json.dumps(columns, sort_keys=True).encode())
+        arrays = [block.vertices for block in blocks]
+        arrays += [part for i in interfaces for part in (i.centroid, i.axes, i.polygon)]
+        sha.update(np.concatenate(arrays, axis=None).astype("<f8").tobytes())
         found = sha.hexdigest()
         _MODELS[found] = self
         return found
 
+    @property
+    def _loads(self) -> dict[str, Any]:
+        loads = {"dead": self.dead, "live": self.live}
+        return {
+            key: [{"factor": factor} | tagged(term) for factor, term in load.terms]
+            for key, load in loads.items()
+        }
+
     def to_dict(self) -> dict[str, Any]:
         """Return the document that :meth:`save` writes and :func:`limitblocks.read` reads."""
-        return self._document(np.ndarray.tolist)
-
-    def _document(self, written: Callable[[Array], Any]) -> dict[str, Any]:
-        """The document, its coordinates as `written`."""
-        kinds = {id(interface.joint): interface for interface in self.interfaces}
-        joint = {own: joint_of(interface) for own, interface in kinds.items()}
-        joints = {each: f"joint {k + 1}" for k, each in enumerate(dict.fromkeys(joint.values()))}
+        joint, joints = joints_of(self.interfaces)
         used: dict[str, Any] = {} if self.tolerances is None else {"tolerances": self.tolerances.to_dict()}
         used |= {"left_out": list(self.left_out)} if self.left_out else {}
         return {
@@ -132,7 +138,7 @@ class Model(Viewed):
             "blocks": [
                 {
                     "name": block.name,
-                    "vertices": written(block.vertices),
+                    "vertices": block.vertices.tolist(),
                     "faces": [list(face) for face in block.faces],
                     "unit_weight": block.unit_weight,
                     **{key: word for key in _WORDS if (word := getattr(block, key))},
@@ -140,20 +146,19 @@ class Model(Viewed):
                 for block in self.blocks
             ],
             "supports": list(self.supports),
-            "joints": {name: _tagged(joint) for joint, name in joints.items()},
+            "joints": joints,
             "interfaces": [
                 {
                     "block_i": interface.block_i,
                     "block_j": interface.block_j,
-                    "centroid": written(interface.centroid),
-                    "axes": written(interface.axes),
-                    "polygon": written(interface.polygon),
-                    "joint": joints[joint[id(interface.joint)]],
+                    "centroid": interface.centroid.tolist(),
+                    "axes": interface.axes.tolist(),
+                    "polygon": interface.polygon.tolist(),
+                    "joint": joint[id(interface.joint)],
                 }
                 for interface in self.interfaces
             ],
-            "dead": [{"factor": factor} | _tagged(term) for factor, term in self.dead.terms],
-            "live": [{"factor": factor} | _tagged(term) for factor, term in self.live.terms],
+            **self._loads,
         }
 
     def save(self, file: str | Path, *, overwrite: bool = False) -> Path:
@@ -191,15 +196,6 @@ def model_of(result: Any, model: Model | None = None) -> Model | None:
     if model is not None and digest and digest != model.digest:
         raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
     return model if model is not None else _MODELS.get(digest)
-
-
-def _tagged(settings: Any) -> dict[str, Any]:
-    """A frozen dataclass as a dictionary with its class name under `type`."""
-    if not is_dataclass(settings) or isinstance(settings, type):
-        raise ModelError(f"{settings!r} cannot be written to a file: it is not a dataclass")
-    values = {"type": type(settings).__name__} | asdict(settings)
-    # friction=1 and friction=1.0 are one model
-    return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
 
 
 def _name_problems(model: Model) -> list[str]:

@@ -6,10 +6,12 @@ import os
 import shutil
 from collections.abc import Iterable
 from contextlib import suppress
+from dataclasses import asdict, fields, is_dataclass
 from pathlib import Path
+from typing import Any
 from uuid import uuid4
 
-from limitblocks.errors import LimitBlocksError
+from limitblocks.errors import LimitBlocksError, ModelError
 
 
 def refuse_existing(files: Iterable[Path], overwrite: bool) -> None:
@@ -45,6 +47,15 @@ def write(path: Path, data: bytes | str, overwrite: bool) -> Path:
     except (OSError, ValueError) as error:
         raise LimitBlocksError(f"cannot write {path}: {getattr(error, 'strerror', None) or error}") from None
     return path
+
+
+def tagged(settings: Any) -> dict[str, Any]:
+    """Return a frozen dataclass as a dictionary with its class name under `type`."""
+    if not is_dataclass(settings) or isinstance(settings, type):
+        raise ModelError(f"{settings!r} cannot be written to a file: it is not a dataclass")
+    values = {"type": type(settings).__name__} | asdict(settings)
+    # friction=1 and friction=1.0 are one model
+    return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
 
 
 def _exists(path: Path) -> LimitBlocksError:

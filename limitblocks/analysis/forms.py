@@ -19,7 +19,7 @@ from scipy import sparse
 from limitblocks.analysis.programs import Program, map_in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem import Cones, State
+from limitblocks.problem import Cones, State, in_units
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class Rates:
     def B(self) -> sparse.csr_array:
         """Multipliers of the kept rows as a function of the rates, shape (s, 6 n)."""
         stress, factor = self.entry
-        return sparse.csr_array(sparse.diags_array(-1.0 / factor) @ self.problem.C[stress])
+        return in_units(self.problem.C[stress], -1.0 / factor, np.ones(len(self.problem.dead)))
 
     @cached_property
     def cones(self) -> Cones:

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
+from limitblocks.mechanics.loads.load import Load, some, triple
 from limitblocks.model import Model
 
 #: Friction coefficient from which on it may be an angle in degrees: 71.6 degrees.
@@ -15,8 +17,8 @@ _STEEP = 3.0
 _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
 #: Unit weights, N/m3, below which they may be in kN/m3, or densities in kg/m3: cork has 1200, pumice 5000.
 _KILO, _DENSITY = 5e2, 5e3
-#: Unit weight, N/m3, and strength, Pa, that no material has: platinum weighs 2.1e5, diamond bears 1e11.
-_HEAVY, _STRONG = 2.2e5, 1e12
+#: Unit weight, N/m3, and strength, Pa, that no masonry has: platinum weighs 2.1e5, basalt bears 4e8.
+_HEAVY, _STRONG = 2.2e5, 1e9
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
@@ -26,11 +28,16 @@ _LARGE, _SMALL = 3e2, 5e-2
 def questions(model: Model) -> list[str]:
     """Return a question, with what was probably meant, for each number of a model that is hardly meant."""
     joints = dict.fromkeys(interface.joint for interface in model.interfaces)
-    asked = [question for joint in joints for question in _of_joint(joint)]
+    asked = [*_of_loads(model), *(question for joint in joints for question in _of_joint(joint))]
     for weight in sorted({block.unit_weight for block in model.free_blocks if block.unit_weight}):
         asked += _of_weight(weight)
     corners = np.concatenate([block.vertices for block in model.blocks])
     return asked + of_size(float(np.ptp(corners, axis=0).max()))
+
+
+def weightless(model: Model) -> list[str]:
+    """Return the names of the free blocks that weigh nothing."""
+    return [block.name for block in model.free_blocks if not block.unit_weight]
 
 
 def of_size(size: float) -> list[str]:
@@ -49,6 +56,23 @@ def of_axles(axles: Sequence[float]) -> list[str]:
     return []
 
 
+def _of_loads(model: Model) -> Iterator[str]:
+    if names := weightless(model):
+        yield f"without weight: {some(names)}"
+    if not model.dead.terms:
+        yield "no dead load: the structure has no weight to stabilise it"
+    if any(isinstance(term, MassProportional) for _, term in model.live.terms):
+        loads = {"dead": _masses(model.dead), "live": _masses(model.live)}
+        for one, other in (("dead", "live"), ("live", "dead")):
+            for block, at in sorted(loads[one] - loads[other]):
+                where = f"the mass fixed to {block!r} at {triple(at)} m"
+                yield f"{where} acts in the {one} load alone: give it in the {other} load, too"
+
+
+def _masses(load: Load) -> set[tuple[str, tuple[float, ...]]]:
+    return {(term.block, term.at) for _, term in load.terms if isinstance(term, AddedMass)}
+
+
 def _of_joint(joint: Any) -> Iterator[str]:
     friction = joint.friction
     if friction >= _STEEP:
@@ -59,7 +83,7 @@ def _of_joint(joint: Any) -> Iterator[str]:
         if value and value < least:
             yield f"{name.replace('_', ' ')} is {value:g} Pa: MPa? {value:g} MPa = {1e6 * value:g} Pa"
         if value and _STRONG < value < np.inf:
-            yield f"{name.replace('_', ' ')} is {value:g} Pa, more than any material bears: in Pa? see units"
+            yield f"{name.replace('_', ' ')} is {value:g} Pa, more than any stone bears: in Pa? see units"
 
 
 def _of_weight(weight: float) -> list[str]:

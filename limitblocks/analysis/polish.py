@@ -19,7 +19,7 @@ lintels that crush need them.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Any
 
@@ -28,6 +28,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
+from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
 from limitblocks.problem.limit_problem import in_units
@@ -156,14 +157,7 @@ def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
 
 def _least_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other; n as above."""
-    eps = REGULAR * sparse.eye_array(len(r))
-    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(len(r)), J.T], [J, -eps]]))
-    lu = diagonal_factors(K)
-    right = np.concatenate([np.zeros(len(r)), r])
-    z = lu.solve(right)
-    for _ in range(2):
-        z = z + lu.solve(right - K @ z)
-    return np.asarray(z[: len(r)])
+    return least_solution(J, r, REGULAR, 2)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:
@@ -212,15 +206,4 @@ def _complementarity(
 
 def admissible(cones: Cones, state: State) -> State:
     """Return the state with multipliers that left K by rounding put back."""
-    y = state.y.copy()
-    y[: cones.linear] = np.maximum(y[: cones.linear], 0.0)
-    for index in cones.groups:
-        v = y[index]
-        across = np.linalg.norm(v[:, 1:], axis=1)
-        # the nearest point of K: (t + r)/2 (1, z/r) for |t| < r, zero for t <= -r
-        half = np.clip((v[:, 0] + across) / 2.0, 0.0, None)
-        outside = across > v[:, 0]
-        ratio = np.where(across > 0.0, half / np.where(across > 0.0, across, 1.0), 0.0)
-        v[outside] = np.column_stack([half, v[:, 1:] * ratio[:, None]])[outside]
-        y[index] = v
-    return State(state.load_factor, state.x, state.u, y)
+    return replace(state, y=cones.nearest(state.y))

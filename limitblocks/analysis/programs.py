@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 import cvxpy as cp
 import numpy as np
+from cvxpy.reductions import ConeMatrixStuffing
 from scipy import sparse
 
 from limitblocks.analysis.scales import Scaled
@@ -95,10 +96,20 @@ class Conic:
 
 
 def compiled(problem: cp.Problem) -> Conic:
-    """Return the matrices that cvxpy hands over to Clarabel."""
-    data, _, _ = problem.get_problem_data(cp.CLARABEL)
-    cones = Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
-    return Conic(data["c"], sparse.csc_array(data["A"]), data["b"], cones)
+    """Return the matrices of affine constraints and a cost to minimise as Clarabel takes them.
+
+    What `get_problem_data` returns, without what parameters would need: in half the time.
+    """
+    stuffed, _ = ConeMatrixStuffing().apply(problem)
+    zero, n = stuffed.cone_dims.zero, stuffed.x.size
+    K = Cones.of_sizes(stuffed.cone_dims.nonneg, stuffed.cone_dims.soc)
+    tails_last = [np.append(rows[:, 0], rows[:, 1:]) for rows in K.groups]  # as cvxpy has them
+    row = np.concatenate([np.arange(zero), *(zero + part for part in (np.arange(K.linear), *tails_last))])
+    stuffed.A.eliminate_zeros()
+    column, k = np.divmod(stuffed.A.indices, len(row))  # A has the columns of (A, b) below each other
+    data = np.where(k < zero, 1.0, -1.0) * stuffed.A.data
+    both = sparse.coo_array((data, (row[k], column)), shape=(len(row), n + 1)).tocsc()
+    return Conic(stuffed.q.toarray()[:n, 0], both[:, :n], -both[:, [n]].toarray()[:, 0], K)
 
 
 def static_program(problem: Scaled) -> Program:
@@ -110,7 +121,7 @@ def static_program(problem: Scaled) -> Program:
     load_factor, x = cp.Variable(), cp.Variable(problem.C.shape[0])
     balance = problem.live * load_factor + problem.dead == problem.C.T @ x
     inside = in_cone(problem.F @ x + problem.g, problem.cones)
-    return Program(cp.Problem(cp.Maximize(load_factor), [balance, *inside]), (load_factor, x))
+    return Program(cp.Problem(cp.Minimize(-load_factor), [balance, *inside]), (load_factor, x))
 
 
 def kinematic_program(problem: Scaled) -> Program:

@@ -19,7 +19,7 @@ from scipy.sparse import linalg
 
 from limitblocks.arrays import Array, largest_in_rows
 from limitblocks.evidence.measure import ROUNDING, Measure
-from limitblocks.problem import Cones, LimitProblem, State, power_of_two
+from limitblocks.problem import Cones, LimitProblem, State, in_units, power_of_two
 
 REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
 ROUNDED = 1e-28  # of the largest diagonal: a square of rounding errors, such as out of the plane of an arch
@@ -59,21 +59,18 @@ class Scaled:
         """Powers of two that bring the largest entry of each linear row and each cone near one, (R,)."""
         p = self.problem
         largest = np.zeros(p.cones.degree)
-        np.maximum.at(largest, p.cones.member, largest_in_rows(p.F @ sparse.diags_array(self.stress)))
+        np.maximum.at(largest, p.cones.member, largest_in_rows(in_units(p.F, np.ones(len(p.g)), self.stress)))
         return unit(largest)[p.cones.member]
 
     @cached_property
     def C(self) -> sparse.csr_array:
         """Compatibility matrix, shape (s, 6 n)."""
-        scaled = sparse.diags_array(self.stress) @ self.problem.C @ sparse.diags_array(1.0 / self.equation)
-        return sparse.csr_array(scaled)
+        return in_units(self.problem.C, self.stress, 1.0 / self.equation)
 
     @cached_property
     def F(self) -> sparse.csr_array:
         """Yield rows, shape (R, s)."""
-        return sparse.csr_array(
-            sparse.diags_array(1.0 / self.row) @ self.problem.F @ sparse.diags_array(self.stress)
-        )
+        return in_units(self.problem.F, 1.0 / self.row, self.stress)
 
     @cached_property
     def g(self) -> Array:

@@ -6,7 +6,9 @@ wrong, 3 no solution found, 130 interrupted.
 
 from __future__ import annotations
 
+import os
 import sys
+from contextlib import suppress
 from io import TextIOWrapper
 
 import typer
@@ -43,7 +45,15 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):  # a letter that the console lacks is no reason to crash
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="replace")
-    app(prog_name="limitblocks")
+    try:
+        app(prog_name="limitblocks")
+    except OSError as error:
+        if error.filename is not None:
+            raise
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else leaving tries once more
+        with suppress(OSError):  # stderr may be as full
+            typer.echo(f"error: cannot write what there is to print: {error.strerror}", err=True)
+        sys.exit(2)
 
 
 @app.callback(invoke_without_command=True)

@@ -58,14 +58,14 @@ def directions(
 ) -> None:
     """Print the load factor for each direction of a mass-proportional live load."""
     with clean_errors():
-        from limitblocks.io import read
+        from limitblocks.cli.answers import questioned
         from limitblocks.mechanics.loads import compass
         from limitblocks.studies import directions as study
 
         _refuse(model, csv, output, force)
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
         with of_a_count("study") as show:
-            answer = study(read(model), compass(count, vertical=vertical), progress=show, **settings)
+            answer = study(questioned(model), compass(count, vertical=vertical), progress=show, **settings)
         _tell(answer, as_json, csv, output, force)
 
 
@@ -89,14 +89,14 @@ def moving(
     with clean_errors():
         import numpy as np
 
-        from limitblocks.io import read
+        from limitblocks.cli.answers import questioned
         from limitblocks.studies import moving_load as study
 
         _refuse(model, csv, output, force)
         settings = _settings(nonassociated, dilatancy, tolerance, workers)
         with of_a_count("study") as show:
             places = np.linspace(start, end, count)
-            answer = study(read(model), load, places, progress=show, **settings)
+            answer = study(questioned(model), load, places, progress=show, **settings)
         _tell(answer, as_json, csv, output, force)
 
 

@@ -124,11 +124,16 @@ class Contacts(Shown):
         lines += [f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps[:_SHOWN]]
         if len(self.overlaps) > _SHOWN:
             lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")
-        lines += self._line("no interface between blocks that nearly touch", self._near_pairs)
+        lines += self.near_words
         lines += self._line("blocks without any interface", self.isolated)
         lines += self._line("contacts left out because they are too small", self.slivers)
         lines += self._line("strips left out because they are too narrow", self.strips)
         return lines + self._line("no contact where a third block lies between", self.through)
+
+    @property
+    def near_words(self) -> list[str]:
+        """The line that names the blocks that nearly touch; none where none do."""
+        return self._line("no interface between blocks that nearly touch", self._near_pairs)
 
     @property
     def _near_pairs(self) -> list[str]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
 from scipy.spatial import cKDTree
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, first_tied
 from limitblocks.errors import GeometryError
 from limitblocks.geometry.polyhedron import Faces
 
@@ -66,11 +65,7 @@ def clusters(name: str, points: Array, tolerance: float) -> Indices:
             f"block {name!r}: its {n} vertices lie within {tolerance:.2g} m of one another; "
             "a coarser mesh is needed"
         )
-    pairs = tree.query_pairs(tolerance, output_type="ndarray")
-    graph = sparse.coo_array((np.ones(len(pairs)), tuple(pairs.T)), shape=(n, n))
-    _, part = sparse.csgraph.connected_components(graph, directed=False)
-    _, first = np.unique(part, return_index=True)
-    return np.asarray(first[part], dtype=np.int64)
+    return first_tied(tree.query_pairs(tolerance, output_type="ndarray"), n)
 
 
 def renumbered(loops: Faces, number: Indices) -> Faces:

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, repeated
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.regions import Surfaces, in_turn, regions
 
@@ -119,7 +119,7 @@ def _arms(corners: Array, vertex: Indices, own: Indices, first: Indices) -> Arra
 
 def projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> Any:
     """Return regions `face` (m,) as shapely polygons in the first two axes of `frame` about `origin`."""
-    owner, k = ranges(faces.sides[face])
+    owner, k = repeated(faces.sides[face])
     place = faces.first[face][owner] + k
     points = np.einsum("kij,kj->ki", frame[owner, :2], faces.corners[place] - origin[owner])
     rings = faces.ring[face]
@@ -140,12 +140,6 @@ def projected(faces: FaceTable, face: Indices, origin: Array, frame: Array) -> A
     odd = np.flatnonzero(~shapely.is_valid(shapes))
     shapes[odd] = shapely.make_valid(shapes[odd], method="structure", keep_collapsed=False)
     return shapes
-
-
-def ranges(counts: Indices) -> tuple[Indices, Indices]:
-    """Return for each count k its position, k times, and the numbers 0..k-1."""
-    owner = np.repeat(np.arange(len(counts)), counts)
-    return owner, np.arange(len(owner)) - np.repeat(np.cumsum(counts) - counts, counts)
 
 
 def opposed(faces: FaceTable, pairs: Indices, tolerance: float, angle: float) -> tuple[Indices, Indices]:
@@ -176,13 +170,13 @@ def _facing(faces: FaceTable, pairs: Indices, tolerance: float) -> tuple[Indices
     high = np.maximum.reduceat(faces.high, faces.start)
     near, count = [], []
     for own, other in (pairs.T, pairs.T[::-1]):
-        pair, k = ranges(faces.number[own])
+        pair, k = repeated(faces.number[own])
         face = faces.start[own][pair] + k
         touching = (faces.low[face] <= high[other][pair] + tolerance).all(axis=1)
         touching &= (low[other][pair] <= faces.high[face] + tolerance).all(axis=1)
         near.append(face[touching])
         count.append(np.bincount(pair[touching], minlength=len(pairs)))
-    pair, k = ranges(count[0] * count[1])
+    pair, k = repeated(count[0] * count[1])
     first, second = (np.cumsum(each) - each for each in count)
     width = count[1][pair]
     return near[0][first[pair] + k // width], near[1][second[pair] + k % width]

@@ -9,10 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, first_tied, sums
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry.accuracy import GAPS, Accuracy, Tolerances, block_length, chosen, millimetres
 from limitblocks.geometry.block import Block
@@ -194,16 +192,12 @@ def _fitted(corners: Array, owner: Indices, normal: Array) -> Planes:
     """Return the planes that fit corners (k, 3) best, of each owner; those of no corner are as they were."""
     m = len(normal)
     count = np.maximum(np.bincount(owner, minlength=m), 1)
-    middle = _sums(owner, corners, m) / count[:, None]
+    middle = sums(owner, corners, m) / count[:, None]
     arm = corners - middle[owner]
-    spread = _sums(owner, (arm[:, :, None] * arm[:, None]).reshape(-1, 9), m).reshape(-1, 3, 3)
+    spread = sums(owner, (arm[:, :, None] * arm[:, None]).reshape(-1, 9), m).reshape(-1, 3, 3)
     best = np.linalg.eigh(spread)[1][:, :, 0]
     best *= np.sign(np.einsum("ij,ij->i", best, normal))[:, None]
     return Planes(best, np.einsum("ij,ij->i", best, middle))
-
-
-def _sums(owner: Indices, values: Array, m: int) -> Array:
-    return np.column_stack([np.bincount(owner, x, m) for x in values.T])
 
 
 def _joined(faces: FaceTable, points: Sequence[Array], used: Tolerances, length: float) -> Indices:
@@ -212,11 +206,7 @@ def _joined(faces: FaceTable, points: Sequence[Array], used: Tolerances, length:
     seen = patches(faces, *opposed(faces, neighbours(points, gap), gap, used.angle), length)
     wide = (mean_width(seen.shape) > used.width * length) | covering(faces, seen)
     meant = seen.of(wide & (shapely.area(seen.shape) > seen.least) & (np.abs(seen.gap) <= gap))
-    m = len(faces.block)
-    graph = sparse.coo_array((np.ones(len(meant.a)), (meant.a, meant.b)), shape=(m, m))
-    _, part = connected_components(graph, directed=False)
-    _, first = np.unique(part, return_index=True)
-    return np.asarray(first[part])
+    return first_tied(np.column_stack([meant.a, meant.b]), len(faces.block))
 
 
 def _placed(points: Array, pairs: Indices, planes: Planes) -> Array:

@@ -5,17 +5,16 @@ from __future__ import annotations
 import operator
 import reprlib
 from collections.abc import Iterable, Sequence
-from typing import NoReturn
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, tied
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
+from limitblocks.geometry.given import wrong
 from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, odd_places
 from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
 
@@ -72,11 +71,11 @@ def mended(
     if open_sides(loops).size:
         points, loops = closed(name, points, loops, CRACK * size, notes)
     if not loops:
-        _wrong(name, f"no face has an area; a solid is needed{odd_places(given)}")
+        wrong(name, f"no face has an area; a solid is needed{odd_places(given)}")
     loops = _outward(name, points, loops, notes)
     loops, warp = coplanar.merged(points, loops, size, _MOST_FACES)
     if len(loops) > _MOST_FACES:
-        _wrong(
+        wrong(
             name,
             f"it has more than {_MOST_FACES} plane faces, the most that are taken; make the mesh "
             "coarser, as by decimation in the program that wrote it",
@@ -99,30 +98,26 @@ class TwistedFaces(GeometryError):
         self.distance = distance
 
 
-def _wrong(name: str, fault: str) -> NoReturn:
-    raise GeometryError(f"block {name!r}: {fault}")
-
-
 def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]]) -> tuple[Array, Faces]:
     """Return the vertices that faces use, and the faces."""
     try:
         points = np.asarray(vertices, dtype=np.float64)
         loops = tuple(tuple(map(operator.index, face)) for face in faces)
     except (TypeError, ValueError, OverflowError):
-        _wrong(name, f"{reprlib.repr(faces)} are not faces over vertices of shape (n, 3)")
+        wrong(name, f"{reprlib.repr(faces)} are not faces over vertices of shape (n, 3)")
     if points.ndim != 2 or points.shape[1] != 3:
-        _wrong(name, f"vertices: shape {points.shape} given; shape (n, 3) is needed")
+        wrong(name, f"vertices: shape {points.shape} given; shape (n, 3) is needed")
     if len(loops) > _MOST_POLYGONS:
-        _wrong(name, f"it has {len(loops)} faces; at most {_MOST_POLYGONS} are taken, make the mesh coarser")
+        wrong(name, f"it has {len(loops)} faces; at most {_MOST_POLYGONS} are taken, make the mesh coarser")
     for k, loop in enumerate(loops):
         if loop and not 0 <= min(loop) <= max(loop) < len(points):
-            _wrong(name, f"face {k} = {reprlib.repr(loop)}: vertex indices run from 0 to {len(points) - 1}")
+            wrong(name, f"face {k} = {reprlib.repr(loop)}: vertex indices run from 0 to {len(points) - 1}")
     used = np.unique([vertex for loop in loops for vertex in loop]).astype(np.int64)
     if len(used) < 4:
-        _wrong(name, f"its {len(loops)} faces have {len(used)} vertices; a solid has at least 4")
+        wrong(name, f"its {len(loops)} faces have {len(used)} vertices; a solid has at least 4")
     if not (np.abs(points[used]) <= 1e30).all():
         k = used[np.argwhere(~(np.abs(points[used]) <= 1e30))[0, 0]]
-        _wrong(name, f"vertex {k} is {_place(points[k])}; finite numbers up to 1e30 are needed")
+        wrong(name, f"vertex {k} is {_place(points[k])}; finite numbers up to 1e30 are needed")
     number = np.zeros(len(points), dtype=np.int64)
     number[used] = np.arange(len(used))
     return points[used], tuple(tuple(number[list(loop)].tolist()) for loop in loops)
@@ -151,10 +146,9 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     turned = np.where(sides[first, 0] == sides[second, 0], m, 0)
     # each face appears twice, as given and turned: what is tied together has one sense
     ties = np.concatenate([f, f + m]), np.concatenate([g + turned, (g + turned + m) % (2 * m)])
-    graph = sparse.coo_array((np.ones(len(ties[0])), ties), shape=(2 * m, 2 * m))
-    _, part = sparse.csgraph.connected_components(graph, directed=False)
+    part = tied(np.column_stack(ties), 2 * m)
     if (part[:m] == part[m:]).any():
-        _wrong(
+        wrong(
             name, "the faces have no inner and outer side, as on a Moebius strip; a closed surface is needed"
         )
     # one label of each shell, that of most of its faces as given
@@ -166,7 +160,7 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     volume = np.bincount(labels, volumes)
     outer = np.abs(volume).argmax()
     if np.sum(volume * volume[outer] > 0.0) > 1:
-        _wrong(name, f"it has {len(shell)} separate closed surfaces; one is needed, split it into blocks")
+        wrong(name, f"it has {len(shell)} separate closed surfaces; one is needed, split it into blocks")
     flip ^= volume[outer] < 0.0
     if flip.any():
         whole = f"{flip.sum()} of {m} faces turned"
@@ -175,12 +169,12 @@ def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
 
 
 def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> None:
-    for wrong, word in ((uses > 2, "faces meet wrongly"), (uses == 1, "the surface is open")):
-        if wrong.any():
-            a, b = points[edges[wrong.argmax()]]
-            _wrong(
+    for odd, word in ((uses > 2, "faces meet wrongly"), (uses == 1, "the surface is open")):
+        if odd.any():
+            a, b = points[edges[odd.argmax()]]
+            wrong(
                 name,
-                f"{word}: edges that belong to {uses[wrong.argmax()]} faces: {wrong.sum()}, the first from "
+                f"{word}: edges that belong to {uses[odd.argmax()]} faces: {odd.sum()}, the first from "
                 f"{_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
             )
 

@@ -10,14 +10,19 @@ from limitblocks.arrays import Array, Indices
 TIE = 1e-6
 
 
-def _following(polygons: Array) -> Array:
+def following(polygons: Array) -> Array:
+    """Return the next vertex of each vertex, (..., n, 2)."""
     return np.roll(polygons, -1, axis=-2)
+
+
+def cross(p: Array, q: Array) -> Array:
+    """Return the normal component of the vector product of plane vectors (..., 2)."""
+    return np.asarray(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
 
 
 def _swept(polygons: Array) -> Array:
     """Return twice the signed areas of the triangles (origin, vertex, next vertex), shape (..., n)."""
-    after = _following(polygons)
-    return np.asarray(polygons[..., 0] * after[..., 1] - polygons[..., 1] * after[..., 0])
+    return cross(polygons, following(polygons))
 
 
 def areas(polygons: Array) -> Array:
@@ -30,14 +35,14 @@ def centroids(polygons: Array) -> Array:
     corner = polygons[..., :1, :]
     local = polygons - corner
     swept = _swept(local)
-    moments = np.einsum("...n,...ni->...i", swept, local + _following(local)) / 3.0
+    moments = np.einsum("...n,...ni->...i", swept, local + following(local)) / 3.0
     return np.asarray(corner[..., 0, :] + moments / swept.sum(axis=-1)[..., None])
 
 
 def second_moments(polygons: Array) -> Array:
     """Return the integrals (..., 3) of x1^2, x2^2, x1 x2 about the centroid, m4; counter-clockwise."""
     p = polygons - centroids(polygons)[..., None, :]
-    q = _following(p)
+    q = following(p)
     x, y = np.moveaxis(np.stack([p, q, p + q]), -1, 0)
     terms = np.stack([x * x, y * y, x * y]).sum(axis=1)
     return np.moveaxis((_swept(p) * terms).sum(axis=-1) / 24.0, 0, -1)
@@ -94,7 +99,7 @@ def longest_side(polygons: Array, planes: Array) -> Indices:
     planes : Array, shape (m, 2, 3)
         Global unit vectors along the two coordinates of each polygon.
     """
-    sides = _following(polygons) - polygons
+    sides = following(polygons) - polygons
     lengths = np.hypot(sides[..., 0], sides[..., 1])
     best = lengths >= lengths.max(axis=1, keepdims=True) * (1.0 - TIE)
     directions = np.einsum("mni,mij->mnj", sides / lengths[..., None], planes)

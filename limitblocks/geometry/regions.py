@@ -5,10 +5,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, first_tied, repeated, sums
 
 #: Parts of the tolerance within which faces are linked, in turn: those in one plane but for roundoff first.
 _STEPS = (1e-3, 1.0)
@@ -65,9 +63,8 @@ def _even(surfaces: Surfaces, region: Indices, pairs: Indices, flat: float) -> A
     number = np.bincount(own, minlength=len(region))
     start = np.cumsum(number) - number
     each = pairs.ravel()
-    owner = np.repeat(np.arange(len(each)), number[each])
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(number[each]) - number[each], number[each])
-    vectors = _sums(region, surfaces.area_vector, len(region))
+    owner, place = repeated(number[each])
+    vectors = sums(region, surfaces.area_vector, len(region))
     corners, pair = surfaces.corner[order[start[each][owner] + place]], owner // 2
     return ~_off_plane(corners, pair, vectors[pairs].sum(axis=1), flat)
 
@@ -75,7 +72,7 @@ def _even(surfaces: Surfaces, region: Indices, pairs: Indices, flat: float) -> A
 def _uneven(surfaces: Surfaces, region: Indices, flat: float, angle: float) -> Any:
     """Tell of regions, each at the number of its first face, whether a corner or a face is off, (m,)."""
     m = len(region)
-    vectors = _sums(region, surfaces.area_vector, m)
+    vectors = sums(region, surfaces.area_vector, m)
     off = _off_plane(surfaces.corner, region[surfaces.face], vectors, flat)
     whole, area = np.linalg.norm(vectors, axis=1)[region], np.linalg.norm(surfaces.area_vector, axis=1)
     along = np.einsum("ij,ij->i", surfaces.area_vector, vectors[region])
@@ -87,24 +84,16 @@ def _off_plane(corners: Array, owner: Indices, vectors: Array, flat: float) -> A
     """Tell of m groups of corners (k, 3) whether one is off the plane square to the area vector, (m,)."""
     m = len(vectors)
     count = np.maximum(np.bincount(owner, minlength=m), 1)[:, None]
-    middle = _sums(owner, corners, m) / count
+    middle = sums(owner, corners, m) / count
     normal = vectors / np.maximum(np.linalg.norm(vectors, axis=1), np.finfo(float).tiny)[:, None]
     height = np.einsum("ij,ij->i", corners - middle[owner], normal[owner])
     return np.bincount(owner[np.abs(height) > flat], minlength=m) > 0
 
 
-def _sums(owner: Indices, vectors: Array, number: int) -> Array:
-    return np.column_stack([np.bincount(owner, x, number) for x in vectors.T]).astype(np.float64)
-
-
 def _linked(region: Indices, links: Indices) -> Indices:
     """Return the first face (m,) of all that is linked with each face by its region or by `links` (p, 2)."""
-    m = len(region)
-    ends = np.concatenate([np.column_stack([np.arange(m), region]), links])
-    graph = sparse.coo_array((np.ones(len(ends)), ends.T), shape=(m, m))
-    _, part = connected_components(graph, directed=False)
-    _, first = np.unique(part, return_index=True)
-    return np.asarray(first[part])
+    ends = np.concatenate([np.column_stack([np.arange(len(region)), region]), links])
+    return first_tied(ends, len(region))
 
 
 def in_turn(

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from fnmatch import fnmatchcase
+from fractions import Fraction
 
 from limitblocks.errors import ModelError, near
 from limitblocks.geometry.block import Block
@@ -17,6 +18,7 @@ _WORDS = ("name", "layer", "material", "group")
 _PLACE = re.compile(r"\s*([xyz])\s*([<>])=?\s*([-+0-9.eE]+)\s*")
 _WILD = re.compile(r"[*?\[]")
 _SHOWN = 12
+ROUNDING = 1e-9  # of the size of a block and of its place: three courses of .2 m end at .6 m
 
 
 def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") -> tuple[str, ...]:
@@ -54,6 +56,14 @@ def select(blocks: Sequence[Block], wanted: Selection, word: str = "selection") 
         if wrong:
             raise ModelError(*wrong)
     return tuple(block.name for block in blocks if block.name in picked)
+
+
+def in_metres(text: str, metre: Fraction) -> str:
+    """Return a text with the coordinate of a place, "z<500" in mm, in m; any other text as it is."""
+    place = _PLACE.fullmatch(text)
+    if not place:
+        return text
+    return f"{place[1]}{place[2]}{float(Fraction(_number(place[3], text)) * metre)!r}"
 
 
 def matches(pattern: str, text: str) -> bool:
@@ -107,8 +117,8 @@ def _number(text: str, whole: str) -> float:
 
 
 def _within(block: Block, axis: int, sign: str, bound: float) -> bool:
-    coordinates = block.vertices[:, axis]
-    return bool(coordinates.max() <= bound if sign == "<" else coordinates.min() >= bound)
+    coordinates, slack = block.vertices[:, axis], ROUNDING * (block.size + abs(bound))
+    return bool(coordinates.max() <= bound + slack if sign == "<" else coordinates.min() >= bound - slack)
 
 
 def _why_none(blocks: Sequence[Block], text: str) -> str:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
-from scipy import sparse
-from scipy.sparse.csgraph import connected_components
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.neighbours import overlapping_boxes
 from limitblocks.geometry.polyhedron import Mesh
 
@@ -116,9 +114,8 @@ def _piercing(points: Array, edges: Mesh, sides: tuple[Indices, Indices], size: 
 def _shell_fault(points: Array, edges: Mesh, sides: tuple[Indices, Indices]) -> str:
     """Say which shell is no cavity of the outer one; empty when all others are."""
     corners, face = sides
-    m = len(edges.first)
-    links = sparse.coo_array((np.ones(len(edges.face)), (edges.face, edges.beyond)), shape=(m, m))
-    count, shell = connected_components(links, directed=False)
+    shell = tied(np.column_stack([edges.face, edges.beyond]), len(edges.first))
+    count = int(shell.max()) + 1
     if count == 1:
         return ""
     a, b, c = points[corners].swapaxes(0, 1)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, Indices
-from limitblocks.geometry.faces import FaceTable, ranges
+from limitblocks.arrays import Array, Indices, repeated
+from limitblocks.geometry.faces import FaceTable
 from limitblocks.geometry.patches import Patches
 
 
@@ -47,7 +47,7 @@ def _sandwiches(faces: FaceTable, tried: Patches, touching: Patches) -> tuple[li
     swap = count[tried.a] > count[tried.b]
     near, far = np.where(swap, tried.b, tried.a), np.where(swap, tried.a, tried.b)
     start = np.searchsorted(key, near * m)
-    k, place = ranges(count[near])
+    k, place = repeated(count[near])
     row = start[k] + place
     third = key[row] % m
     third_region = far[k] * m + third
@@ -55,7 +55,7 @@ def _sandwiches(faces: FaceTable, tried: Patches, touching: Patches) -> tuple[li
     stop = np.searchsorted(key, third_region, side="right")
     inner = (third != faces.block[tried.a[k]]) & (third != faces.block[tried.b[k]])
     k, row, hit, times = k[inner], row[inner], hit[inner], (stop - hit)[inner]
-    each, step = ranges(times)
+    each, step = repeated(times)
     return k[each].tolist(), patch[row[each]].tolist(), patch[hit[each] + step].tolist()
 
 

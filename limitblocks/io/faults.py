@@ -143,7 +143,7 @@ def _said(fault: Any, form: type[Document]) -> str:
         case "missing":
             return "is missing"
         case "extra_forbidden":
-            return "unknown key" + near(str(fault["loc"][-1]), _keys(form))
+            return "unknown key" + near(key := str(fault["loc"][-1]), _keys(form) - {key})
         case "union_tag_not_found":
             return "type is missing"
         case "union_tag_invalid":

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import tomllib
+from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from limitblocks.errors import ModelError
+from limitblocks.geometry.selection import in_metres
 from limitblocks.io import faults, strict_json
 from limitblocks.io.registry import JOINTS
-from limitblocks.io.units import in_si
+from limitblocks.io.units import METRES, in_si
 from limitblocks.joints import Joint, Material, Materials
 
 if TYPE_CHECKING:
@@ -42,9 +44,10 @@ def read_materials(file: str | Path) -> Materials:
 
 def materials_of(document: MaterialsDocument | ModelDocument, wrong: faults.Faults) -> Materials | None:
     """Return the materials in a document in SI; None, with the reason in `wrong`, where they are none."""
-    before = len(wrong)
+    before, metre = len(wrong), METRES[document.units.length]
     materials = {
-        name: wrong.made(f"materials.{name}", _material, one) for name, one in document.materials.items()
+        name: wrong.made(f"materials.{name}", _material, one, metre)
+        for name, one in document.materials.items()
     }
     pairs = {
         pair.between: wrong.made(f"pairs[{k}].joint", joint_of, pair.joint)
@@ -73,9 +76,9 @@ def refuse_jointless(model: Model) -> None:
         )  # fmt: skip
 
 
-def _material(document: Any) -> Material:
+def _material(document: Any, metre: Fraction) -> Material:
     joint = None if document.joint is None else joint_of(document.joint)
-    return Material(document.unit_weight, joint, tuple(document.blocks))
+    return Material(document.unit_weight, joint, tuple(in_metres(text, metre) for text in document.blocks))
 
 
 def _toml(path: Path) -> Any:

@@ -17,6 +17,7 @@ from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_co
 from limitblocks.io import faults, strict_json
 from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
+from limitblocks.io.open_joints import tied
 from limitblocks.io.registry import TERMS
 from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
@@ -90,6 +91,8 @@ def _model(document: ModelDocument) -> Model:
     dead = wrong.all_made("dead", _load, document.dead)
     live = wrong.all_made("live", _load, document.live)
     tolerances = Tolerances(**document.tolerances.model_dump()) if document.tolerances else None
+    contacts: Contacts | None = None
+    interfaces: Sequence[Interface] = ()
     if isinstance(document.interfaces, list):
         interfaces = wrong.all_made("interfaces", _interface, document.interfaces, joints)
     elif not wrong:
@@ -101,7 +104,13 @@ def _model(document: ModelDocument) -> Model:
     if wrong:
         raise ModelError(*wrong)
     loads = sum(dead, Load()), sum(live, Load())
-    model = Model(blocks, document.supports, interfaces, *loads, document.name, tolerances, document.left_out)
+    rest = (interfaces, *loads, document.name, tolerances, document.left_out)
+    if contacts is None:
+        model = Model(blocks, document.supports, *rest)
+    else:
+        model = tied(contacts, blocks, document.supports, *rest)
+        for line in contacts.warnings:
+            _log.warning("%s", line)
     refuse_jointless(model)
     return model
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
+from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.model import Model
 from limitblocks.shown import many
 
 #: Gaps, in block lengths, that are tried where blocks have no interface.
@@ -26,6 +29,15 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
                 f"They are typically {1e3 * apart:.2g} mm wide"
             ]
     return []
+
+
+def tied(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
+    """Return the model; where it is wrong, the error tells of the joints that are drawn open, too."""
+    try:
+        return Model(blocks, *rest)
+    except ModelError as error:
+        apart = open_joints(contacts, blocks) or contacts.near_words
+        raise ModelError(*error.problems, *apart) from None
 
 
 def _distance(contacts: Contacts, blocks: Sequence[Block], among: set[str]) -> float:

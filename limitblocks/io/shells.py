@@ -6,9 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
-from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
@@ -88,12 +87,10 @@ def _groups(name: str, points: Array, loops: Faces) -> list[list[int]]:
 def _parts(loops: Faces) -> tuple[list[list[int]], npt.NDArray[np.bool_]]:
     """Return the faces that edges tie together, and whether each edge of them belongs to two of them."""
     edge, owner, uses = _edges(loops)
-    n = len(loops)
     order = np.argsort(edge, kind="stable")
     same = np.flatnonzero(np.diff(edge[order]) == 0)
-    ties = owner[order[same]], owner[order[same + 1]]
-    graph = sparse.coo_array((np.ones(len(same)), ties), shape=(n, n))
-    count, part = sparse.csgraph.connected_components(graph, directed=False)
+    part = tied(np.column_stack([owner[order[same]], owner[order[same + 1]]]), len(loops))
+    count = int(part.max(initial=-1)) + 1
     closed = np.ones(count, dtype=bool)
     closed[part[owner[uses[edge] != 2]]] = False
     by_part = np.argsort(part, kind="stable")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn
@@ -15,6 +17,7 @@ LARGEST_FILE = 100_000_000
 #: Most that one file, and one object in it, may have; in memory they are many times their text.
 _MOST = {"lists and objects": 3_000_000, "keys": 5_000_000, "values": 8_000_000}
 _MOST_KEYS = 250_000
+_OUTSIDE_STRINGS = re.compile(r'"(?:[^"\\]|\\.)*"|NaN|-?Infinity')
 
 
 def plain_bytes(path: Path, expected: str) -> bytes:
@@ -72,7 +75,7 @@ def parse(text: str) -> Any:
         if count > most:
             raise ModelError(f"has about {count} {word}; at most {most} are read")
     try:
-        return json.loads(text, parse_constant=_refuse_constant, object_pairs_hook=_unique)
+        return json.loads(text, parse_constant=partial(_refuse_constant, text), object_pairs_hook=_unique)
     except json.JSONDecodeError as error:
         raise ModelError(f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}") from None
     except RecursionError:
@@ -99,8 +102,10 @@ def finite(value: Any) -> Any:
     return None if isinstance(value, float) and not isfinite(value) else value
 
 
-def _refuse_constant(word: str) -> NoReturn:
-    raise ModelError(f"not JSON: {word} is not a number; all numbers must be finite")
+def _refuse_constant(text: str, word: str) -> NoReturn:
+    start = next(one.start() for one in _OUTSIDE_STRINGS.finditer(text) if one[0] == word)
+    where = f"line {text.count(chr(10), 0, start) + 1}, column {start - text.rfind(chr(10), 0, start)}"
+    raise ModelError(f"{where}: not JSON: {word} is not a number; all numbers must be finite")
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
 from limitblocks.io.materials import read_materials, refuse_jointless
-from limitblocks.io.open_joints import open_joints
+from limitblocks.io.open_joints import tied
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load
@@ -152,19 +152,8 @@ def model_of(
     contacts = find_contacts(blocks, law, gap=gap, angle=angle, width=width)
     contacts.require()
     loads = self_weight() if dead is None else dead
-    try:
-        model = Model(
-            blocks,
-            names,
-            contacts.interfaces,
-            loads,
-            live,  # type: ignore[arg-type]
-            name,
-            contacts.tolerances,
-            imported.left_out,
-        )
-    except ModelError as error:
-        raise ModelError(*error.problems, *open_joints(contacts, blocks)) from None
+    rest = (contacts.interfaces, loads, live, name, contacts.tolerances, imported.left_out)
+    model = tied(contacts, blocks, names, *rest)
     refuse_jointless(model)
     return model, contacts, vain
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from numbers import Real
-from typing import Protocol, TypeGuard, runtime_checkable
+from typing import Any, Protocol, TypeGuard, runtime_checkable
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
+from limitblocks.written import tagged
 
 RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
 
@@ -83,6 +84,14 @@ def joint_of(interface: Interface) -> Joint:
             "expected a joint such as OrdunaLourenco(friction=0.6)"
         )
     return interface.joint
+
+
+def joints_of(interfaces: Iterable[Interface]) -> tuple[dict[int, str], dict[str, Any]]:
+    """Return the name of each joint by its identity, and equal joints once, as documents, by name."""
+    own = {id(interface.joint): interface for interface in interfaces}
+    joint = {key: joint_of(interface) for key, interface in own.items()}
+    name = {each: f"joint {k + 1}" for k, each in enumerate(dict.fromkeys(joint.values()))}
+    return {key: name[each] for key, each in joint.items()}, {name[each]: tagged(each) for each in name}
 
 
 def _is_joint(joint: object) -> TypeGuard[Joint]:

@@ -40,6 +40,7 @@ class Tie:
     strength: float
     length: float = 0.0
     prestress: float = 0.0
+    friction = 0.0
 
     def __post_init__(self) -> None:
         checked_stress("strength of a tie", self.strength, positive=True)
@@ -53,11 +54,6 @@ class Tie:
     def word(self) -> str:
         """What it is called: a strip is a tie across a joint, without length."""
         return "tie" if self.length else "strip"
-
-    @property
-    def friction(self) -> float:
-        """None: the flow is associated."""
-        return 0.0
 
     def in_words(self) -> str:
         """Return the joint in words."""
@@ -78,23 +74,9 @@ class Tie:
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return 0 <= N <= (strength - prestress) x area; see :class:`~limitblocks.joints.base.Joint`."""
-        m = len(polygons)
-        rows = np.broadcast_to(np.array([[1.0], [-1.0]]), (m, 2, 1))
         most = areas(polygons) * (self.strength - self.prestress) / stress_unit
-        resultants = np.zeros((m, 6, 1))
-        resultants[:, 2] = 1.0
-        return YieldRows(
-            F=rows,
-            g=np.stack([np.zeros(m), most], axis=1),
-            G=rows,
-            pivot=np.zeros((m, 2)),
-            half_sides=np.abs(polygons).max(axis=1),
-            resultants=resultants,
-            linear=2,
-            cones=(),
-            modes=(Mode.SLACK, Mode.YIELD),
-            friction=0.0,
-        )
+        g = np.stack([np.zeros_like(most), most], axis=1)
+        return _rows(polygons, np.array([[1.0], [-1.0]]), g, [2], (Mode.SLACK, Mode.YIELD))
 
 
 @dataclass(frozen=True)
@@ -139,14 +121,10 @@ class Dowel:
 
     strength: float
     word = "dowel"
+    friction = 0.0
 
     def __post_init__(self) -> None:
         checked_stress("strength of a dowel", self.strength, positive=True)
-
-    @property
-    def friction(self) -> float:
-        """None: the flow is associated."""
-        return 0.0
 
     def in_words(self) -> str:
         """Return the joint in words."""
@@ -161,24 +139,9 @@ class Dowel:
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the cone of V1, V2; see :class:`~limitblocks.joints.base.Joint`."""
-        m = len(polygons)
-        rows = np.broadcast_to(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), (m, 3, 2))
-        g = np.zeros((m, 3))
+        g = np.zeros((len(polygons), 3))
         g[:, 0] = areas(polygons) * self.strength / stress_unit
-        resultants = np.zeros((m, 6, 2))
-        resultants[:, 0, 0] = resultants[:, 1, 1] = 1.0
-        return YieldRows(
-            F=rows,
-            g=g,
-            G=rows,
-            pivot=np.zeros((m, 3)),
-            half_sides=np.abs(polygons).max(axis=1),
-            resultants=resultants,
-            linear=0,
-            cones=(3,),
-            modes=(Mode.YIELD,) * 3,
-            friction=0.0,
-        )
+        return _rows(polygons, np.eye(3)[:, 1:], g, [0, 1], (Mode.YIELD,) * 3, cones=(3,))
 
 
 @dataclass(frozen=True)
@@ -202,14 +165,10 @@ class Guide:
 
     strength: float
     word = "guide"
+    friction = 0.0
 
     def __post_init__(self) -> None:
         checked_stress("strength of a guide", self.strength, positive=True)
-
-    @property
-    def friction(self) -> float:
-        """None: the flow is associated."""
-        return 0.0
 
     def in_words(self) -> str:
         """Return the joint in words."""
@@ -221,20 +180,33 @@ class Guide:
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return two rows for each resultant but V1; see :class:`~limitblocks.joints.base.Joint`."""
-        m, area = len(polygons), areas(polygons)
-        rows = np.broadcast_to(np.concatenate([np.eye(5), -np.eye(5)]), (m, 10, 5))
+        area = areas(polygons)
         most = (area * self.strength / stress_unit)[:, None] * np.ones(5)
         most[:, 2:] *= np.sqrt(area)[:, None]
-        resultants = np.broadcast_to(np.eye(6)[:, 1:], (m, 6, 5))
-        return YieldRows(
-            F=rows,
-            g=np.concatenate([most, most], axis=1),
-            G=rows,
-            pivot=np.zeros((m, 10)),
-            half_sides=np.abs(polygons).max(axis=1),
-            resultants=resultants,
-            linear=10,
-            cones=(),
-            modes=(Mode.YIELD,) * 10,
-            friction=0.0,
-        )
+        F, g = np.concatenate([np.eye(5), -np.eye(5)]), np.concatenate([most, most], axis=1)
+        return _rows(polygons, F, g, [1, 2, 3, 4, 5], (Mode.YIELD,) * 10)
+
+
+def _rows(
+    polygons: Array,
+    F: Array,
+    g: Array,
+    carried: list[int],
+    modes: tuple[Mode, ...],
+    cones: tuple[int, ...] = (),
+) -> YieldRows:
+    """Rows F (r, s) and g (m, r) on the resultants that are `carried`, with the associated flow."""
+    (m, r), resultants = g.shape, np.eye(6)[:, carried]
+    rows = np.broadcast_to(F, (m, *F.shape))
+    return YieldRows(
+        F=rows,
+        g=g,
+        G=rows,
+        pivot=np.zeros((m, r)),
+        half_sides=np.abs(polygons).max(axis=1),
+        resultants=np.broadcast_to(resultants, (m, *resultants.shape)),
+        linear=r - sum(cones),
+        cones=cones,
+        modes=modes,
+        friction=0.0,
+    )

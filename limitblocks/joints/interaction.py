@@ -15,10 +15,10 @@ from shapely import Polygon
 
 from limitblocks.arrays import Array
 from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry.polygon import cross
 from limitblocks.joints.torsion import (
     Region,
     as_region,
-    cross,
     normalised_edges,
     plastic_centre,
     rectangle_torsion_constant,

@@ -22,7 +22,7 @@ from shapely.geometry.polygon import orient
 
 from limitblocks.arrays import Array
 from limitblocks.errors import GeometryError
-from limitblocks.geometry import polygon as plane
+from limitblocks.geometry.polygon import areas, centroids, cross
 
 Region: TypeAlias = Array | Sequence[Array] | Polygon | MultiPolygon
 
@@ -86,11 +86,6 @@ def normalised_edges(region: Region) -> tuple[Array, Array, float]:
     edges = edges[(edges[:, 0] != edges[:, 1]).any(axis=1)] - centroid
     size = float(np.hypot(edges[..., 0], edges[..., 1]).max())
     return edges / size, centroid, size
-
-
-def cross(p: Array, q: Array) -> Array:
-    """Return the normal component of the vector product of plane vectors (..., 2)."""
-    return np.asarray(p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
 
 
 def _legs(p: Array, q: Array) -> tuple[Array, ...]:
@@ -191,13 +186,13 @@ def torsion_constants(polygons: Array) -> Array:
 
     Repeat a vertex to bring polygons to the same n. Areas are checked (GeometryError), simplicity is not.
     """
-    area = plane.areas(polygons)
+    area = areas(polygons)
     flat = ~(np.abs(area) > 1e-14 * np.ptp(polygons, axis=1).sum(-1) ** 2)
     if flat.any():
         raise GeometryError(
             f"interface polygon {flat.argmax()} must have an area; it has {area[flat][0]:g} m2"
         )
-    start = polygons - plane.centroids(polygons)[:, None]
+    start = polygons - centroids(polygons)[:, None]
     return np.asarray(_edge_sums(start, np.roll(start, -1, axis=1))[2] / area)
 
 

@@ -16,7 +16,7 @@ from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import Joint, YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
 from limitblocks.mechanics.measures import row_units, units_of
-from limitblocks.problem import Cones, LimitProblem, Mode, Units
+from limitblocks.problem import Cones, LimitProblem, Mode, Units, in_units
 
 
 @dataclass(frozen=True)
@@ -77,14 +77,14 @@ def limit_problem(
     row_interface.flags.writeable = False
     F = per_row("F")
     units = replace(units, row=row_units(F, cones))
-    rows = sparse.diags_array(1.0 / units.row)
+    rows, columns = 1.0 / units.row, np.ones(n_stresses)
     return LimitProblem(
         C=(resultants.T @ _compatibility(centroids, interfaces, ends, units)).tocsr(),
         dead=read_only(dead.ravel() / units.loads),
         live=read_only(live.ravel() / (units.loads * units.live)),
-        F=sparse.csr_array(rows @ F),
+        F=in_units(F, rows, columns),
         g=read_only(g / units.row),
-        G=sparse.csr_array(rows @ per_row("G")),
+        G=in_units(per_row("G"), rows, columns),
         cones=cones,
         pivot=read_only(pivot / units.row),
         half_sides=read_only(half_sides),
@@ -185,7 +185,7 @@ def _compatibility(
     C = compatibility_matrix(
         axes, at - centroids[block_i], at - centroids[block_j], block_i, block_j, len(centroids)
     )
-    return sparse.csr_array(sparse.diags_array(units.resultants) @ C @ sparse.diags_array(1.0 / units.loads))
+    return in_units(C, units.resultants, 1.0 / units.loads)
 
 
 def _compliance(resultants: sparse.csr_array, interfaces: Sequence[Interface], units: Units) -> Array:

@@ -10,7 +10,7 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices, largest_in_rows, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface
-from limitblocks.problem import Cones, Units, power_of_two, tied
+from limitblocks.problem import Cones, Units, parts_of, power_of_two
 
 
 def units_of(
@@ -51,7 +51,7 @@ def carried(own: Array, ends: Indices) -> Array:
     can tell; too large a unit of force loses digits that a second solution in its own units finds, too
     small a one loses all.
     """
-    part = tied(ends, len(own))
+    part = parts_of(ends, len(own))
     largest = np.zeros(len(own))
     np.maximum.at(largest, part, own)
     return np.asarray(np.where(largest > 0.0, largest, largest.max())[part])

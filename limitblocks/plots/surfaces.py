@@ -10,10 +10,11 @@ import shapely
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import cross
 from limitblocks.joints.base import RESULTANTS
 from limitblocks.joints.interaction import shear_strength, torsion_bending, torsion_shear_curve
 from limitblocks.joints.queries import Queries
-from limitblocks.joints.torsion import as_region, cross, torsion_constant
+from limitblocks.joints.torsion import as_region, torsion_constant
 from limitblocks.plots.style import BLACK, CYCLE, curve_axes, inches, legend_below
 
 LONG = 1e6  # times the size of N: what is stronger counts as unlimited

@@ -3,7 +3,7 @@
 from limitblocks.choices import Turning, turning_of
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.flow import ASSOCIATED, Flow, checked_dilatancy
-from limitblocks.problem.limit_problem import LimitProblem, State, Units, power_of_two, tied
+from limitblocks.problem.limit_problem import LimitProblem, State, Units, in_units, parts_of, power_of_two
 from limitblocks.problem.modes import Mode
 
 __all__ = [
@@ -16,7 +16,8 @@ __all__ = [
     "Turning",
     "Units",
     "checked_dilatancy",
+    "in_units",
+    "parts_of",
     "power_of_two",
-    "tied",
     "turning_of",
 ]

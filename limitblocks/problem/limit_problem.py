@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.arrays import Array, Indices, read_only, tied
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.modes import Mode
 
@@ -56,14 +56,12 @@ def in_units(matrix: sparse.csr_array, rows: Array, columns: Array) -> sparse.cs
     return sparse.csr_array((data, matrix.indices.copy(), matrix.indptr.copy()), shape=matrix.shape)
 
 
-def tied(ends: Indices, count: int) -> Indices:
+def parts_of(ends: Indices, count: int) -> Indices:
     """Number the parts of `count` blocks that chains of interfaces tie together, shape (count,).
 
     `ends` (m, 2) holds the blocks of each interface, -1 for a support; supports tie nothing.
     """
-    i, j = ends[(ends >= 0).all(axis=1)].T
-    graph = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(count, count)).tocsr()
-    return np.asarray(sparse.csgraph.connected_components(graph, directed=False)[1])
+    return tied(ends[(ends >= 0).all(axis=1)], count)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +165,7 @@ class LimitProblem:
     @cached_property
     def parts(self) -> Indices:
         """Number of the part each free block belongs to, shape (n,); interfaces tie the blocks of a part."""
-        return tied(self.ends, len(self.blocks))
+        return parts_of(self.ends, len(self.blocks))
 
     @cached_property
     def member_interface(self) -> Indices:

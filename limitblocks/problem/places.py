@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import sparse
 
-from limitblocks.arrays import Indices
+from limitblocks.arrays import Indices, tied
 from limitblocks.problem.limit_problem import LimitProblem
 
 
@@ -17,9 +16,6 @@ def places(problem: LimitProblem) -> tuple[Indices, Indices]:
     cones = problem.cones
     F = problem.F.tocoo()
     acts = F.data != 0.0
-    pairs = cones.member[F.row[acts]], cones.degree + F.col[acts]
-    count = cones.degree + F.shape[1]
-    graph = sparse.coo_array((np.ones(len(pairs[0])), pairs), shape=(count, count)).tocsr()
-    _, label = sparse.csgraph.connected_components(graph, directed=False)
-    numbers = np.asarray(label, dtype=np.int64)
+    pairs = np.column_stack([cones.member[F.row[acts]], cones.degree + F.col[acts]])
+    numbers = tied(pairs, cones.degree + F.shape[1])
     return numbers[: cones.degree], numbers[cones.degree :]

@@ -9,7 +9,7 @@ from limitblocks.practice import SettlementCurve
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
-from limitblocks.reports.words import some
+from limitblocks.reports.words import kilonewtons, some
 
 FOLLOWING = (
     "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
@@ -43,8 +43,8 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
                 if fallen
                 else ()
             ),
-            ("Reaction at rest", _newtons(first.reaction), f"least one, {flow}"),
-            ("Reaction at the end", _newtons(last.reaction), curve.ended),
+            ("Reaction at rest", kilonewtons(first.reaction), f"least one, {flow}"),
+            ("Reaction at the end", kilonewtons(last.reaction), curve.ended),
         ),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
@@ -68,8 +68,8 @@ def _figure(curve: SettlementCurve) -> Figure:
 
 def _points(curve: SettlementCurve) -> Table:
     rows = [
-        (f"{one.displacement:#.7g}", _newtons(one.found.lower), _newtons(one.found.upper),
-         "" if one.found.nonassociated is None else _newtons(one.found.nonassociated),
+        (f"{one.displacement:#.7g}", kilonewtons(one.found.lower), kilonewtons(one.found.upper),
+         "" if one.found.nonassociated is None else kilonewtons(one.found.nonassociated),
          some(list(one.changes)) or "none", some(list(one.across)) or "none")
         for one in curve.points
     ]  # fmt: skip
@@ -83,12 +83,8 @@ def _curve(curve: SettlementCurve) -> Curve | None:
         return None
     label = f"settlement of {curve.support} along {triple(curve.direction.tolist())}, m"
     title = "Least reaction against settlement"
-    said = [f"{one.displacement:.6g} m: {_newtons(one.reaction)}" for one in curve.points]
+    said = [f"{one.displacement:.6g} m: {kilonewtons(one.reaction)}" for one in curve.points]
     caption = f"{title}, a dot a point with an answer of its own: {curve.ended}."
     return line_curve(
         (title, caption, label, "reaction, kN"), (curve.displacements, curve.reactions / 1e3), said
     )
-
-
-def _newtons(value: float) -> str:
-    return f"{value / 1e3:.6g} kN"

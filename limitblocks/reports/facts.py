@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.analysis.diagnosis import diagnose
-from limitblocks.analysis.magnitudes import questions
+from limitblocks.analysis.magnitudes import questions, weightless
 from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
@@ -60,7 +60,7 @@ def facts(model: Model) -> dict[str, Any]:
         "tolerances": diagnosis.accuracy,
         "diagnosis": diagnosis.to_dict(),
         "findings": findings(model, diagnosis),
-        "warnings": warnings(model) + diagnosis.warnings,
+        "warnings": questions(model) + diagnosis.warnings,
     }
 
 
@@ -112,7 +112,7 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
         ("Contacts left out because they are too small", diagnosis.slivers),
         ("Strips left out because they are too narrow", diagnosis.strips),
         ("Contacts left out because a third block lies between", diagnosis.through),
-        ("Blocks without weight", _weightless(model)),
+        ("Blocks without weight", weightless(model)),
         ("Numbers that look like slips in their unit", questions(model)),
     )
     return [[words, some([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
@@ -153,21 +153,6 @@ def assumptions(model: Model) -> dict[str, list[str]]:
     """Return what each kind of joint of the model assumes, sentences by the words for the joint."""
     joints = dict.fromkeys(interface.joint for interface in model.interfaces)
     return {joint_words(joint): list(assumed(joint)) for joint in joints}
-
-
-def warnings(model: Model) -> list[str]:
-    """Return what is no error but may not be meant, less what the contacts show."""
-    said = []
-    weightless = _weightless(model)
-    if weightless:
-        said.append(f"blocks without weight: {some(weightless)}")
-    if not model.dead.terms:
-        said.append("no dead load: the structure has no weight to stabilise it")
-    return said + questions(model)
-
-
-def _weightless(model: Model) -> list[str]:
-    return [block.name for block in model.free_blocks if not block.unit_weight]
 
 
 def _unit_weights(model: Model) -> list[list[str]]:

@@ -13,6 +13,7 @@ from limitblocks.practice import Repair, Settlement, WorstPosition
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
+from limitblocks.reports.words import kilonewtons
 
 SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
@@ -29,12 +30,16 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
     own, end = found.settling, found.result or found.bounds
     least = found.lower if found.nonassociated is None else found.nonassociated
     values = [
-        ("Least reaction, mechanism", _newtons(found.lower), "associated: of a mechanism that follows"),
-        ("Least reaction, stress state", _newtons(found.upper), "associated: no stress state has less"),
+        ("Least reaction, mechanism", kilonewtons(found.lower), "associated: of a mechanism that follows"),
+        ("Least reaction, stress state", kilonewtons(found.upper), "associated: no stress state has less"),
     ]
     if found.nonassociated is not None:
         values.append(
-            ("Without dilatancy", _newtons(found.nonassociated), "at which the structure follows, certified")
+            (
+                "Without dilatancy",
+                kilonewtons(found.nonassociated),
+                "at which the structure follows, certified",
+            )
         )
     picture = mechanism_picture(own.model, end.displacement_rates)
     drawn = picture.sheet(f"Mechanism that follows {own.support}")
@@ -47,7 +52,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
             "one, it follows as a mechanism. Reactions are components against that direction; the weight of "
             "the support itself is left out."
         ),
-        headline=_newtons(least),
+        headline=kilonewtons(least),
         quantity="least reaction" + (" without dilatancy" if found.result else ", associated flow"),
         values=tuple(values),
         checks=checks_of(end.residuals, end.tolerance),
@@ -59,7 +64,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
 def repair_section(_model: Model, found: Repair) -> Section:
     """Return the section of the least reinforcement."""
     pairs = zip(found.candidates, found.amounts.tolist(), strict=True)
-    rows = [(name, _newtons(amount) if amount else "not needed") for name, amount in pairs]
+    rows = [(name, kilonewtons(amount) if amount else "not needed") for name, amount in pairs]
     return Section(
         title="Least reinforcement",
         own=True,
@@ -68,7 +73,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
             "if its joints dilate by the friction angle (static theorem, Eqs (56)-(57)); then the answer "
             "without dilatancy of the structure so reinforced, which may be less."
         ),
-        headline=_newtons(found.total),
+        headline=kilonewtons(found.total),
         quantity=f"least sum for load factor {found.required:.6g}",
         values=(
             ("Required", f"{found.required:#.7g}", "load factor"),
@@ -119,7 +124,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             ("Kinematic load factor", f"{found.bounds.upper:#.7g}", "at the worst position"),
             (
                 "Axles on the structure",
-                _newtons(-float(acting[2])),
+                kilonewtons(-float(acting[2])),
                 "at load factor one, at the worst position",
             ),
         ),
@@ -136,7 +141,3 @@ def _envelope(x: Any, factors: Any) -> Curve | None:
     title = "Load factor against the position of the first axle"
     said = [f"X = {a:.4g} m: load factor {b:.4g}" for a, b in zip(x, factors, strict=True)]
     return line_curve((title, f"{title}, a dot a position.", "X, m", "load factor"), (x, factors), said)
-
-
-def _newtons(value: float) -> str:
-    return f"{value / 1e3:.6g} kN"

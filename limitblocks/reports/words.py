@@ -115,6 +115,11 @@ def rounded_down(ratio: float) -> str:
     return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
 
 
+def kilonewtons(force: float) -> str:
+    """Return a force, N, in kN as text."""
+    return f"{force / 1e3:.6g} kN"
+
+
 def with_unit(value: float, unit: str) -> str:
     """Return a number with its unit as text."""
     return f"{value:.6g} {unit.replace('s2', 's²')}".strip()

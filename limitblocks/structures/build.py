@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
@@ -69,15 +68,6 @@ def pier(
 def base(x: Sequence[float], y: Sequence[float], depth: float, name: str = "base") -> Block:
     """Support below z = 0 under a rectangle, m."""
     return span_box(name, x, y, (-depth, 0.0))
-
-
-def unit_vector(direction: Sequence[float]) -> Array:
-    """Return `direction` brought to unit length, or raise ModelError where that cannot be done."""
-    vector = np.asarray(direction, dtype=float)
-    length = float(np.linalg.norm(vector))
-    if vector.shape != (3,) or not 0.0 < length < np.inf:
-        raise ModelError(f"direction is {direction!r}, expected three finite numbers, not all zero")
-    return np.asarray(vector / length)
 
 
 def refuse_not_positive(**values: float) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import force
-from limitblocks.structures.build import refuse, unit_vector
+from limitblocks.mechanics.loads import force, unit_vector
+from limitblocks.structures.build import refuse
 
 
 class Fill(NamedTuple):
@@ -55,7 +55,7 @@ def fill_loads(
     direction : sequence of float
         Direction of the live load.
     """
-    push = fill.inertia * unit_vector(direction)
+    push = fill.inertia * np.array(unit_vector(direction, "direction"))
     dead, live = [], []
     for name, points in surfaces:
         for (x1, z1), (x2, z2) in pairwise(points.tolist()):

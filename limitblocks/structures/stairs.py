@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import force
+from limitblocks.mechanics.loads import force, unit_vector
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond
 from limitblocks.structures.build import (
@@ -22,7 +22,6 @@ from limitblocks.structures.build import (
     refuse_fewer,
     refuse_not_positive,
     span_box,
-    unit_vector,
 )
 
 
@@ -130,10 +129,11 @@ def cantilever_stair(
         for k, span in enumerate(spans)
     ]
     model = model_of(blocks, [base((0.0, end), y, rise)], joint, direction, "cantilever stair")
+    push = np.array(unit_vector(direction, "direction"))
     load = [
         force(
             f"tread {k + 1}",
-            (unit_weight * (b - a) * length * rise * unit_vector(direction)).tolist(),
+            (unit_weight * (b - a) * length * rise * push).tolist(),
             at=((a + b) / 2, length / 2, (k + 0.5) * rise),
         )
         for k, (a, b) in enumerate(spans)

@@ -57,14 +57,18 @@ class SampledStudy(Saved):
     def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
         """Return quantiles of the load factor over the independent samples that have one.
 
-        A row whose dead loads fall counts as load factor zero; other failures are left out.
+        A row whose dead loads fall counts as load factor zero; other failures are left out. Between a load
+        factor and an unlimited one the lower counts.
 
         Raises
         ------
         SolveError
             If no row has a load factor.
         """
-        return np.quantile(self._known(), shares)
+        known = self._known()
+        most = known[np.isfinite(known)].max(initial=0.0)
+        below, above = (np.quantile(known, shares, method=end) for end in ("lower", "higher"))
+        return np.where(np.isinf(above), below, np.quantile(np.minimum(known, most), shares))
 
     def probability_below(self, demand: float) -> float:
         """Return the share of independent samples whose load factor is below `demand`; falling ones are."""

@@ -1,5 +1,6 @@
 """The program of one form, solved by Clarabel itself: the answer that cvxpy has; and what a proof solves."""
 
+import cvxpy as cp
 import numpy as np
 import pytest
 
@@ -9,8 +10,9 @@ from limitblocks.analysis import certified, repair
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
-from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
+from limitblocks.analysis.programs import DIRECT, PLANAR, compiled, solved, static_program
 from limitblocks.analysis.scales import scaled
+from limitblocks.problem import Cones
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 
@@ -30,6 +32,18 @@ def test_a_form_has_the_answer_of_the_static_program(joint):
     state = Programs(form).limit_state(DIRECT)
     expected = solved(static_program(form.problem), DIRECT).values[0]
     assert state.load_factor == pytest.approx(float(expected), rel=1e-8)
+
+
+@pytest.mark.parametrize("joint", [*JOINTS, lb.OrdunaLourenco(0.6, compressive_strength=2e6, cohesion=1e3)])
+def test_matrices_are_those_that_cvxpy_hands_over_to_clarabel(joint):
+    program = static_program(scaled(wall(joint).problem)).problem
+    data, _, _ = program.get_problem_data(cp.CLARABEL)
+    here = compiled(program)
+    assert here.cones == Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
+    assert abs(here.A - data["A"]).max() == 0.0
+    assert here.A.nnz == data["A"].nnz
+    assert (here.b == data["b"]).all()
+    assert (here.c == data["c"]).all()
 
 
 def test_an_unlimited_load_has_no_state():

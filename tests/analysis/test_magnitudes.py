@@ -1,6 +1,7 @@
 """Numbers of the wrong magnitude are asked about, and plausible ones are not."""
 
 import logging
+from dataclasses import replace
 
 import pytest
 from typer.testing import CliRunner
@@ -31,7 +32,11 @@ def block(joint=None, **change):
         (block(unit_weight=20e6), "unit weight is 2e+07 N/m3, more than any material weighs"),
         (
             block(lb.OrdunaLourenco(0.6, compressive_strength=2e15)),
-            "compressive strength is 2e+15 Pa, more than any material bears",
+            "compressive strength is 2e+15 Pa, more than any stone bears",
+        ),
+        (
+            block(lb.OrdunaLourenco(0.6, compressive_strength=1.5e9)),
+            "compressive strength is 1.5e+09 Pa, more",
         ),
         (block(width=8000.0), "the structure is "),
         (block(width=0.01, height=0.01, depth=0.01), "the structure is "),
@@ -73,3 +78,33 @@ def test_questions_are_asked_before_an_analysis(tmp_path):
     assert result.exit_code == 0
     assert "warning: unit weight is 2e+13 N/m3, more than any material weighs" in result.stderr
     assert "warning" not in result.stdout
+
+
+def with_roof(dead, live):
+    """A block with a roof on top that is given to the dead load, to the live load, or to both."""
+    model, roof = block(), lb.loads.added_mass("block 1", at=(0.0, 0.0, 1.0), weight=5e3)
+    loads = lb.self_weight([roof] * dead), lb.mass_proportional((1, 0, 0), [roof] * live)
+    return replace(model, dead=loads[0], live=loads[1])
+
+
+@pytest.mark.parametrize(("dead", "live", "alone"), [(True, False, "dead"), (False, True, "live")])
+def test_a_mass_forgotten_in_one_of_the_loads_is_asked_about(dead, live, alone):
+    (asked,) = questions(with_roof(dead, live))
+    assert asked.startswith(f"the mass fixed to 'block 1' at (0, 0, 1) m acts in the {alone} load alone")
+    assert questions(with_roof(True, True)) == questions(with_roof(False, False)) == []
+
+
+def test_a_study_asks_as_an_analysis_does(tmp_path):
+    file = with_roof(True, False).save(tmp_path / "roof.json")
+    result = CliRunner().invoke(app, ["study", "directions", str(file), "--count", "1", "--workers", "1"])
+    assert "warning: the mass fixed to 'block 1'" in result.stderr
+
+
+def test_blocks_without_weight_are_asked_about():
+    model = block()
+    light = [replace(one, unit_weight=0.0) for one in model.blocks]
+    roof = lb.loads.added_mass("block 1", at=(0.0, 0.0, 1.0), weight=5e3)
+    loads = lb.self_weight([roof]), lb.mass_proportional((1, 0, 0), [roof])
+    assert questions(replace(model, blocks=light, dead=loads[0], live=loads[1])) == [
+        "without weight: block 'block 1'"
+    ]

@@ -155,6 +155,21 @@ def test_wrong_usage_is_code_2_without_traceback(arguments):
     assert "Traceback" not in result.stderr
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full")
+@pytest.mark.parametrize("arguments", [["schema"], ["examples", "list"], ["--help"]])
+def test_a_full_disk_behind_stdout_is_one_line(arguments):
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "limitblocks", *arguments],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr == "error: cannot write what there is to print: No space left on device\n"
+
+
 def test_help_names_every_verb():
     result = run("--help")
     assert result.exit_code == 0

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 import limitblocks as lb
@@ -71,3 +72,13 @@ def test_a_labelled_block_is_the_same_body():
     for wrong in ({"layer": None}, {"material": 3}):
         with pytest.raises(lb.ModelError, match="text is needed"):
             block.labelled(**({"unit_weight": None, "layer": "", "material": ""} | wrong))
+
+
+def test_rounding_of_a_height_hides_no_block():
+    """0.2 * 3 is 0.6000000000000001."""
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    courses = [lb.Block.prism(str(k), square, (0.2 * k, 0.2 * (k + 1)), along="z") for k in range(4)]
+    assert select(courses, "z<0.6") == ("0", "1", "2")
+    assert select(courses, "z<0.599999") == ("0", "1")
+    moved = [block.moved(-np.eye(3)[[1, 0, 2]], (0, 0, 0)) for block in courses]
+    assert select(moved, "z>-0.6") == ("0", "1", "2")

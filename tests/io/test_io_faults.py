@@ -171,6 +171,14 @@ TEXTS = {
     "truncated": (json.dumps(GOOD).encode()[:300], ["line 1, column", "not JSON"]),
     "not JSON": (b"<xml/>", ["not JSON"]),
     "NaN": (json.dumps(GOOD).replace("24000.0", "NaN").encode(), ["NaN"]),
+    "NaN, where": (
+        b'{"schema_version": 1,\n "name": "NaN and \\" Infinity",\n "blocks": [NaN]}',
+        ["line 3, column 13: not JSON: NaN is not a number"],
+    ),
+    "singular": (  # `joint` is a key of interfaces
+        json.dumps({"joint" if key == "joints" else key: value for key, value in GOOD.items()}).encode(),
+        ["joint: unknown key; did you mean 'joints'?"],
+    ),
     "Infinity": (json.dumps(GOOD).replace("24000.0", "-Infinity").encode(), ["-Infinity"]),
     "infinity by size": (json.dumps(GOOD).replace("24000.0", "1e999").encode(), ["blocks[3].unit_weight"]),
     "digits": (json.dumps(GOOD).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
@@ -315,3 +323,28 @@ def test_only_our_errors_come_out_of_broken_text(tmp_path_factory, data):
     file = tmp_path_factory.mktemp("fuzz") / "model.json"
     file.write_bytes(text[: data.draw(st.integers(0, len(text)))] if data.draw(st.booleans()) else text)
     assert "\n" not in str(outcome(file))
+
+
+def raised(height):
+    """The portal with its lintel `height` m above the legs."""
+    document = copy.deepcopy(GOOD)
+    document["blocks"][3]["box"]["at"][2] += height
+    return json.dumps(document).encode()
+
+
+def test_a_block_that_floats_by_a_drawn_gap_is_told_the_gap(tmp_path):
+    file = tmp_path / "portal.json"
+    file.write_bytes(raised(0.02))
+    with pytest.raises(lb.ModelError) as caught:
+        lb.read(file)
+    assert any("typically 20 mm wide" in line for line in caught.value.problems)
+
+
+def test_joints_lost_to_a_gap_are_told_on_reading(tmp_path, caplog):
+    """The right leg stops 5 mm below the lintel, which then rests on the left one alone."""
+    document = copy.deepcopy(GOOD)
+    document["blocks"][2]["box"] |= {"size": [0.5, 1.0, 1.995], "at": [1.0, 0.0, 0.9975]}
+    file = tmp_path / "portal.json"
+    file.write_text(json.dumps(document))
+    assert len(lb.read(file).interfaces) == 3
+    assert any("nearly touch: right|lintel" in line for line in caplog.messages)

@@ -1,5 +1,7 @@
 import json
 import re
+from copy import copy
+from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
@@ -124,3 +126,38 @@ def test_save_refuses_an_existing_file(tmp_path):
     with pytest.raises(lb.LimitBlocksError, match="exists"):
         MODELS["boxes"].save(file)
     assert file.read_text() == "mine"
+
+
+BLOCK, INTERFACE = MODELS["two joints"].blocks[1], MODELS["two joints"].interfaces[2]
+PARTS = {
+    "blocks": [
+        *(
+            {"layer": "a"},
+            {"material": "a"},
+            {"groups": ["a"]},
+            {"colour": "#102030"},
+            {"unit_weight": 2e4 + 1},
+        ),
+        *({"name": "a"}, {"vertices": BLOCK.vertices + 1e-9}, {"faces": BLOCK.faces[1:] + BLOCK.faces[:1]}),
+    ],
+    "interfaces": [
+        *({"joint": lb.PointContact(0.6)}, {"block_i": "lintel"}, {"block_j": "ground"}),
+        *({part: getattr(INTERFACE, part) * (1.0 + 1e-15)} for part in ("centroid", "axes", "polygon")),
+    ],
+}
+WHOLE = {"supports": ["ground", "right"], "dead": 2 * lb.self_weight(), "live": LOADS, "name": "Other"}
+
+
+def test_no_part_of_a_model_is_left_out_of_its_digest():
+    model = MODELS["two joints"]
+    others = [replace(model, **{word: value}) for word, value in WHOLE.items()]
+    for word, changes in PARTS.items():
+        k = 1 if word == "blocks" else 2
+        for change in changes:
+            parts = list(getattr(model, word))
+            parts[k] = replace(parts[k], **change)
+            others.append(copy(model))  # a name that is changed in one place makes no model
+            others[-1].__dict__.pop("digest", None)
+            object.__setattr__(others[-1], word, parts)
+    digests = [each.digest for each in (model, *others)]
+    assert len(set(digests)) == len(digests) == 19

@@ -167,6 +167,19 @@ def test_every_number_of_every_joint_and_load_has_a_unit():
         assert {field.name for field in fields(cls) if field.init} - words <= set(DIMENSIONS), cls
 
 
+@pytest.mark.parametrize(("place", "low"), [("z<2250", 2), ("z < 2.25e3", 2), ("z>2200", 1), ("low", 1)])
+def test_places_in_patterns_of_materials_are_in_the_unit_of_the_file(place, low, tmp_path):
+    """Columns of 2.2 m and a lintel above them, in mm."""
+    document = scaled(SI, 1e-3, 1.0) | {"units": {"length": "mm"}}
+    for block in document["blocks"]:
+        block.pop("unit_weight", None)
+    document["blocks"][1]["layer"] = "low"
+    picked = {"blocks": [place], "unit_weight": 1e-5}
+    document["materials"] = {"a": picked, "b": {"blocks": ["*"], "unit_weight": 2e-5}}
+    weights = [block.unit_weight for block in read(document, tmp_path).free_blocks]
+    assert weights.count(pytest.approx(1e4)) == low
+
+
 def test_units_are_those_of_the_module():
     for name, metre in METRES.items():
         assert float(metre) == getattr(units, {"in": "inch"}.get(name, name))

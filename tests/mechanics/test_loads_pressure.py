@@ -121,6 +121,25 @@ def test_pressure_on_courses_is_that_on_the_wall():
     assert np.concatenate([parts[:, :3].sum(axis=0), moment]) == pytest.approx(whole)
 
 
+def test_point_on_a_face_of_a_block_that_is_not_convex():
+    """An L of 2 m x 2 m in x and z, 1 m thick everywhere; a force of 1 N on each square metre."""
+    corner = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    block = lb.Block.prism("L", corner, (0.0, 3.0), 20e3)
+    middles = {  # of faces of 1 m x 3 m
+        (2.0, 1.5, 0.5): (-3.0, 0.0, 0.0),
+        (1.0, 1.5, 1.5): (-3.0, 0.0, 0.0),
+        (1.5, 1.5, 1.0): (0.0, 0.0, -3.0),
+    }
+    for middle, force in middles.items():
+        load = lb.loads.pressure("L", 1.0, at=np.add(middle, (0.0, 0.3, 0.0))).on([block])[0]
+        assert load[:3] == pytest.approx(np.array(force))
+        assert load[3:] == pytest.approx(np.cross(middle - block.centroid, force))
+    end = lb.loads.pressure("L", 1.0, at=(0.5, 0.0, 1.5)).on([block])[0]
+    assert end == pytest.approx(np.array([0.0, 3.0, 0.0, 0.0, 0.0, 0.0]))
+    with pytest.raises(lb.ModelError, match="on no face"):
+        lb.loads.pressure("L", 1.0, at=(1.0, 1.0, 0.5)).on([block])  # in the plane of a face, in the block
+
+
 def test_pressure_that_grows_upwards_is_a_difference():
     uniform = lb.loads.pressure("wall", WATER * 2.0, facing=(-1, 0, 0))
     load = (uniform + (-1) * lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)).on(

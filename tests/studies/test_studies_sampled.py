@@ -90,6 +90,17 @@ def test_failures_are_rows(tmp_path):
     assert json.loads(json.dumps(found.to_dict()))["rows"][0]["friction"] == found.values[0, 0]
 
 
+def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
+    """In order .1, .2, .3, inf, inf: quartiles fall on rows, and beyond them the lower neighbour counts."""
+    values = [np.inf, 0.3, 0.1, np.inf, 0.2]
+    monkeypatch.setattr(
+        sampled, "one_row", lambda k, *_: {"row": k, "load_factor": values[k], "mode": "", "error": ""}
+    )
+    found = lb.study(block, {"friction": (0.2, 0.6)}, 5, sampler="random")
+    assert found.quantiles([0.0, 0.125, 0.5, 0.6]) == pytest.approx([0.1, 0.15, 0.3, 0.3])
+    assert np.isinf(found.quantiles([0.75, 0.9, 1.0])).all()
+
+
 def test_sobol_indices_of_a_product():
     """f = a b with independent a, b: S_a = Va mb^2 / (Va mb^2 + Vb ma^2 + Va Vb)."""
     found = lb.study(product, {"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, 64, indices=True, seed=4)

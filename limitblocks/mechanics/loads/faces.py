@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
@@ -48,13 +49,20 @@ def face_through(block: Block, point: Sequence[float]) -> int:
     ModelError
         If no face does, or more than one, as at an edge.
     """
-    off = block.normals @ np.asarray(point) - block.offsets
-    near = _NEAR * block.size
-    faces = np.flatnonzero(np.abs(off) <= near) if off.max() <= near else np.zeros(0, dtype=int)
+    at, near = np.asarray(point, dtype=float), _NEAR * block.size
+    level = np.flatnonzero(np.abs(block.normals @ at - block.offsets) <= near)
+    faces = np.array([k for k in level.tolist() if _off(block, k, at) <= near], dtype=int)
     if len(faces) == 1:
         return int(faces[0])
     where = "on no face" if not len(faces) else f"on an edge of faces {_listed(faces)}"
     raise ModelError(f"block {block.name!r}: point {tuple(point)} is {where}, expected a point inside a face")
+
+
+def _off(block: Block, face: int, point: Array) -> float:
+    """Distance of a point in the plane of a face, convex or not, from the face."""
+    plane = np.linalg.svd(block.normals[[face]])[2][1:]
+    outline = block.vertices[list(block.faces[face])] @ plane.T
+    return float(shapely.distance(shapely.Polygon(outline), shapely.Point(plane @ point)))
 
 
 def part_where(corners: Array, values: Array) -> tuple[Array, Array]:

@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, repeated
 from limitblocks.problem.plane.alike import EXACT, classes, in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
@@ -211,9 +211,9 @@ def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRo
     weight = np.where(np.abs(rows.weight) > EXACT, rows.weight, 0.0)
     count = np.array([len(members[k]) for k in rows.k], dtype=np.int64)
     place = np.concatenate([members[k] for k in rows.k]) if len(rows.k) else rows.k
-    row, _ = _repeated(count)
+    row, _ = repeated(count)
     entry, z, r = np.nonzero(weight)
-    of_entry, position = _repeated(count[entry])
+    of_entry, position = repeated(count[entry])
     new = (np.cumsum(count) - count)[entry][of_entry] + position
     return PlaneRows(
         rows.size,
@@ -222,12 +222,6 @@ def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRo
         new * rows.size + z[of_entry],
         places[place[new], r[of_entry]],
     )
-
-
-def _repeated(count: Indices) -> tuple[Indices, Indices]:
-    """Each of (c,) as often as it counts: which one it is, and its position among its copies."""
-    which = np.repeat(np.arange(len(count)), count)
-    return which, np.arange(len(which)) - (np.cumsum(count) - count)[which]
 
 
 def _same(values: Array) -> tuple[Indices, Array]:
