@@ -249,7 +249,7 @@ ACROSS = [(MU, (1.0, 0.0, 0.0), 0), (0.3, (0.0, 1.0, 0.0), 3)]
 
 @pytest.mark.parametrize(("friction", "push", "seed"), ACROSS)
 def test_a_state_that_is_not_symmetric_is_judged_in_the_whole_of_a_symmetric_structure(friction, push, seed):
-    """Frozen at it the rows are not symmetric, either: its mean with the mirror image confirms another value."""
+    """Frozen at it the rows are not symmetric, either: its mean with the mirror image gives another value."""
     model = portal(friction, push)
     flow, (plane, state, mean) = Flow(model.problem), wedged(model, seed)
     whole, other = fixed_point_change(flow, state), fixed_point_change(flow, mean)

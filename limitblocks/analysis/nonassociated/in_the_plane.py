@@ -28,6 +28,7 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar
 
+
 @dataclass(frozen=True, eq=False)
 class InPlane:
     """The flow rule `whole` in its plane or one half, the stresses a path starts from, their compliance."""
@@ -92,9 +93,7 @@ def flow_in_plane(
 
 
 def plane_of(model: Model, problem: LimitProblem, x: Array) -> Planar | None:
-    """Return the limit problem in its plane or one half, in units of `problem`, where stresses x are symmetric.
-
-    None where they are not, or there is no mirror plane.
+    """Return the model's plane or one half in units of `problem`, where its stresses x are symmetric; or None.
     """
     found = in_plane(model.problem)
     symmetric = found is not None and found.symmetric(x * problem.stress_units / model.problem.stress_units)
