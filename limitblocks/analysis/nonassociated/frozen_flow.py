@@ -70,7 +70,7 @@ def fixed_point_change(flow: Flow, state: State, plane: Planar | None = None) ->
 
 @np.errstate(all="ignore")  # a state that ran away is no pair
 def _round(flow: Flow, x: Array, plane: Planar | None) -> Pair:
-    """A pair of bounds of the problem frozen at x: by one accurate solve, or by one solver after the other."""
+    """Bounds of the problem frozen at x, by one accurate solve or by one solver after the other."""
     whole = frozen(flow, x)
     at = whole if plane is None else frozen(replace(flow, problem=plane.problem), plane.stresses_of(x))
     found = limit_state(Programs(Stresses(scaled(at), refined=False)), plane)

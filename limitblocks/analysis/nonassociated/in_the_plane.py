@@ -93,8 +93,7 @@ def flow_in_plane(
 
 
 def plane_of(model: Model, problem: LimitProblem, x: Array) -> Planar | None:
-    """Return the model's plane or one half in units of `problem`, where its stresses x are symmetric; or None.
-    """
+    """Return the plane or one half of a model in the units of `problem`, if stresses x are symmetric."""
     found = in_plane(model.problem)
     symmetric = found is not None and found.symmetric(x * problem.stress_units / model.problem.stress_units)
     return _in_units_of(model, problem, Choice.FLOWING) if symmetric else None
