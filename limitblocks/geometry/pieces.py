@@ -96,7 +96,9 @@ def _canonical(shape: Any, x_axis: Array, mirrored: bool, grid: float) -> tuple[
     points = shapely.get_coordinates(shape)
     units = np.round((points - middle) @ turn / grid) + 0.0
     flat = shapely.set_coordinates(shape, units)
-    if not shapely.is_valid(flat):  # a strip narrower than the grid is left out, as where a hole meets the rim
+    if not shapely.is_valid(
+        flat
+    ):  # a strip narrower than the grid is left out, as where a hole meets the rim
         flat = shapely.make_valid(flat, method="structure", keep_collapsed=False)
         met = shapely.get_coordinates(flat)
         units, points = np.concatenate([met, units]), np.concatenate([middle + grid * met @ turn.T, points])

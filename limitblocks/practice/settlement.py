@@ -226,7 +226,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
 
 
 def _as_before(model: Model, freed: Model, support: str, on_support: Array, weight: float) -> Model:
-    """Return the freed model less what fill and loads from above put elsewhere now that the support is free."""
+    """Return the freed model less what fill and loads from above put elsewhere as it is free."""
     wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
     wanted[support] = on_support
     free, back = freed.free_blocks, Load()

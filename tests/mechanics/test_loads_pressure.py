@@ -141,7 +141,7 @@ def test_point_on_a_face_of_a_block_that_is_not_convex():
 
 
 def with_a_window(off):
-    """A wall of 4 m x 2 m, .5 m thick, with a window of 2 m x 1 m; its corner (0, 2) is `off` by as much in y."""
+    """A wall of 4 m x 2 m, .5 m thick, with a window of 2 m x 1 m; one corner is `off` by as much in y."""
     around = [(-2, 0), (2, 0), (2, 2), (-2, 2)], [(-1, 0.5), (1, 0.5), (1, 1.5), (-1, 1.5)]
     vertices = np.array([(x, y, z) for y in (0.0, 0.5) for ring in around for x, z in ring])
     vertices[3, 1] += off

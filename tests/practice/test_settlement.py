@@ -229,7 +229,7 @@ def test_prestress_between_block_and_support_is_within_the_tie(prestress):
 
 @pytest.mark.parametrize("ledge", [0.0, 0.3])
 def test_fill_does_not_rest_on_the_support_because_it_settles(ledge):
-    """The lintel and 0.6 m of fill on it turn about the inner edge of the left pier, on the outer of the right.
+    """The lintel and 0.6 m of fill on it turn about the inner edge of the left pier.
 
     The ground of the right pier is wider than the pier, and its ledge slopes or not: fill does not act on
     supports, and its earth pressure on the ledge none either.

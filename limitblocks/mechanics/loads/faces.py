@@ -64,7 +64,7 @@ def faces_through(block: Block, point: Sequence[float]) -> Indices:
 
 
 def _planes(block: Block) -> Indices:
-    """Number the plane regions of the faces, shape (m,), as contacts do: several faces in one plane are one."""
+    """Number the plane regions of the faces, shape (m,), as contacts do: faces in one plane are one."""
     flat = GAP / 2.0 * float(np.cbrt(block.volume))
     return regions(surfaces_of([block], [block.vertices - block.centroid]), flat, ANGLE / 2.0)
 
