@@ -146,6 +146,13 @@ def test_convergence_draws_the_history(take):
     assert inked(ax) > 0.005
 
 
+def test_no_two_residuals_are_drawn_alike():
+    ax = lb.plots.convergence(path())
+    drawn = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in ax.lines]
+    assert len(ax.lines) > 7  # more than there are colours
+    assert len(set(drawn)) == len(drawn)
+
+
 def test_bounds_have_no_history():
     with pytest.raises(lb.LimitBlocksError, match="Bounds has no history"):
         lb.plots.convergence(bounds(rocking))
