@@ -21,6 +21,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure, force, moment
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
+from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element, axes_of
 from limitblocks.shown import Result
 
@@ -193,6 +194,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
             f"settlement: {support!r} is the only support; the whole structure would move with it"
         )
     block = next(block for block in model.blocks if block.name == support)
+    model = fill_at_rest(model, support)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
     if not weight > 0.0:
         raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
