@@ -50,7 +50,7 @@ CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is
 
 
 @dataclass(frozen=True, eq=False)
-class _Pair:
+class Pair:
     """A static and a kinematic solution as one state, its problem and its evidence."""
 
     problem: LimitProblem
@@ -126,7 +126,7 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
     )
 
 
-def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof] | None:
+def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof] | None:
     """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them as well as any."""
     tell("dead loads")
     plane, programs = in_plane(problem), programs_of(problem)
@@ -143,16 +143,16 @@ def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arra
     patience = 1 if plane is not None and plane.flat else programs.form.patience
     accurate = max(CLOSE, PER_BLOCK * len(problem.blocks))
     close = max(CLOSE, min(accurate, tolerance / 10.0))
-    raw = _Pair(problem, state, name)
+    raw = Pair(problem, state, name)
     state, proof = certified(problem, state, dead, close=close, patience=patience, splitting=splitting)
-    pair = _Pair(problem, state, name)
+    pair = Pair(problem, state, name)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     # another solution is no better where this one is that accurate, and only its proof takes more
     good = good or (proof.complete and raw.residuals.worst.value <= min(accurate, tolerance))
     return (dead, pair, proof) if good else None
 
 
-def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, _Pair, Proof]:
+def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof]:
     """Dead-load stresses and a pair of bounds by one solver after the other."""
     tell("dead loads, again with care")
     dead = dead_load_state(problem)
@@ -160,7 +160,7 @@ def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arr
     return dead, *_proven(pair_of_bounds(problem, dead, tolerance), dead, tolerance)
 
 
-def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
+def _proven(pair: Pair, dead: Array, tolerance: float) -> tuple[Pair, Proof]:
     """The pair that proves its bounds, rounding errors included; or the same, and why it proves nothing."""
     for whole in (False, True) if in_plane(pair.problem) else (True,):
         state, proof = certified(pair.problem, pair.state, dead, whole=whole)
@@ -172,7 +172,7 @@ def _proven(pair: _Pair, dead: Array, tolerance: float) -> tuple[_Pair, Proof]:
     return pair, proof
 
 
-def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pair:
+def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> Pair:
     """The first pair of solutions that passes the tolerance, or the error that explains why there is none."""
     said: list[str] = []
     tried: list[Residual] = []
@@ -184,19 +184,19 @@ def pair_of_bounds(problem: LimitProblem, dead: Array, tolerance: float) -> _Pai
     raise SolverFailure("; ".join([f"no pair of bounds within {tolerance:g}", *best, *dict.fromkeys(said)]))
 
 
-def _all_pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[_Pair]:
+def _all_pairs(problem: LimitProblem, dead: Array, tolerance: float, said: list[str]) -> Iterator[Pair]:
     """Pairs of the problem in its plane, to be judged in the whole one, and then of the whole."""
     plane = in_plane(problem)
     if plane is not None:
         for pair in _pairs(plane.problem, plane.stresses_of(dead), tolerance, said, explained=True):
             name = pair.solver + (" in the plane" if plane.flat else IN_HALF)
-            yield _Pair(problem, plane.lifted(pair.state), name)
+            yield Pair(problem, plane.lifted(pair.state), name)
     yield from _pairs(problem, dead, tolerance, said)
 
 
 def _pairs(
     problem: LimitProblem, dead: Array, tolerance: float, said: list[str], explained: bool = False
-) -> Iterator[_Pair]:
+) -> Iterator[Pair]:
     """Pairs of solutions by one solver after the other: as they are, repaired, polished, in better units."""
     flow = Flow(problem, ASSOCIATED)
     resting = scaled(problem).measured(unmoved(problem, 0.0, dead))  # units where a solver finds nothing
@@ -216,17 +216,17 @@ def _pairs(
                 measured, resting = resting, None
                 continue
             state = State(float(load_factor), x, u, y)
-            yield _Pair(problem, measured.in_problem(state), solver.name)
+            yield Pair(problem, measured.in_problem(state), solver.name)
             state = measured.in_problem(repaired(measured, state))
-            yield _Pair(problem, state, solver.name)
+            yield Pair(problem, state, solver.name)
             polished = polish(flow, state, until=tolerance / 10)
             if polished is not state:
-                yield _Pair(problem, polished, solver.name)
+                yield Pair(problem, polished, solver.name)
             u, y = solved(kinematic_program(measured), solver).values  # where duals are too rough
             if np.isfinite(u).all() and np.isfinite(y).all():
                 state = repaired(measured, State(float(load_factor), x, u, y))
                 state = polish(flow, measured.in_problem(state), until=tolerance / 10)
-                yield _Pair(problem, state, solver.name)
+                yield Pair(problem, state, solver.name)
             measured = measured.measured(polished)
 
 

@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
 from limitblocks.mechanics.loads.load import Load, some, triple
 from limitblocks.model import Model
+from limitblocks.shown import many
 
 #: Friction coefficient from which on it may be an angle in degrees: 71.6 degrees.
 _STEEP = 3.0
@@ -21,6 +23,8 @@ _KILO, _DENSITY = 5e2, 5e3
 _HEAVY, _STRONG = 2.2e5, 1e9
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
+#: Share of the median volume below which a block may be debris.
+_DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
 _LARGE, _SMALL = 3e2, 5e-2
 
@@ -47,6 +51,19 @@ def of_size(size: float) -> list[str]:
     if size < _SMALL:
         return [f"the structure is {size:.4g} m large: is it in metres? see units"]
     return []
+
+
+def of_volumes(blocks: Sequence[Block]) -> list[str]:
+    """Return the question for blocks so much smaller than the others that they may be debris."""
+    middle = float(np.median([block.volume for block in blocks]))
+    small = [block for block in blocks if block.volume < _DEBRIS * middle]
+    if not small:
+        return []
+    least = min(small, key=lambda block: block.volume)
+    return [
+        f"{many(len(small), 'block')} smaller than {_DEBRIS:g} of the median, {middle:.3g} m3: debris? "
+        f"The smallest is {least.name!r}, {least.volume:.2g} m3"
+    ]
 
 
 def of_axles(axles: Sequence[float]) -> list[str]:

@@ -19,6 +19,8 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
 from limitblocks.problem.plane import Planar
 
+EVERYWHERE = 1e-3  # of the joint that lacks most: the least that a joint is opened
+
 
 @dataclass(frozen=True, eq=False)
 class Repair:
@@ -26,7 +28,6 @@ class Repair:
 
     splitting: Splitting
     own: LimitProblem
-    everywhere: float = 0.1  # of the joint that lacks most: the least that a joint is opened
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -46,7 +47,7 @@ class Repair:
         zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
         """
         p, there = self.splitting.p, self._there(y=amount).y
-        there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), self.everywhere)
+        there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), EVERYWHERE)
         found = self.splitting.mechanism(there)
         if found is None:
             return np.full_like(self._nothing.u, np.nan), np.full_like(self._nothing.y, np.nan)
@@ -77,11 +78,6 @@ class PlanarRepair:
     whole: LimitProblem
     plane: Planar
     half: Repair
-
-    @property
-    def everywhere(self) -> float:
-        """Of the joint that lacks most: the least that a joint is opened."""
-        return self.half.everywhere
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -139,5 +135,4 @@ class PlanarRepair:
 def planar_repair(whole: LimitProblem, plane: Planar, splitting: Splitting) -> PlanarRepair:
     """Return the repairs in the plane or in one half, in units of the whole problem."""
     measured = plane.measured(whole)
-    everywhere = 1e-3 if plane.flat else Repair.everywhere
-    return PlanarRepair(whole, measured, Repair(splitting, measured.problem, everywhere))
+    return PlanarRepair(whole, measured, Repair(splitting, measured.problem))

@@ -98,4 +98,6 @@ def backfill(
         made = reinforced(structure, *held)
         if weight:
             made = replace(made, dead=made.dead + fill(unit_weight, level))
-        typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {many(len(held), 'block')}")
+        blocks = many(len({one.interface.block_i for one in held}), "block")
+        faces = many(len(held), "face")
+        typer.echo(f"{made.save(output, overwrite=force)}: {made}, fill holds {blocks} on {faces}")

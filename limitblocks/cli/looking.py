@@ -63,7 +63,7 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
         ("Unit of length", seen.units),
         ("Up", seen.up),
         ("Size", " × ".join(f"{side:.4g}" for side in seen.size) + " m"),
-        ("Heights", f"from Z = {low[2]:.4g} to {high[2]:.4g} m"),
+        ("Heights", f"from Z = {_level(low[2])} to {_level(high[2])} m"),
         ("Volume", f"{seen.volume:.4g} m³; of a block {spread}"),
         ("Contacts", seen.contacts),
     ]
@@ -83,7 +83,11 @@ def _heads(seen: Look) -> tuple[str, ...]:
 def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
     words = [word for word, known in ((block.layer, seen.layers), (block.material, seen.materials)) if known]
     size = " × ".join(f"{side:.3g}" for side in block.size)
-    return block.name, *words, size, f"{block.volume:.3g}", f"{block.bottom:.4g}", f"{block.top:.4g}"
+    return block.name, *words, size, f"{block.volume:.3g}", _level(block.bottom), _level(block.top)
+
+
+def _level(height: float) -> str:
+    return f"{round(height, 6) + 0.0:.4g}"  # of a springing, not 3e-16 m
 
 
 def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, thickness: float | None) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.magnitudes import of_size
+from limitblocks.analysis.magnitudes import of_size, of_volumes
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.geometry.twisted import Twisted
@@ -34,8 +34,6 @@ _FORMATS = {
     ".3dm": "Rhino 3dm",
     ".json": "COMPAS JSON",
 }
-#: Share of the median volume below which a block may be debris.
-_DEBRIS = 1e-4
 
 
 @dataclass(frozen=True)
@@ -223,17 +221,8 @@ def _counted(words: Any) -> dict[str, int]:
 
 def _suspicious(blocks: Sequence[Block], corners: Any, contacts: Contacts) -> list[str]:
     """Return what may not be meant: sizes, debris, what contact detection saw, joints drawn open."""
-    said = of_size(float(np.ptp(corners, axis=0).max()))
-    volumes = np.array([block.volume for block in blocks])
-    middle = float(np.median(volumes))
-    small = [block for block, volume in zip(blocks, volumes, strict=True) if volume < _DEBRIS * middle]
-    if small:
-        least = min(small, key=lambda block: block.volume)
-        said.append(
-            f"{many(len(small), 'block')} smaller than {_DEBRIS:g} of the median, {middle:.3g} m3: debris? "
-            f"The smallest is {least.name!r}, {least.volume:.2g} m3"
-        )
-    return [*said, *contacts.warnings, *open_joints(contacts, blocks)]
+    size = float(np.ptp(corners, axis=0).max())
+    return [*of_size(size), *of_volumes(blocks), *contacts.warnings, *open_joints(contacts, blocks)]
 
 
 def _units(contents: Contents, where: Frame, units: str | None) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -35,6 +35,8 @@ class WorstPosition(Result):
         There.
     model : Model
         There.
+    vehicle : Vehicle
+    deck : Deck
     digest : str
         SHA-256 of the model that was given.
     """
@@ -44,6 +46,8 @@ class WorstPosition(Result):
     position: float
     bounds: Bounds
     model: Model
+    vehicle: Vehicle
+    deck: Deck
     digest: str
 
     def rows(self) -> list[dict[str, Any]]:
@@ -61,6 +65,8 @@ class WorstPosition(Result):
             "position": self.position,
             "bounds": self.bounds.to_dict(),
             "model": self.model.to_dict(),
+            "vehicle": asdict(self.vehicle),
+            "deck": asdict(self.deck),
         }
 
     def __str__(self) -> str:
@@ -143,7 +149,7 @@ def worst_position(
     assert found  # one is finite
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
-    return WorstPosition(order, values, worst, *found, model.digest)
+    return WorstPosition(order, values, worst, *found, vehicle, deck, model.digest)
 
 
 def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:

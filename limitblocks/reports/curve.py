@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -82,6 +83,8 @@ def line_curve(
 ) -> Curve:
     """Return a line through values x and y, round numbers at its axes, those of x at least `least` apart.
 
+    It has a gap where y is NaN.
+
     `words` are title, caption and what the axes show, `said` a text a dot.
     """
     x, y = values
@@ -134,17 +137,27 @@ def _curve(
     places = list(zip(x_places, y_places, strict=True))
     return Curve(
         *words,
-        line="M" + " ".join(f"{a:g},{b:g}" for a, b in places),
-        dots=tuple((a, b, text) for (a, b), text in zip(places, said, strict=True)),
+        line=_line(places),
+        dots=tuple((a, b, text) for (a, b), text in zip(places, said, strict=True) if isfinite(b)),
         x_ticks=x_ticks,
         y_ticks=y_ticks,
+    )
+
+
+def _line(places: Sequence[tuple[float, float]]) -> str:
+    """Path through places, with a gap where y is NaN."""
+    known = [isfinite(b) for _, b in places]
+    starts = [" " if before else "M" for before in (False, *known)]
+    return "".join(
+        f"{start}{a:g},{b:g}" for start, (a, b), here in zip(starts, places, known, strict=False) if here
     )
 
 
 def _axis(values: Array, ticks: Ticks, start: float, end: float) -> tuple[list[float], tuple[Tick, ...]]:
     """Places of values and ticks along an axis from `start` to `end`."""
     numbers = np.array([number for number, _ in ticks])
-    low, high = min(values.min(), numbers.min()), max(values.max(), numbers.max())
+    low = min(float(np.nanmin(values)), numbers.min())
+    high = max(float(np.nanmax(values)), numbers.max())
     places = start + (values - low) / (high - low) * (end - start)
     marks = (start + (numbers - low) / (high - low) * (end - start)).round(1).tolist()
     shown = zip(marks, ticks, strict=True)
@@ -152,7 +165,7 @@ def _axis(values: Array, ticks: Ticks, start: float, end: float) -> tuple[list[f
 
 
 def _range(values: Array) -> tuple[float, float]:
-    low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
+    low, high = min(0.0, float(np.nanmin(values))), max(0.0, float(np.nanmax(values)))
     return (low, high) if high > low else (low, low + 1.0)
 
 

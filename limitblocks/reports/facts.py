@@ -150,9 +150,15 @@ def _made_of(one: dict[str, Any]) -> str:
 
 
 def assumptions(model: Model) -> dict[str, list[str]]:
-    """Return what each kind of joint of the model assumes, sentences by the words for the joint."""
-    joints = dict.fromkeys(interface.joint for interface in model.interfaces)
-    return {joint_words(joint): list(assumed(joint)) for joint in joints}
+    """Return what each kind of joint of the model assumes, sentences by the words for the joints alike."""
+    alike: dict[tuple[str, ...], dict[str, None]] = {}
+    for joint in dict.fromkeys(interface.joint for interface in model.interfaces):
+        alike.setdefault(assumed(joint), {})[joint_words(joint)] = None
+    return {_first(list(names)): list(said) for said, names in alike.items()}
+
+
+def _first(names: list[str]) -> str:
+    return "; ".join(names[:2]) + f" and {len(names) - 2} more" * (len(names) > 2)
 
 
 def _unit_weights(model: Model) -> list[list[str]]:

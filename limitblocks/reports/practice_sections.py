@@ -113,13 +113,14 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         title="Vehicle on the deck",
         own=True,
         meaning=(
-            "Associated load factor of the axle loads given, with the vehicle at each position; the fill "
-            "disperses the axles. The least one is found by a search between the worst positions, a local "
-            "minimum."
+            "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
+            "the model's own live load; the fill disperses the axles. The least one is found by a search "
+            "between the worst positions, a local minimum."
         ),
         headline=f"{found.bounds.lower:#.4g}",
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
         values=(
+            *_vehicle_rows(found),
             ("Static load factor", f"{found.bounds.lower:#.7g}", "at the worst position"),
             ("Kinematic load factor", f"{found.bounds.upper:#.7g}", "at the worst position"),
             (
@@ -130,14 +131,27 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,
-        curve=_envelope(x[np.isfinite(factors)], factors[np.isfinite(factors)]),
+        curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,
     )
 
 
+def _vehicle_rows(found: WorstPosition) -> tuple[tuple[str, str, str], ...]:
+    vehicle, deck = found.vehicle, found.deck
+    loads = ", ".join(f"{load / 1e3:.6g}" for load in vehicle.axles)
+    places = ", ".join(f"{distance:.6g}" for distance in vehicle.distances)
+    spread = f"axles spread {deck.spread:g} m to each side along the deck per m of fill"
+    return (
+        ("Axles", f"{loads} kN", f"at load factor one, {places} m along X from the first axle"),
+        ("Contact of a wheel", f"{vehicle.contact:g} m", "along the deck"),
+        ("Road", f"Z = {deck.level:.6g} m", f"along y = {deck.y:g} m; {spread}"),
+    )
+
+
 def _envelope(x: Any, factors: Any) -> Curve | None:
-    if len(x) < 2:
+    if np.isfinite(factors).sum() < 2:
         return None
     title = "Load factor against the position of the first axle"
     said = [f"X = {a:.4g} m: load factor {b:.4g}" for a, b in zip(x, factors, strict=True)]
-    return line_curve((title, f"{title}, a dot a position.", "X, m", "load factor"), (x, factors), said)
+    gaps = " It has a gap where the load is unlimited." * bool(np.isnan(factors).any())
+    return line_curve((title, f"{title}, a dot a position.{gaps}", "X, m", "load factor"), (x, factors), said)

@@ -2,16 +2,26 @@
 
 from dataclasses import replace
 
+import cvxpy as cp
 import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.nonassociated import finished
-from limitblocks.analysis.nonassociated.fixed_point import OSQP, by_cones, by_planes, permanent_state
+from limitblocks.analysis.nonassociated.fixed_point import (
+    OSQP,
+    by_cones,
+    by_planes,
+    nearest_program,
+    permanent_state,
+)
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
+from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, Turning
+from limitblocks.problem.plane import Choice
 
 MU = 0.6
 FERRIS_TIN_LOI = {1: 0.640, 2: 0.563, 3: 0.356, 4: 0.264}  # (2001), zero dilatancy
@@ -120,7 +130,7 @@ def test_confirmation_is_an_option_and_only_of_answers():
     [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")],
 )
 def test_an_answer_that_is_not_confirmed_says_so(change, remark, monkeypatch):
-    monkeypatch.setattr(finished, "fixed_point_change", lambda flow, state: change)
+    monkeypatch.setattr(finished, "fixed_point_change", lambda *_: change)
     found = lb.nonassociated(flat_block(lb.OrdunaLourenco(MU)))
     assert remark in "".join(found.remarks)
     assert remark in str(found)
@@ -213,3 +223,48 @@ def test_permanent_state_that_does_not_hold_is_refused():
     ).problem
     rough = OSQP | {"eps_abs": 1e-2, "eps_rel": 1e-2, "polishing": False}
     assert by_planes(problem, problem.compliance, rough) is None
+
+
+def portal(friction, push):
+    """Mirror planes: the one in which it stands, pushed along, and the one across its span, pushed out."""
+    sizes = {"span": 1.6, "pier_width": 0.8, "pier_blocks": 3, "depth": 0.8}
+    return lb.structures.portal(lb.PointContact(friction), direction=push, **sizes)
+
+
+def wedged(model, seed):
+    """A state within yield at half the load factor, far from its mirror image, and the mean of both."""
+    problem = model.problem
+    plane, live = in_plane(problem, Choice.FLOWING), lb.bounds(model).lower * problem.units.live
+    x, load_factor, _, admissible = nearest_program(problem, problem.compliance)
+    far = np.random.default_rng(seed).normal(size=x.size)
+    least = cp.Minimize(cp.sum_squares(x - far))
+    cp.Problem(least, [*admissible, load_factor == live / 2.0]).solve(solver=cp.CLARABEL)
+    none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    mean = plane.stresses @ plane.stresses_of(x.value)
+    return plane, *(State(live / 2.0, stresses, *none) for stresses in (x.value, mean))
+
+
+ACROSS = [(MU, (1.0, 0.0, 0.0), 0), (0.3, (0.0, 1.0, 0.0), 3)]
+
+
+@pytest.mark.parametrize(("friction", "push", "seed"), ACROSS)
+def test_a_state_that_is_not_symmetric_is_judged_in_the_whole_of_a_symmetric_structure(friction, push, seed):
+    """Frozen at it the rows are not symmetric, either: its mean with the mirror image gives another value."""
+    model = portal(friction, push)
+    flow, (plane, state, mean) = Flow(model.problem), wedged(model, seed)
+    whole, other = fixed_point_change(flow, state), fixed_point_change(flow, mean)
+    assert other - whole > 4e-4
+    assert fixed_point_change(flow, state, plane) == pytest.approx(whole, abs=1e-6)
+    assert fixed_point_change(flow, mean, plane) == pytest.approx(other, abs=1e-6)
+
+
+@pytest.mark.parametrize(("friction", "push", "seed"), ACROSS)
+def test_only_symmetric_stresses_have_a_plane(friction, push, seed):
+    """In whatever units."""
+    model = portal(friction, push)
+    _, state, mean = wedged(model, seed)
+    problem = model.problem.measured(np.linspace(1.0, 7.0, 7) * model.problem.units.block_force)
+    x, symmetric = (problem.dimensionless(model.problem.in_si(one)).x for one in (state, mean))
+    assert plane_of(model, problem, x) is None
+    there = plane_of(model, problem, symmetric)
+    np.testing.assert_allclose(there.stresses @ there.stresses_of(symmetric), symmetric, atol=1e-12)

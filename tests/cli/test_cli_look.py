@@ -165,6 +165,12 @@ def test_look_at_a_model_file(tmp_path):
     assert "a model file says units, axes and faces itself" in refused
 
 
+def test_a_springing_at_roundoff_is_at_zero(tmp_path):
+    stone = lb.Block.box("V1", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5 + 3e-16))
+    said = run("look", lb.files.write_blocks([stone], tmp_path / "stone.obj")).stdout
+    assert "e-16" not in said
+
+
 def test_joints_drawn_open_name_distance_and_gap(tmp_path):
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
     stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]

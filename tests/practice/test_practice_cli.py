@@ -230,7 +230,7 @@ def test_a_bridge_from_the_shell(tmp_path):
     level = max(block.vertices[:, 2].max() for block in model.free_blocks) + 0.3
     done = run("backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 3, "-o", held)
     assert done.exit_code == 0, done.output
-    assert "fill holds 12 blocks" in done.output  # all voussoirs but the two at the crowns
+    assert "fill holds 12 blocks on 12 faces" in done.output  # all voussoirs but the two at the crowns
     words = ("--axles", "50e3,50e3", "--distances", "0,1.2", "--level", level, "--count", 5)
     found = json.loads(run("vehicle", bare, *words, "--json").stdout)
     x = [block.vertices[:, 0] for block in model.free_blocks]
@@ -241,8 +241,16 @@ def test_a_bridge_from_the_shell(tmp_path):
     better = lb.read_result(tmp_path / "v.json", lb.read(held))
     assert better.bounds.lower > 1.02 * found["bounds"]["lower"]
     said = " ".join(page.extract_text() for page in pypdf.PdfReader(filed).pages)
-    for word in ("Vehicle on the deck", "worst", "passive resistance of fill"):
+    for word in (
+        "Vehicle on the deck",
+        "worst",
+        "passive resistance of fill",
+        "50, 50 kN",
+        "0, 1.2 m along X",
+    ):
         assert word in said, word
+    assert said.count("Fill resists blocks") == 1  # 12 pressures, and one assumption
+    assert (better.vehicle.axles, better.deck.level) == ((50e3, 50e3), level)
     assert run("vehicle", bare, *words, "--first", 1).exit_code == 2
 
 

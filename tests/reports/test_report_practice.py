@@ -229,6 +229,19 @@ def test_the_worst_position_is_marked(reports, vehicle):
     assert [row[0] for row in shown.values() if row[2] == "worst"] == [f"{vehicle.position:.3f}"]
 
 
+def test_the_envelope_of_a_vehicle_has_a_gap_where_the_load_is_unlimited(beam, vehicle):
+    places, factors = np.arange(5.0), np.array([2.0, 3.0, np.inf, 4.0, 2.5])
+    drawn = replace(vehicle, positions=places, load_factors=factors, position=0.0)
+    report = lb.report(beam, drawn)
+    (curve,) = (
+        p.sheet for p in chapter(report, "Vehicle on the deck").parts if hasattr(p, "sheet") and p.sheet.dots
+    )
+    (line,) = (shape.path for group in curve.groups if group.style == "line" for shape in group.shapes)
+    assert [len(part.split()) for part in line.split("M")[1:]] == [2, 2]
+    assert len(curve.dots) == 4
+    assert "gap" in report.text
+
+
 def words(chapter):
     return [part.text for part in chapter.parts if isinstance(part, Text)]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
+from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
@@ -47,7 +48,9 @@ def finished(
     state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     status = _status(flow, state, how, tolerance)
-    change = fixed_point_change(flow, state) if confirm and status is Status.CONVERGED else None
+    change = None
+    if confirm and status is Status.CONVERGED:
+        change = fixed_point_change(flow, state, plane_of(model, problem, state.x))
     bounds, claimed = enclosing.bounds, enclosing.of(flow)
     dead = (
         bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units

@@ -29,11 +29,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.bounds import TOLERANCE, pair_of_bounds
+from limitblocks.analysis.bounds import TOLERANCE, Pair, pair_of_bounds
+from limitblocks.analysis.direct import Programs
+from limitblocks.analysis.forms import Stresses
+from limitblocks.analysis.limit_state import limit_state
+from limitblocks.analysis.scales import scaled
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem.plane import Planar
 
 
 def frozen(flow: Flow, x: Array) -> LimitProblem:
@@ -42,21 +47,36 @@ def frozen(flow: Flow, x: Array) -> LimitProblem:
     return replace(p, F=G, G=G, g=read_only(p.g + (p.F - G) @ x))
 
 
-def fixed_point_change(flow: Flow, state: State) -> float:
+def fixed_point_change(flow: Flow, state: State, plane: Planar | None = None) -> float:
     """Return by how much a round of the fixed point changes the load factor of a state.
 
     The round solves the static and the kinematic program of the problem frozen at the state's stresses; the
     change is that of the farther one, over the load factor as bounds measure their gap. Infinite where no
     solver finds a pair of bounds within 1e-6.
+
+    Symmetric stresses leave the frozen rows symmetric, so that the `plane` of the problem serves them, too;
+    its pair is judged in the whole frozen problem, and where it is none, or stresses are not symmetric, the
+    programs of the whole one are solved.
     """
     problem = flow.problem
     try:
-        pair = pair_of_bounds(frozen(flow, state.x), state.x, TOLERANCE)
+        pair = _round(flow, state.x, plane)
     except (SolverFailure, UnlimitedLoad):
         return np.inf
     values = np.array([pair.state.load_factor, pair.upper]) / pair.problem.units.live
     change = np.abs(values * problem.units.live - state.load_factor).max()
     return float(change / Measure(problem, state).load_factor)
+
+
+@np.errstate(all="ignore")  # a state that ran away is no pair
+def _round(flow: Flow, x: Array, plane: Planar | None) -> Pair:
+    """Bounds of the problem frozen at x, by one accurate solve or by one solver after the other."""
+    whole = frozen(flow, x)
+    at = whole if plane is None else frozen(replace(flow, problem=plane.problem), plane.stresses_of(x))
+    found = limit_state(Programs(Stresses(scaled(at), refined=False)), plane)
+    if found is not None and (pair := Pair(whole, *found)).residuals.worst.value <= TOLERANCE:
+        return pair
+    return pair_of_bounds(whole, x, TOLERANCE)
 
 
 def unconfirmed(change: float | None) -> tuple[str, ...]:

@@ -28,8 +28,6 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar
 
-SYMMETRIC = 1e-9  # of the largest stress: a start farther from its mirror image is not that of a planar path
-
 
 @dataclass(frozen=True, eq=False)
 class InPlane:
@@ -83,15 +81,28 @@ def flow_in_plane(
     Nor is there one where the compliance `weights` (s,) or the stresses to start from are not symmetric. With
     every row the path of a barrier without seed is that of the whole problem.
     """
-    found = in_plane(model.problem, choice)
+    found = in_plane(model.problem)  # known from the bounds
     if found is None or found.flat is half:
         return None
-    plane = known(flow.problem, ("plane in these units", choice), lambda: found.measured(flow.problem))
+    plane = _in_units_of(model, flow.problem, choice)
     own = plane.compliance_of(weights)
     x0 = None if own is None else _start(model, flow.problem, plane, own, weights, start)
     if own is None or x0 is None:
         return None
     return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
+
+
+def plane_of(model: Model, problem: LimitProblem, x: Array) -> Planar | None:
+    """Return the plane or one half of a model in the units of `problem`, if stresses x are symmetric."""
+    found = in_plane(model.problem)
+    symmetric = found is not None and found.symmetric(x * problem.stress_units / model.problem.stress_units)
+    return _in_units_of(model, problem, Choice.FLOWING) if symmetric else None
+
+
+def _in_units_of(model: Model, problem: LimitProblem, choice: Choice) -> Planar:
+    found = in_plane(model.problem, choice)
+    assert found is not None  # which depends on no choice
+    return known(problem, ("plane in these units", choice), lambda: found.measured(problem))
 
 
 def found_in_plane_or_whole(
@@ -130,9 +141,7 @@ def _start(
     """Stresses of the plane to start from: given, or the least under the dead loads, which stand."""
     if start is not None:
         x = start_stresses(model, problem, weights, start)
-        x0 = plane.stresses_of(x)
-        off = np.abs(plane.stresses @ x0 - x).max()
-        return x0 if off <= SYMMETRIC * np.abs(x).max(initial=0.0) else None
+        return plane.stresses_of(x) if plane.symmetric(x) else None
     if carried(model.problem) is None:
         dead_load_state(model.problem)
     ratios = np.round(own / plane.problem.compliance, 9).tobytes()

@@ -15,6 +15,8 @@ from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, State, Units, in_units
 from limitblocks.problem.plane.alike import EXACT
 
+SYMMETRIC = 1e-9  # of the largest stress: stresses farther from their mirror image are not symmetric
+
 
 @dataclass(frozen=True, eq=False)
 class Planar:
@@ -118,6 +120,11 @@ class Planar:
     def stresses_of(self, x: Array) -> Array:
         """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
         return np.asarray(self.stresses.T @ x / self._squares)
+
+    def symmetric(self, x: Array) -> bool:
+        """Whether stresses of the whole problem are their own mirror image."""
+        off = np.abs(self.stresses @ self.stresses_of(x) - x).max(initial=0.0)
+        return bool(off <= SYMMETRIC * np.abs(x).max(initial=0.0))
 
     @cached_property
     def _squares(self) -> Array:
