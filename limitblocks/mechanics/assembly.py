@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -68,17 +69,6 @@ def limit_problem(
         parts = [(getattr(g.rows, name), g.row_index, g.column_index) for g in groups]
         return _blocks(parts, (cones.height, n_stresses))
 
-    g, pivot = np.zeros(cones.height), np.zeros(cones.height)
-    row_interface = np.zeros(cones.height, dtype=np.int64)
-    row_mode = np.empty(cones.height, dtype=object)
-    half_sides, friction = np.zeros((len(interfaces), 2)), np.zeros(len(interfaces))
-    for group in groups:
-        g[group.row_index], pivot[group.row_index] = group.rows.g, group.rows.pivot
-        row_interface[group.row_index] = group.interfaces[:, None]
-        row_mode[group.row_index] = np.array(_modes(group.rows), dtype=object)
-        half_sides[group.interfaces] = group.rows.half_sides
-        friction[group.interfaces] = group.rows.friction
-    row_interface.flags.writeable = False
     F = per_row("F")
     units = replace(units, row=row_units(F, cones))
     rows, columns = 1.0 / units.row, np.ones(n_stresses)
@@ -87,22 +77,33 @@ def limit_problem(
         dead=read_only(dead.ravel() / units.loads),
         live=read_only(live.ravel() / (units.loads * units.live)),
         F=in_units(F, rows, columns),
-        g=read_only(g / units.row),
         G=in_units(per_row("G"), rows, columns),
         cones=cones,
-        pivot=read_only(pivot / units.row),
-        half_sides=read_only(half_sides),
         resultants=resultants,
         compliance=read_only(_compliance(resultants, groups, units)),
         ends=ends,
-        row_interface=row_interface,
-        row_mode=tuple(row_mode),
-        friction=read_only(friction),
+        **_numbers(groups, units.row, len(interfaces)),
         units=units,
         blocks=tuple(block.name for block in free),
         interfaces=tuple(interface.name for interface in interfaces),
         centroids=read_only(centroids),
     )
+
+
+def _numbers(groups: Sequence[_Group], unit: Array, m: int) -> dict[str, Any]:
+    """What rows and interfaces have beside matrices, by field of the problem; `unit` (R,) is of the rows."""
+    g, pivot, half_sides, friction = np.zeros(len(unit)), np.zeros(len(unit)), np.zeros((m, 2)), np.zeros(m)
+    row_interface, row_mode = np.zeros(len(unit), dtype=np.int64), np.empty(len(unit), dtype=object)
+    for group in groups:
+        g[group.row_index], pivot[group.row_index] = group.rows.g, group.rows.pivot
+        row_interface[group.row_index] = group.interfaces[:, None]
+        row_mode[group.row_index] = np.array(_modes(group.rows), dtype=object)
+        half_sides[group.interfaces] = group.rows.half_sides
+        friction[group.interfaces] = group.rows.friction
+    row_interface.flags.writeable = False
+    numbers = {"g": g / unit, "pivot": pivot / unit, "half_sides": half_sides, "friction": friction}
+    kept = {name: read_only(values) for name, values in numbers.items()}
+    return {**kept, "row_interface": row_interface, "row_mode": tuple(row_mode)}
 
 
 def _modes(rows: YieldRows) -> list[Mode]:
