@@ -181,7 +181,13 @@ def settlement(
 
 
 def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:
-    """Return the model in which `support` can move along `direction` only; see :func:`settlement`."""
+    """Return the model in which `support` can move along `direction` only; see :func:`settlement`.
+
+    Raises
+    ------
+    ModelError
+        If `support` is none or the only one, the direction is zero, or there are no dead loads.
+    """
     refuse_kind(model, Model, "model")
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
     others = [name for name in model.supports if name != support]
