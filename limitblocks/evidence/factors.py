@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from scipy import sparse
 from scipy.sparse import linalg
 
 
