@@ -30,7 +30,7 @@ def notebook(file):
     main = next(one for one in body if getattr(one, "name", "") == "main")
     drawn = next(one for one in body if getattr(one, "name", "") == "picture")
     cells = [text(f"# {question}\n\n{lesson}"), text(f"## Numbers to change\n\n{change_them(change)}")]
-    cells += [code('folder = "."')]
+    cells += [code(given(main))]
     cells += [code(piece) for piece in blocks(source, body, (main, drawn))]
     for k, (words, piece) in enumerate(steps(source, main), 1):
         cells += [text(f"## Step {k}: {words}"), code(piece)]
@@ -48,6 +48,13 @@ def notebook(file):
 def change_them(change):
     said = " ".join(change.split())
     return "Change one and run the cells below again." + (f" Try: {said}" if said else "")
+
+
+def given(main):
+    """The parameters of `main` with their defaults; of files, the folder of the notebook."""
+    pairs = zip(main.args.args, main.args.defaults, strict=True)
+    rest = [f"{one.arg} = {ast.unparse(default)}" for one, default in pairs if one.arg != "folder"]
+    return "\n".join(['folder = "."', *rest])
 
 
 def text(words):

@@ -1,8 +1,12 @@
 """What models and results show of themselves, in a line, in a notebook and in a real kernel."""
 
+import builtins
 import html
+import importlib
 import re
+import symtable
 from dataclasses import replace
+from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -11,6 +15,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.io.result_file import result_text
 
+ROOT = Path(__file__).parents[1]
 MODEL = lb.structures.block(lb.PointContact(0.3), width=0.5, height=1.0)
 BOUNDS, FOUND, PATH = lb.bounds(MODEL), lb.nonassociated(MODEL), lb.load_path(MODEL)
 CHECK, STATES = lb.check_mcp(MODEL, FOUND), lb.interface_states(MODEL, FOUND)
@@ -187,3 +192,22 @@ def test_a_kernel_runs_a_notebook():
         lines = [output.data["text/plain"] for output in cell.outputs if "data" in output]
         assert all("\n" not in line and len(line) < 600 for line in lines), cell.source
     assert notebook.cells[-1].outputs[0].text.count("\n") == 1
+
+
+@pytest.mark.parametrize("lesson", sorted((ROOT / "examples").glob("[0-9]*.py")), ids=lambda file: file.stem)
+def test_the_notebook_of_a_lesson_knows_every_name_it_uses(lesson, monkeypatch):
+    pytest.importorskip("nbformat", reason="nbformat is not installed")
+    monkeypatch.syspath_prepend(str(ROOT / "scripts"))
+    cells = importlib.import_module("lessons").notebook(lesson).cells
+    waiting = [symtable.symtable("\n".join(c.source for c in cells if c.cell_type == "code"), "", "exec")]
+    known = {one.get_name() for one in waiting[0].get_symbols() if one.is_assigned() or one.is_imported()}
+    known |= set(dir(builtins)) | {"__file__"}
+    used = set()
+    while waiting:
+        table = waiting.pop()
+        waiting += table.get_children()
+        outermost = table.get_type() == "module"
+        used |= {
+            s.get_name() for s in table.get_symbols() if s.is_referenced() and (outermost or s.is_global())
+        }
+    assert used <= known

@@ -136,8 +136,8 @@ class _Mixture:
         if not most < np.inf:
             return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         if not self.opened:
-            amount, least = np.zeros(p.F.shape[0]), self.repair.everywhere
-            amount[p.cones.heads] = np.maximum(lack / most, least) if most > 0.0 else 1.0
+            amount = np.zeros(p.F.shape[0])
+            amount[p.cones.heads] = lack / most if most > 0.0 else 1.0
             self.opened.append(self.repair.opened(amount))
         u, y = self.opened[0]
         room = p.cones.margin(y)

@@ -29,7 +29,6 @@ from limitblocks.problem import Flow, State
 PROXIMAL = (1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-8)  # delta of the steps
 LARGEST = 400  # pairs that are not plain
 WIDENED = 6  # times that rows join in a step
-VIOLATED = 0.1 * TOLERANCE  # of the largest slack
 
 Mask = npt.NDArray[np.bool_]
 
@@ -127,7 +126,7 @@ class _Linearised:
         y = pair.rows[unsure].T @ found[1] + held.T @ end[n + m + 1 :]
         state = State(float(end[n + m]), end[:n], end[n : n + m] / self.sigma, y / self.sigma)
         slack = pair.rows @ (p.F @ state.x + p.g)
-        least = -VIOLATED * max(1.0, float(np.abs(slack).max()))
+        least = -TOLERANCE * max(1.0, float(np.abs(slack).max()))
         violated = (slack < least) & ~tight & ~unsure
         violated[np.flatnonzero(tight)[end[n + m + 1 :][: np.count_nonzero(tight)] < least]] = True
         return _Solved(state, violated)

@@ -167,7 +167,7 @@ def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
 
 def _least_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other; n as above."""
-    return least_solution(J, r, REGULAR, 2)
+    return least_solution(J, r, REGULAR)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:

@@ -19,6 +19,8 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
 from limitblocks.problem.plane import Planar
 
+EVERYWHERE = 1e-3  # of the joint that lacks most: the least that a joint is opened
+
 
 @dataclass(frozen=True, eq=False)
 class Repair:
@@ -26,7 +28,6 @@ class Repair:
 
     splitting: Splitting
     own: LimitProblem
-    everywhere: float = 0.1  # of the joint that lacks most: the least that a joint is opened
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -46,7 +47,7 @@ class Repair:
         zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
         """
         p, there = self.splitting.p, self._there(y=amount).y
-        there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), self.everywhere)
+        there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), EVERYWHERE)
         found = self.splitting.mechanism(there)
         if found is None:
             return np.full_like(self._nothing.u, np.nan), np.full_like(self._nothing.y, np.nan)
@@ -78,11 +79,6 @@ class PlanarRepair:
     plane: Planar
     half: Repair
 
-    @property
-    def everywhere(self) -> float:
-        """Of the joint that lacks most: the least that a joint is opened."""
-        return self.half.everywhere
-
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
         plane = self.plane
@@ -91,8 +87,8 @@ class PlanarRepair:
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
         plane = self.plane
-        state = plane.averaged(State(0.0, np.zeros(self.whole.C.shape[0]), u, y))
-        return np.asarray(plane.live * (plane.multipliers @ self.half.following(state.u, state.y)))
+        found = self.half.following(plane.rates_of(u), plane.multipliers_of(y))
+        return np.asarray(plane.live * (plane.multipliers @ found))
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,).
@@ -139,5 +135,4 @@ class PlanarRepair:
 def planar_repair(whole: LimitProblem, plane: Planar, splitting: Splitting) -> PlanarRepair:
     """Return the repairs in the plane or in one half, in units of the whole problem."""
     measured = plane.measured(whole)
-    everywhere = 1e-3 if plane.flat else Repair.everywhere
-    return PlanarRepair(whole, measured, Repair(splitting, measured.problem, everywhere))
+    return PlanarRepair(whole, measured, Repair(splitting, measured.problem))

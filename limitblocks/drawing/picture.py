@@ -117,6 +117,7 @@ def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) ->
     after = [placed(p + scale * s, f) for p, s, f in zip(points, shifts, faces, strict=True)]
     lines = tie_lines(model)
     anchors = [moved(model, line, scale * rates) - middle for line in lines]
+    named = [(states[k] if states else "stick", model.interfaces[k].name) for k, *_ in lines]
     page = _Page.around(np.concatenate([*(body.points for body in (*before, *after)), *anchors]), view)
     moving = sizes > STILL * max(sizes.max(), 1e-300)
     kinds = np.where(moving, "moving", "still").tolist()
@@ -138,12 +139,8 @@ def mechanism_picture(model: Model, rates: Array, states: Sequence[str] = ()) ->
         magnification=scale,
         largest=names[int(sizes.argmax())],
         ties=tuple(
-            (
-                states[line.interface] if states else "stick",
-                model.interfaces[line.interface].name,
-                page.path(ends @ view[:2].T, closed=False),
-            )
-            for line, ends in zip(lines, anchors, strict=True)
+            (state, name, page.path(ends @ view[:2].T, closed=False))
+            for (state, name), ends in zip(named, anchors, strict=True)
         ),
     )
 

@@ -14,7 +14,6 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import LimitProblem
 
 REGULAR = 1e-13  # eps of the quasidefinite system
-REFINEMENTS = 6
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 EXACT = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
 ROUNDS = 8  # steps, each without the rows whose multipliers turned negative; fewer where they leave as much
@@ -66,20 +65,15 @@ def _least_change(J: sparse.csr_array, r: Array, unit: Array) -> Array:
     length = np.sqrt((J @ columns).power(2).sum(axis=1))
     scale = sparse.diags_array(1.0 / np.where(length > 0.0, length, 1.0))
     scaled = sparse.csr_array(scale @ J @ columns)
-    return unit * least_solution(scaled, np.asarray(scale @ r), REGULAR, REFINEMENTS)
+    return unit * least_solution(scaled, np.asarray(scale @ r), REGULAR)
 
 
-def least_solution(J: sparse.csr_array, r: Array, regular: float, refinements: int) -> Array:
-    """Least-norm solution of J p = r, from the quasidefinite system with refinement.
+def least_solution(J: sparse.csr_array, r: Array, regular: float) -> Array:
+    """Least-norm solution of J p = r, from the quasidefinite system.
 
     [I J^T; J -eps] is regular for every J (Vanderbei 1995, SIAM J. Optimization 5).
     """
     m, n = J.shape
     eps = sparse.diags_array(np.full(m, -regular))
     K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    lu = diagonal_factors(K)
-    right = np.concatenate([np.zeros(n), r])
-    z = lu.solve(right)
-    for _ in range(refinements):
-        z = z + lu.solve(right - K @ z)
-    return np.asarray(z[:n])
+    return np.asarray(diagonal_factors(K).solve(np.concatenate([np.zeros(n), r]))[:n])

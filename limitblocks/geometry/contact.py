@@ -134,17 +134,15 @@ def find_contacts(
     overlaps = find_overlaps(blocks, points, pairs, tolerance)
     faces = all_faces(blocks, points, tolerance / 2.0, used.angle / 2.0)
     turn = min(max(NEAR * ANGLE, NEARLY * used.angle), np.pi / 4)
-    seen = sorted_by_kind(
-        faces, patches(faces, *opposed(faces, pairs, reach, turn), length), used, length, reach
-    )
+    facing = patches(faces, *opposed(faces, pairs, reach, turn), length)
+    seen = sorted_by_kind(faces, facing, used, length, reach)
     pieces = pieces_of(faces, seen.meant, np.array(names), tolerance)
     ends = np.column_stack([faces.block[seen.meant.a], faces.block[seen.meant.b]])
-    tied = set(ends.ravel().tolist())
     return Contacts(
         _interfaces(blocks, centre, faces, pieces, joint),
         _near_misses(names, faces, seen.apart, overlaps),
         overlaps,
-        tuple(name for k, name in enumerate(names) if k not in tied),
+        tuple(names[k] for k in np.setdiff1d(np.arange(len(names)), ends)),
         _slivers(names, faces, seen.small),
         strips=_slivers(names, faces, seen.narrow),
         through=_through(names, faces, seen.held, seen.third),

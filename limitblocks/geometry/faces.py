@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, Indices, repeated
+from limitblocks.arrays import Array, Indices, repeated, sums
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.regions import Surfaces, in_turn, regions
 
@@ -69,14 +69,12 @@ def face_table(
 ) -> FaceTable:
     """Return the table of regions: faces with the same `label` (m,) are one."""
     meshes = [block.mesh for block in blocks]
-    number = [len(mesh.first) for mesh in meshes]
-    corners, face, beyond, _ = surfaces
-    start = np.concatenate([mesh.start for mesh in meshes])
-    end = np.concatenate([mesh.end for mesh in meshes])
+    corners, face, beyond, area_vector = surfaces
+    start, end = np.concatenate([(mesh.start, mesh.end) for mesh in meshes], axis=1)
     ends = np.concatenate([body[mesh.end] for body, mesh in zip(points, meshes, strict=True)])
     normal = np.concatenate([block.normals for block in blocks])
     area = np.concatenate([block.areas for block in blocks])
-    block = np.repeat(np.arange(len(blocks)), number)
+    block = np.repeat(np.arange(len(blocks)), [len(mesh.first) for mesh in meshes])
     heads, region = np.unique(label, return_inverse=True)
     single = np.bincount(region) == 1
     # around each region, face after face: the half-edges with another region beyond
@@ -87,7 +85,7 @@ def face_table(
     first = np.cumsum(sides) - sides
     rings, turn = in_turn(own, first, sides, start[order], end[order])
     order = order[turn]
-    vectors = np.column_stack([np.bincount(region, x) for x in (normal * area[:, None]).T])
+    vectors = sums(region, area_vector, len(heads))
     areas = np.linalg.norm(vectors, axis=1)
     table = corners[order]
     return FaceTable(

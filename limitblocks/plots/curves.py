@@ -60,9 +60,11 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
     ax = curve_axes(ax)
     steps = np.arange(1, len(history) + 1)
     names = list(dict.fromkeys(name for one in history for name in one.residuals))
-    for name, colour in zip(names, [c for c in CYCLE if c != BLACK] * len(names), strict=False):
+    colours = [colour for colour in CYCLE if colour != BLACK]
+    styles = [(colour, marker) for marker in (".-", "x--", "+:") for colour in colours]
+    for name, (colour, marker) in zip(names, styles, strict=False):
         values = [max(one.residuals.get(name, np.nan), FLOOR) for one in history]
-        ax.semilogy(steps, values, ".-", color=colour, linewidth=1.0, label=name)
+        ax.semilogy(steps, values, marker, color=colour, linewidth=1.0, markersize=4.0, label=name)
     ax.axhline(end.tolerance, color=PALE, linestyle=":", label="tolerance")
     ax.set(xlabel="stage (–)", ylabel="residual (–)")
     ax.xaxis.set_major_locator(MaxNLocator(integer=True))

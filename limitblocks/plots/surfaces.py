@@ -54,7 +54,7 @@ def interaction(
     exact : bool
         Dashed: the strength under uniform pressure, exact for V with T and for V1 with V2, on the effective
         area for M with T (Sections 3.1 and 3.2 of Orduña & Lourenço 2005); for polygons that are symmetric
-        about both axes.
+        about both axes and joints without cohesion.
     label : str, optional
         Of the curve in the legend; the joint unless given.
     directions : int
@@ -73,16 +73,8 @@ def interaction(
         If a name is unknown, N is not compressive or missing where it matters, a strength in the plane is
         unlimited, a stress state has another N, or no exact curve is known.
     """
-    if x not in RESULTANTS or y not in RESULTANTS or x == y:
-        raise ModelError(f"x, y are {x!r}, {y!r}; expected two of {', '.join(RESULTANTS)}")
-    rows = joint.yield_rows(interface.polygon[None])
-    dry = not rows.g.any()
-    if N is None and "N" in (x, y):
-        raise ModelError("N is missing: give the largest compressive force to draw, N < 0, in N")
-    if N is None and not dry:
-        raise ModelError(f"N is missing: {joint!r} has strengths in Pa, so that its yield set depends on N")
-    if N is not None and not (np.isfinite(N) and N < 0.0):
-        raise ModelError(f"N is {N!r}, expected a compressive force, N < 0, in N")
+    dry = not joint.yield_rows(interface.polygon[None]).g.any()
+    _refuse(joint, x, y, N, dry)
     held = -1.0 if N is None else float(N)
     at = RESULTANTS.index(x), RESULTANTS.index(y)
     curve = (_with_normal_force if 2 in at else _around)(joint, interface, at, held, directions)
@@ -107,6 +99,18 @@ def interaction(
     ax.locator_params(nbins=6 if inches(ax) > 2.5 else 4)
     legend_below(ax)
     return ax
+
+
+def _refuse(joint: Queries, x: str, y: str, N: float | None, dry: bool) -> None:
+    """ModelError where the resultants are not two of them, or N is missing or no compression."""
+    if x not in RESULTANTS or y not in RESULTANTS or x == y:
+        raise ModelError(f"x, y are {x!r}, {y!r}; expected two of {', '.join(RESULTANTS)}")
+    if N is None and "N" in (x, y):
+        raise ModelError("N is missing: give the largest compressive force to draw, N < 0, in N")
+    if N is None and not dry:
+        raise ModelError(f"N is missing: {joint!r} has strengths in Pa, so that its yield set depends on N")
+    if N is not None and not (np.isfinite(N) and N < 0.0):
+        raise ModelError(f"N is {N!r}, expected a compressive force, N < 0, in N")
 
 
 def _label(name: str, relative: bool) -> str:
@@ -191,6 +195,8 @@ def _exact(joint: Queries, interface: Interface, names: tuple[str, str], N: floa
     mirrored = [as_region(polygon * sign) for sign in ((-1.0, 1.0), (1.0, -1.0))]
     if any(shapely.symmetric_difference(shape, other).area > 1e-6 * shape.area for other in mirrored):
         raise ModelError("the exact curve needs a polygon that is symmetric about both of its axes")
+    if getattr(joint, "cohesion", 0.0):
+        raise ModelError("no exact curve is known with cohesion; it is that of Coulomb friction")
     V0 = float(shear_strength(friction, N))
     first, second = names
     if {first, second} == {"V1", "V2"}:

@@ -107,14 +107,13 @@ def tie(
         raise ModelError(
             f"{word}: prestress is {prestress!r} N, expected 0 to less than the {capacity:g} N it can carry"
         )
-    side = np.sqrt(section)
     return Element(
         Interface(
             block_i,
             block_j,
             read_only((start + end) / 2.0),
             read_only(axes_of((end - start) / length)),
-            read_only(side * CORNERS),
+            read_only(np.sqrt(section) * CORNERS),
             Tie(capacity / section, length, prestress / section),
         )
     )

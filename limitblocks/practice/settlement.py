@@ -18,13 +18,14 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import JointPressure, force
+from limitblocks.mechanics.loads import JointPressure, force, moment
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import CORNERS, Element, axes_of
 from limitblocks.shown import Result
 
 RIGID = 1e3  # strength of the guide over the weight of the structure
+ROUNDING = 1e-12  # of that weight: a smaller difference of loads is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +180,13 @@ def settlement(
 
 
 def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:
-    """Return the model in which `support` can move along `direction` only; see :func:`settlement`."""
+    """Return the model in which `support` can move along `direction` only; see :func:`settlement`.
+
+    Raises
+    ------
+    ModelError
+        If `support` is none or the only one, the direction is zero, or there are no dead loads.
+    """
     refuse_kind(model, Model, "model")
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
     others = [name for name in model.supports if name != support]
@@ -216,7 +223,25 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
         dead=model.dead + pulled + force(support, (-held * d).tolist(), block.centroid.tolist()),
         live=force(support, (weight * d).tolist(), block.centroid.tolist()),
     )
-    return Settling(freed, support, read_only(d), held, weight)
+    on_support = (pulled + water + force(support, (-held * d).tolist(), block.centroid.tolist())).on([block])[
+        0
+    ]
+    return Settling(
+        _as_before(model, freed, support, on_support, weight), support, read_only(d), held, weight
+    )
+
+
+def _as_before(model: Model, freed: Model, support: str, on_support: Array, weight: float) -> Model:
+    """Return the freed model less what fill and loads from above put elsewhere as it is free."""
+    wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
+    wanted[support] = on_support
+    free, back = freed.free_blocks, Load()
+    for block, has in zip(free, freed.dead.on(free), strict=True):
+        off = wanted[block.name] - has
+        if np.abs(off / np.repeat([1.0, block.size], 3)).max() > ROUNDING * weight:
+            back += force(block.name, off[:3].tolist(), block.centroid.tolist())
+            back += moment(block.name, off[3:].tolist())
+    return replace(freed, dead=freed.dead + back)
 
 
 def _pressed(model: Model, support: str) -> Array:

@@ -30,6 +30,12 @@ class Units:
     live: float
     row: Array
 
+    def of(self, blocks: Indices, interfaces: Indices, rows: Indices) -> Units:
+        """Return those of some blocks, interfaces and rows, by their places."""
+        force, length = self.interface_force[interfaces], self.interface_length[interfaces]
+        block = self.block_force[blocks], self.block_length[blocks]
+        return Units(*block, force, length, self.live, self.row[rows])
+
     @cached_property
     def loads(self) -> Array:
         """Units of forces and moments on the blocks, N and N m, shape (6 n,)."""

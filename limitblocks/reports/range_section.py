@@ -17,6 +17,7 @@ MEANING = (
     "that loading leads there; the least is often a block that slips out because hardly anything presses "
     "on it. What was not found may exist."
 )
+HEADS = ("Load factor", "Origin", "Way", "What moves")
 
 
 def range_section(_model: Model, result: LoadFactorRange) -> Section:
@@ -55,11 +56,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         designs=tuple((one.load_factor, "range of load factors", one.solution.remarks) for one in arrived),
         warnings=result.remarks
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
-        parts=(
-            Table.of(
-                "Certified load factors", ("Load factor", "Origin", "Way", "What moves"), rows, right=(0,)
-            ),
-        ),
+        parts=(Table.of("Certified load factors", HEADS, rows, right=(0,)),),
     )
 
 

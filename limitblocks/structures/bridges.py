@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.geometry import Block, find_interfaces
+from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import fill as earth
-from limitblocks.mechanics.loads import mass_proportional, self_weight
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     base,
+    model_of,
     pier,
     prism,
     refuse,
@@ -93,49 +93,68 @@ def arch_bridge(
     refuse_fewer(1, spans=spans, rings=rings, pier_blocks=pier_blocks)
     if rise > span / 2:
         refuse([f"rise is {rise!r}, expected at most half the clear span {span!r}"])
-    half = 2 * np.arctan(2 * rise / span)  # between springing and crown
-    width = _pier_width(spans, pier_width, 2 * thickness * float(np.sin(half)))
-    radius = (span**2 / 4 + rise**2) / (2 * rise)
-    lift = (pier_height if spans > 1 else 0.0) - radius * float(np.cos(half))
-    each, whole = (
-        [circular(radius + inner + size / 2, size, voussoirs, 2 * half).raised(lift) for inner, size in sizes]
-        for sizes in ([(k * thickness / rings, thickness / rings) for k in range(rings)], [(0.0, thickness)])
-    )
-    blocks: list[Block] = []
-    surfaces: list[tuple[str, Array]] = []
-    supports = _abutments(whole[0], (spans - 1) * (span + width), depth)
-    for k in range(spans):
-        named = list(_voussoirs(each, k, k * (span + width)))
-        blocks += [prism(name, outline, depth, unit_weight) for name, outline, _ in named]
-        surfaces += [(name, top) for name, _, top in named[-voussoirs:]]  # the outermost ring
+    least = 2 * thickness * float(np.sin(2 * np.arctan(2 * rise / span)))
+    width = _pier_width(spans, pier_width, least)
+    pitch, height = span + width, pier_height if spans > 1 else 0.0
+    each, whole = _rings(span, rise, thickness, voussoirs, rings, height)
+    arches, tops = _arches(each, spans, pitch, depth, unit_weight)
+    supports, piers = _abutments(whole, (spans - 1) * pitch, depth), []
     for k in range(1, spans):
-        at = k * (span + width) - (span + width) / 2
-        stones, top = _pier(f"pier {k}", at, width, pier_height, pier_blocks, whole[0], depth, unit_weight)
-        blocks += stones
-        surfaces.append((stones[-1].name, top))
+        at = k * pitch - pitch / 2
+        stones, top = _pier(f"pier {k}", at, width, pier_height, pier_blocks, whole, depth, unit_weight)
+        piers += stones
+        tops.append((stones[-1].name, top))
         y = (-depth / 2, depth / 2)
         supports.append(base((at - width / 2, at + width / 2), y, pier_height / pier_blocks, f"base {k}"))
-    extra = (Load(), Load())
-    if fill is not None:
-        fill = Fill(*fill)
-        refuse_fill(fill)
-        level = float(each[-1].extrados[..., 1].max()) + fill.height
-        live = fill_loads(fill, surfaces, level, depth, direction)[1]
-        extra = earth(fill.unit_weight, level, earth_pressure=fill.pressure), live
-    everything = [*supports, *blocks]
-    between = joint if ring_joint is None else ring_joint
+    extra = (Load(), Load()) if fill is None else _fill(Fill(*fill), each[-1], tops, depth, direction)
+    law = _law(joint, joint if ring_joint is None else ring_joint)
+    name = f"arch bridge of {spans} span{'s' * (spans > 1)}"
+    return model_of([*arches, *piers], supports, law, direction, name, extra)
+
+
+def _rings(
+    span: float, rise: float, thickness: float, voussoirs: int, rings: int, height: float
+) -> tuple[list[Ring], Ring]:
+    """The rings from the intrados, and one of their whole thickness, on springings at a height, m."""
+    half = 2 * np.arctan(2 * rise / span)  # between springing and crown
+    radius = (span**2 / 4 + rise**2) / (2 * rise)
+    lift = height - radius * float(np.cos(half))
+
+    def ring(inner: float, size: float) -> Ring:
+        return circular(radius + inner + size / 2, size, voussoirs, 2 * half).raised(lift)
+
+    return [ring(k * thickness / rings, thickness / rings) for k in range(rings)], ring(0.0, thickness)
+
+
+def _arches(
+    rings: Sequence[Ring], spans: int, pitch: float, depth: float, unit_weight: float
+) -> tuple[list[Block], list[tuple[str, Array]]]:
+    """The voussoirs of all spans, and names and upper edges of those of the outermost rings."""
+    blocks, tops = [], []
+    for k in range(spans):
+        named = list(_voussoirs(rings, k, k * pitch))
+        blocks += [prism(name, outline, depth, unit_weight) for name, outline, _ in named]
+        tops += [(name, top) for name, _, top in named[-(len(named) // len(rings)) :]]
+    return blocks, tops
+
+
+def _fill(
+    fill: Fill, ring: Ring, tops: Sequence[tuple[str, Array]], depth: float, direction: Sequence[float]
+) -> tuple[Load, Load]:
+    """The dead and the live load of fill above the crown of the outermost ring."""
+    refuse_fill(fill)
+    level = float(ring.extrados[..., 1].max()) + fill.height
+    live = fill_loads(fill, tops, level, depth, direction)[1]
+    return earth(fill.unit_weight, level, earth_pressure=fill.pressure), live
+
+
+def _law(joint: Joint, between: Joint) -> Callable[[Block, Block], Joint]:
+    """The joint of two blocks: another one between rings."""
 
     def law(i: Block, j: Block) -> Joint:
         return between if 0 < _ring(i) != _ring(j) > 0 else joint
 
-    return Model(
-        blocks=everything,
-        supports=[support.name for support in supports],
-        interfaces=find_interfaces(everything, law),
-        dead=self_weight() + extra[0],
-        live=mass_proportional(direction) + extra[1],
-        name=f"arch bridge of {spans} span{'s' * (spans > 1)}",
-    )
+    return law
 
 
 def _pier_width(spans: int, given: float | None, least: float) -> float:

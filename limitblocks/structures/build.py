@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -21,14 +21,14 @@ HORIZONTAL = (1.0, 0.0, 0.0)
 def model_of(
     blocks: Sequence[Block],
     supports: Sequence[Block],
-    joint: Joint,
+    joint: Joint | Callable[[Block, Block], Joint],
     direction: Sequence[float],
     name: str,
     extra: tuple[Load, Load] = (Load(), Load()),
 ) -> Model:
-    """Model under self weight and a mass-proportional live load along `direction`; one joint everywhere.
+    """Model under self weight and a mass-proportional live load along `direction`.
 
-    `extra` is added to the dead and to the live load.
+    `joint` may be a law that gives the joint of two blocks. `extra` is added to the dead and the live load.
     """
     everything = [*supports, *blocks]
     return Model(

@@ -69,9 +69,7 @@ def dome(
     refuse_fewer(1, courses=courses)
     refuse_fewer(4, stones=stones)
     _refuse_sphere(radius, thickness, embrace, oculus)
-    bottom = embrace / 2
-    top = oculus / 2 if oculus else bottom / (2 * courses + 1)
-    polar = np.linspace(bottom, top, courses + 1)  # of the beds, from the springing up
+    polar = _beds(embrace, oculus, courses)
     slopes = 1 / np.tan(polar)
     if running_bond and (slopes[1:] * np.cos(np.pi / stones) <= slopes[:-1]).any():
         refuse([f"stones is {stones!r}, expected more for {courses} courses: at the ends of a stone the plane"
@@ -91,7 +89,7 @@ def dome(
     supports, blocks = blocks[:stones], blocks[stones:]
     if not oculus:
         azimuths = 2 * half * np.arange(float(stones)) + turn * (courses % 2)
-        blocks.append(_key(float(top), np.asarray(azimuths), shell, unit_weight))
+        blocks.append(_key(float(polar[-1]), np.asarray(azimuths), shell, unit_weight))
     return model_of(blocks, supports, joint, direction, "dome")
 
 
@@ -143,6 +141,12 @@ def dome_lunes(
         for name, outline in outlines.items()
     ]
     return model_of(blocks[:-2], blocks[-2:], joint, direction, "lunes of a dome")
+
+
+def _beds(embrace: float, oculus: float, courses: int) -> Array:
+    """Polar angles of the beds, from the springing up; the key is half as wide as a course is high."""
+    bottom = embrace / 2
+    return np.linspace(bottom, oculus / 2 if oculus else bottom / (2 * courses + 1), courses + 1)
 
 
 def _between_meridians(outline: Array, spread: float) -> Array:

@@ -107,14 +107,8 @@ def eccentric_lintel(
     direction : sequence of float
         Direction of the live load, which is the weight; default: out of plane.
     """
-    refuse_not_positive(
-        block_length=block_length,
-        block_height=block_height,
-        thickness=thickness,
-        overhang=overhang,
-        load_length=load_length,
-        load_height=load_height,
-    )
+    refuse_not_positive(block_length=block_length, block_height=block_height, thickness=thickness)
+    refuse_not_positive(overhang=overhang, load_length=load_length, load_height=load_height)
     _refuse_off_grid(block_length, length=length, bearing=bearing)
     problems = [] if courses >= 1 else [f"courses is {courses!r}, expected at least one"]
     if bearing >= length:
@@ -124,13 +118,12 @@ def eccentric_lintel(
     if abs(eccentricity) >= thickness:
         problems.append(f"eccentricity is {eccentricity!r}, expected less than the thickness {thickness!r}")
     refuse(problems)
-    bond, y, tip = Bond(block_length, block_height, courses + 2), (-thickness / 2, thickness / 2), length
-    tip += overhang
+    bond, y = Bond(block_length, block_height, courses + 2), (-thickness / 2, thickness / 2)
+    top, tip = (courses + 1) * block_height, length + overhang
     pieces = [p for p in bond.pieces("wall", [(0.0, length)] * 2, 0) if p.course != courses]
     pieces += [p for p in bond.pieces("wall", [(0.0, length - bearing)] * 2, 0) if p.course == courses]
     pieces += [Piece("lintel", courses, length - bearing, tip)]
     blocks = bond.boxes(pieces, 0, y, unit_weight)
-    top = (courses + 1) * block_height
     off = (y[0] + eccentricity, y[1] + eccentricity)
     load = span_box("load", (tip - load_length, tip), off, (top, top + load_height), unit_weight)
     ground = base((0.0, length), y, block_height)

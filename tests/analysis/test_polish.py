@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis import polish as polishing
 from limitblocks.analysis.nonassociated import path as paths
 from limitblocks.analysis.nonassociated.fixed_point import permanent_state
 from limitblocks.analysis.nonassociated.path import track
@@ -39,6 +40,18 @@ def test_a_rough_state_is_polished_to_rounding(joint, flow, monkeypatch):
     rough = noisy(solution, 1e-5)
     assert defect(rule, rough) > 1e-6
     assert defect(rule, polish(rule, rough)) <= 1e-10
+
+
+@pytest.mark.parametrize("joint", [JOINTS[0], JOINTS[2]], ids=repr)
+def test_where_it_is_plain_which_planes_yield_one_step_ends_at_rounding(joint, monkeypatch):
+    """The equations are linear then; without refinement the proximal term leaves a part of the first step."""
+    problem = lb.structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=15).problem
+    flow, made = Flow(problem), []
+    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    factors = polishing.diagonal_factors
+    monkeypatch.setattr(polishing, "diagonal_factors", lambda *given: (made.append(1), factors(*given))[1])
+    assert defect(flow, polish(flow, noisy(solution, 1e-6), until=1e-13)) <= 1e-13
+    assert len(made) == 1
 
 
 def test_the_polish_returns_what_it_cannot_better():

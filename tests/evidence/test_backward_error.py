@@ -175,6 +175,15 @@ def shaken(problem, state, size):
     return replace(state, x=state.x + size * shake, u=u)
 
 
+def test_a_flow_that_is_rounding_needs_no_other_strength():
+    """Of a corner solved to rounding: what flows by 1e-17 of the rest would have to yield."""
+    joint = lb.OrdunaLourenco(0.6)
+    model = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4)
+    flow, state = Flow(model.problem), state_of(model, lb.nonassociated(model, confirm=False))
+    assert mcp_residuals(flow, state).worst.value <= 1e-13
+    assert backward_error(flow, state).value <= 1e-12
+
+
 def test_a_structure_of_slightly_other_frictions():
     """The answer with frictions that differ by up to 1e-4 is exact within 1e-4 for the model without."""
     random = np.random.default_rng(1)

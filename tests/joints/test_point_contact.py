@@ -132,6 +132,16 @@ def test_answer_satisfies_the_cones_to_1e_10():
     assert (rates >= 0).all()
 
 
+@pytest.mark.parametrize("share", [1e-2, 2e-4])
+def test_a_direction_just_outside_the_cones_has_a_limit(share):
+    """Force that grows along (mu (1 + share) t, -t) from -1 slips where mu (1 + share) t = mu (1 + t)."""
+    joint, along = lb.PointContact(MU), MU * (1.0 + share)
+    interface, angle = lb.joints.interface(SQUARE, None), np.pi / 16  # between the first planes
+    direction = (along * np.cos(angle), along * np.sin(angle), -1, 0, 0, 0)
+    assert joint.strength(interface, direction, (0, 0, -1, 0, 0, 0)) == pytest.approx(1 / share, rel=1e-4)
+    assert joint.strength(interface, (0, 0, -1, 0, 0, 0), (0, 0, -1, 0, 0, 0)) == np.inf
+
+
 def test_noise_in_a_stress_state_does_not_stop_the_solver():
     """The noise a solver leaves in the out-of-plane resultants of a plane wall."""
     interface = lb.joints.interface(RECTANGLE, None)

@@ -120,6 +120,7 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
         (JOINT, TRIANGLE, {"exact": True}, "symmetric about both"),
         (JOINT, RECTANGLE, {"x": "N"}, "N is missing: give the largest"),
         (JOINT, RECTANGLE, {"x": "N", "N": -1.0, "exact": True}, "no exact curve is known"),
+        (lb.OrdunaLourenco(0.6, cohesion=1e4), RECTANGLE, {"N": -1.0, "exact": True}, "with cohesion"),
     ],
 )
 def test_what_has_no_interaction_curve_is_refused(joint, interface, settings, message):
@@ -143,6 +144,13 @@ def test_convergence_draws_the_history(take):
     assert "(–)" in ax.get_ylabel()
     assert "(–)" in right.get_ylabel()
     assert inked(ax) > 0.005
+
+
+def test_no_two_residuals_are_drawn_alike():
+    ax = lb.plots.convergence(path())
+    drawn = [(line.get_color(), line.get_linestyle(), line.get_marker()) for line in ax.lines]
+    assert len(ax.lines) > 7  # more than there are colours
+    assert len(set(drawn)) == len(drawn)
 
 
 def test_bounds_have_no_history():

@@ -225,3 +225,29 @@ def test_prestress_between_block_and_support_is_within_the_tie(prestress):
     found = settlement(reinforced(model, rod), "right", DOWN)
     normal = (WEIGHT * LENGTH * DEPTH * (LENGTH / 2 - BEARING) + most * (x - BEARING)) / (LENGTH - BEARING)
     assert [found.lower, found.upper, found.nonassociated] == pytest.approx([normal - most] * 3, rel=1e-6)
+
+
+@pytest.mark.parametrize("ledge", [0.0, 0.3])
+def test_fill_does_not_rest_on_the_support_because_it_settles(ledge):
+    """The lintel and 0.6 m of fill on it turn about the inner edge of the left pier.
+
+    The ground of the right pier is wider than the pier, and its ledge slopes or not: fill does not act on
+    supports, and its earth pressure on the ledge none either.
+    """
+    outline = [(0.75, -0.5), (2.5, -0.5), (2.5, -ledge), (1.25, 0.0), (0.75, 0.0)]
+    stones = [
+        lb.Block.box("left ground", (2.0, 1.0, 0.2), (-1.5, 0.0, -0.1)),
+        lb.Block.prism("right ground", outline, (-0.5, 0.5)),
+        lb.Block.box("left", (0.5, 1.0, 2.0), (-1.0, 0.0, 1.0), 20e3),
+        lb.Block.box("right", (0.5, 1.0, 2.0), (1.0, 0.0, 1.0), 20e3),
+        lb.Block.box("lintel", (2.5, 1.0, 0.4), (0.0, 0.0, 2.2), 24e3),
+    ]
+    dead = lb.self_weight() + lb.loads.fill(18e3, level=3.0, earth_pressure=0.4)
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.6))
+    live = lb.mass_proportional((1, 0, 0))
+    portal = lb.Model(stones, ["left ground", "right ground"], interfaces, dead, live)
+    on_lintel = 24e3 * 2.5 * 0.4 + 18e3 * 2.5 * 0.6
+    expected = 20e3 + on_lintel * 0.75 / 2.0
+    down = settlement(portal, "right ground", (0, 0, -1))
+    assert down.lower == pytest.approx(expected, rel=1e-6)
+    assert down.nonassociated == pytest.approx(expected, rel=1e-6)

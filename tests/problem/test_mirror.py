@@ -78,15 +78,17 @@ def test_one_half_has_the_bounds_of_the_whole(build, name):
     assert same(half, whole)
 
 
+FAR = (3e3, -2e3, 1e2)  # m: coordinates of a block are rounded to 5e-13 of its size
+
+
 @settings(max_examples=3)
 @given(st.integers(0, 10**6), st.sampled_from(["points", "octagon"]))
 def test_a_plane_of_any_direction_is_found(seed, name):
     joint, matrix = JOINTS[name], Rotation.random(random_state=seed).as_matrix()
     straight = facade(joint)
-    blocks = [block.moved(matrix, (3.0, -2.0, 1.0)) for block in straight.blocks]
+    blocks = [block.moved(matrix, FAR) for block in straight.blocks]
     interfaces = [
-        replace(i, centroid=matrix @ i.centroid + (3.0, -2.0, 1.0), axes=i.axes @ matrix.T)
-        for i in straight.interfaces
+        replace(i, centroid=matrix @ i.centroid + FAR, axes=i.axes @ matrix.T) for i in straight.interfaces
     ]
     down, push = (lb.mass_proportional(direction=matrix @ axis) for axis in ((0, 0, -1), (0, -1, 0)))
     turned = lb.Model(blocks, straight.supports, interfaces, down, push)
@@ -165,18 +167,33 @@ def test_loads_that_cancel_but_for_rounding_point_nowhere():
     assert len(in_plane(problem).blocks) == 2
 
 
+def test_forces_that_nearly_cancel_point_somewhere():
+    """Stones at the corners of a square, pushed apart along one diagonal by forces that differ by 1e-5."""
+    stones = [lb.Block.box("ground", (6, 6, 1), (0, 0, -0.5))]
+    pushes = {(1, 1): (1.0, 1.0), (-1, -1): (-1.0 + 1e-5, -1.0 + 1e-5), (1, -1): (1, -1), (-1, 1): (-1, 1)}
+    for k, at in enumerate(pushes):
+        stones.append(lb.Block.box(f"stone {k}", (1.0, 1.0, 1.0), (*at, 0.5), unit_weight=2e4))
+    forces = [
+        lb.loads.force(f"stone {k}", (1e4 * along[0], 1e4 * along[1], 0.0), (*at, 0.5))
+        for k, (at, along) in enumerate(pushes.items())
+    ]
+    found = lb.find_interfaces(stones, JOINTS["points"])
+    problem = lb.Model(stones, ["ground"], found, lb.self_weight(), sum(forces[1:], forces[0])).problem
+    assert len(in_plane(problem).blocks) == 3
+
+
 def test_what_is_not_symmetric_is_not_halved():
     for name in ("points", "octagon"):
         model = facade(JOINTS[name])
         top = model.free_blocks[-1]
         assert in_plane(model.problem) is not None
-        aside = lb.loads.force(top.name, (0.0, 1e-6 * top.weight, 0.0), top.centroid)
+        aside = lb.loads.force(top.name, (0.0, 1e-9 * top.weight, 0.0), top.centroid)
         assert in_plane(replace(model, live=model.live + aside).problem) is None
         assert in_plane(replace(model, dead=model.dead + aside).problem) is None
-        for off in (1e-6, 0.0):
+        for off in (1e-9, 0.0):
             blocks = [b.moved(np.eye(3), (0.0, 0.0, off)) if b is top else b for b in model.blocks]
             assert (in_plane(replace(model, blocks=blocks).problem) is None) is (off > 0.0)
-        across = lb.mass_proportional(direction=(1e-6, -1.0, 0.0))
+        across = lb.mass_proportional(direction=(1e-9, -1.0, 0.0))
         assert in_plane(replace(model, live=across).problem) is None
         joint = lb.OrdunaLourenco(0.61, slip="paper")
         other = [replace(i, joint=joint) if k == 0 else i for k, i in enumerate(model.interfaces)]
