@@ -55,8 +55,11 @@ def by_planes(problem: LimitProblem, weights: Array, settings: dict[str, Any] = 
     """
     x = cp.Variable(problem.C.shape[0])
     rows = problem.F @ x + problem.g
+    W = sparse.csc_array(
+        sparse.diags_array(weights)
+    )  # a sum of squares would be given as many variables again
     program = cp.Problem(
-        cp.Minimize(0.5 * _square(x, weights)),
+        cp.Minimize(0.5 * cp.quad_form(x, W, assume_PSD=True)),
         [problem.dead - problem.C.T @ x == 0, rows >= 0],
     )
     values = _values(lambda: program.solve(solver=cp.OSQP, warm_start=False, **settings), x)
@@ -83,14 +86,10 @@ def _least(problem: LimitProblem, weights: Array, x: Array, u: Array, y: Array) 
 def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
     """Stresses of least norm x^T W x by Clarabel; None if it finds none."""
     x = cp.Variable(problem.C.shape[0])
+    norm = cp.sum_squares(cp.multiply(np.sqrt(weights), x))
     constraints = [problem.C.T @ x == problem.dead, *in_cone(problem.F @ x + problem.g, problem.cones)]
-    values = _minimised(_square(x, weights), constraints, x)
+    values = _minimised(norm, constraints, x)
     return None if values is None else values[0]
-
-
-def _square(x: cp.Variable, weights: Array) -> cp.Expression:
-    """x^T W x in as many variables as x has: a sum of squares would be given as many again."""
-    return cp.quad_form(x, sparse.csc_array(sparse.diags_array(weights)), assume_PSD=True)
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
