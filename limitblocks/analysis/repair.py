@@ -87,8 +87,8 @@ class PlanarRepair:
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
         plane = self.plane
-        state = plane.averaged(State(0.0, np.zeros(self.whole.C.shape[0]), u, y))
-        return np.asarray(plane.live * (plane.multipliers @ self.half.following(state.u, state.y)))
+        found = self.half.following(plane.rates_of(u), plane.multipliers_of(y))
+        return np.asarray(plane.live * (plane.multipliers @ found))
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,).

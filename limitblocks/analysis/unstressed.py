@@ -18,7 +18,8 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.nonassociated.implicit_step import Loading, Point, StepResult, implicit_step
+from limitblocks.analysis.nonassociated.implicit_step import Loading, StepResult, implicit_step
+from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem
 

@@ -16,8 +16,8 @@ from limitblocks.cli.options import (
     Dilatancy,
     Force,
     ModelFile,
+    OwnTolerance,
     ResultFile,
-    Tolerance,
     Workers,
 )
 from limitblocks.cli.progress import of_a_count
@@ -49,7 +49,7 @@ def directions(
     vertical: Vertical = False,
     nonassociated: Nonassociated = False,
     dilatancy: Dilatancy = 0.0,
-    tolerance: Tolerance = 1e-6,
+    tolerance: OwnTolerance = None,
     workers: Workers = None,
     as_json: AsJson = False,
     csv: CsvFile = None,
@@ -78,7 +78,7 @@ def moving(
     count: Count = 21,
     nonassociated: Nonassociated = False,
     dilatancy: Dilatancy = 0.0,
-    tolerance: Tolerance = 1e-6,
+    tolerance: OwnTolerance = None,
     workers: Workers = None,
     as_json: AsJson = False,
     csv: CsvFile = None,
@@ -100,11 +100,14 @@ def moving(
         _tell(answer, as_json, csv, output, force)
 
 
-def _settings(nonassociated: bool, dilatancy: float, tolerance: float, workers: int | None) -> dict[str, Any]:
+def _settings(
+    nonassociated: bool, dilatancy: float, tolerance: float | None, workers: int | None
+) -> dict[str, Any]:
     if dilatancy and not nonassociated:
         raise LimitBlocksError("--dilatancy needs --nonassociated")
     analysis = {"analysis": "nonassociated", "dilatancy": dilatancy} if nonassociated else {}
-    return {"tolerance": tolerance, "workers": workers, **analysis}
+    given = {} if tolerance is None else {"tolerance": tolerance}
+    return {"workers": workers, **given, **analysis}
 
 
 def _refuse(model: Path, csv: Path | None, output: Path | None, force: bool) -> None:

@@ -142,16 +142,18 @@ class Kinematic:
         rows, row = owned(p.row_interface, m)
         columns, column = owned(p.stress_interface, m)
         F = p.F.tocoo()
+        of_entry, position = p.row_interface[F.row], (column[F.col], row[F.row])
         tall, wide = (rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)
         for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
             these = np.flatnonzero((tall == r) & (wide == c))
             index = np.full(m, -1)
             index[these] = np.arange(len(these))
-            its = np.flatnonzero(index[p.row_interface[F.row]] >= 0)
-            i, j, matrix = F.row[its], F.col[its], np.zeros((len(these), c, r))
-            matrix[index[p.row_interface[i]], column[j], row[i]] = F.data[its]
-            first, kind = same_rows(matrix.reshape(len(these), -1))
-            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix[first])))
+            at, flat = index[of_entry], np.zeros(len(these) * c * r)
+            its = slice(None) if len(these) == m else at >= 0
+            flat[(at[its] * c + position[0][its]) * r + position[1][its]] = F.data[its]
+            first, kind = same_rows(flat.reshape(len(these), -1))
+            matrix = flat.reshape(-1, c, r)[first]
+            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix)))
         return parts
 
 

@@ -36,7 +36,10 @@ class LoadPosition:
 
 @dataclass(frozen=True)
 class Influence:
-    """What one datum does: `elasticity` is the change of the load factor per relative change of the datum."""
+    """What one datum does: the `elasticity` is the change of the load factor per relative change of it.
+
+    `kind` is "friction" of an interface or "unit weight" of a block, `name` says of which one.
+    """
 
     kind: str
     name: str

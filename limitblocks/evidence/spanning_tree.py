@@ -16,14 +16,10 @@ LEAST = 1e-6  # of the largest room: interfaces with less are equally bad ways
 
 @dataclass(frozen=True, eq=False)
 class Tree:
-    """Of each block (n,): the interface that leads towards a support, the block behind it, its depth.
-
-    `parent` is -1 where a support is behind the interface; `depth` counts the interfaces on the way.
-    """
+    """Of each block (n,): the interface that leads towards a support, the block behind it, or -1."""
 
     interface: Indices
     parent: Indices
-    depth: Indices
 
 
 def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
@@ -47,15 +43,11 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     order = np.argsort(length, kind="stable")
     pairs = np.sort(np.where(problem.ends < 0, n, problem.ends), axis=1)  # all supports are one: n
     between = pairs[:, 0] * (n + 1) + pairs[:, 1]
-    best = order[np.unique(between[order], return_index=True)[1]]  # of several between two blocks
+    pair, first = np.unique(between[order], return_index=True)
+    best = order[first]  # of several between two blocks
     i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
     graph = sparse.coo_array((length[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
-    distances, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
-    distance, before = distances[0], ways[0]
-    depth = np.zeros(n + 1, dtype=np.int64)
-    for k in np.argsort(distance, kind="stable")[1:]:
-        depth[k] = depth[before[k]] + 1
-    interface = sparse.coo_array((best + 1, (i, j)), shape=(n + 1, n + 1)).tocsr()
-    parent = np.asarray(before[:n], dtype=np.int64)
-    of_block = np.asarray(sparse.csr_array(interface + interface.T)[np.arange(n), parent]).ravel() - 1
-    return Tree(of_block, np.where(parent == n, -1, parent), depth[:n])
+    _, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
+    parent = np.asarray(ways[0, :n], dtype=np.int64)
+    i, j = np.sort([np.arange(n), parent], axis=0)
+    return Tree(best[np.searchsorted(pair, i * (n + 1) + j)], np.where(parent == n, -1, parent))

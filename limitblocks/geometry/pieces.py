@@ -95,8 +95,15 @@ def _canonical(shape: Any, x_axis: Array, mirrored: bool, grid: float) -> tuple[
     middle = shapely.get_coordinates(shapely.centroid(shape))[0]
     points = shapely.get_coordinates(shape)
     units = np.round((points - middle) @ turn / grid) + 0.0
+    flat = shapely.set_coordinates(shape, units)
+    if not shapely.is_valid(
+        flat
+    ):  # a strip narrower than the grid is left out, as where a hole meets the rim
+        flat = shapely.make_valid(flat, method="structure", keep_collapsed=False)
+        met = shapely.get_coordinates(flat)
+        units, points = np.concatenate([met, units]), np.concatenate([middle + grid * met @ turn.T, points])
     places = dict(zip(map(tuple, units.tolist()), map(tuple, points.tolist()), strict=True))
-    return shapely.normalize(shapely.set_coordinates(shape, units)), places
+    return shapely.normalize(flat), places
 
 
 def _triangles(shape: Any) -> list[list[Point]]:

@@ -182,9 +182,14 @@ def torsion_constant(region: Region, centre: Any = None) -> float:
 
 
 def torsion_constants(polygons: Array) -> Array:
-    """Torsion constants (m,) about the centroids of a stack of polygons (m, n, 2), m (Eqs 6 and 16).
+    """Torsion constants (m,) about the centroids of a stack of `polygons` (m, n, 2), m (Eqs 6 and 16).
 
-    Repeat a vertex to bring polygons to the same n. Areas are checked (GeometryError), simplicity is not.
+    Repeat a vertex to bring polygons to the same n.
+
+    Raises
+    ------
+    GeometryError
+        If a polygon has no area; whether it crosses itself is not checked.
     """
     area = areas(polygons)
     flat = ~(np.abs(area) > 1e-14 * np.ptp(polygons, axis=1).sum(-1) ** 2)

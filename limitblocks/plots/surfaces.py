@@ -54,7 +54,7 @@ def interaction(
     exact : bool
         Dashed: the strength under uniform pressure, exact for V with T and for V1 with V2, on the effective
         area for M with T (Sections 3.1 and 3.2 of Orduña & Lourenço 2005); for polygons that are symmetric
-        about both axes.
+        about both axes and joints without cohesion.
     label : str, optional
         Of the curve in the legend; the joint unless given.
     directions : int
@@ -195,6 +195,8 @@ def _exact(joint: Queries, interface: Interface, names: tuple[str, str], N: floa
     mirrored = [as_region(polygon * sign) for sign in ((-1.0, 1.0), (1.0, -1.0))]
     if any(shapely.symmetric_difference(shape, other).area > 1e-6 * shape.area for other in mirrored):
         raise ModelError("the exact curve needs a polygon that is symmetric about both of its axes")
+    if getattr(joint, "cohesion", 0.0):
+        raise ModelError("no exact curve is known with cohesion; it is that of Coulomb friction")
     V0 = float(shear_strength(friction, N))
     first, second = names
     if {first, second} == {"V1", "V2"}:

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, left_still
 from limitblocks.mechanics.loads.load import along
 from limitblocks.model import Model
 
@@ -47,7 +47,7 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     ------
     ModelError
         If the live load is not made of weights and added masses along one horizontal direction, or takes
-        another share of the weights than all.
+        another share of the weights than all, or lacks a mass of the dead load.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
     found = []
@@ -55,6 +55,11 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
         k = place[block]
         velocity = rates[k, :3] + np.cross(rates[k, 3:], at - model.blocks[k].centroid)
         found.append(MovingMass(name, block, weight, float(velocity @ direction), float(velocity[2])))
+    still = left_still(model.dead, model.live)
+    if still:
+        raise ModelError(
+            f"the live load lacks the mass added to {', '.join(still)} in the dead load; give it to both"
+        )
     largest = max((abs(one.horizontal) for one in found), default=0.0)
     if not largest > 0.0:
         raise ModelError("the mechanism moves no mass of the live load; nothing to verify")

@@ -49,7 +49,10 @@ def element_acceleration(
 
 
 def element_force(acceleration: float, weight: float, *, importance: float = 1.0, q_a: float = 2.0) -> float:
-    """Return the horizontal force F_a = S_a W_a gamma_a / q_a on an element, N, EN 1998-1 Eq. (4.24)."""
+    """Return the horizontal force F_a = S_a W_a gamma_a / q_a on an element, N, EN 1998-1 Eq. (4.24).
+
+    `acceleration` S_a is over g, `weight` W_a in N, `importance` the factor gamma_a, `q_a` that of behaviour.
+    """
     return (
         number(acceleration, "S_a", "", above=0.0)
         * number(weight, "weight", "N", above=0.0)

@@ -85,9 +85,9 @@ class Deck:
 
 
 def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) -> Load:
-    """Return the axles of a vehicle whose first stands at X = `position`, dispersed through the fill.
+    """Return the axles of a vehicle on the `deck` of a `model`, the first at X = `position`, m.
 
-    Axles beyond the blocks, on the approaches, put nothing on the structure.
+    They are dispersed through the fill. Axles beyond the blocks, on the approaches, put nothing on it.
 
     Raises
     ------

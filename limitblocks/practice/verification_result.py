@@ -54,7 +54,7 @@ def steps(step: str, found: Iterable[Quantity]) -> list[Quantity]:
 
 @dataclass(frozen=True)
 class Inequality:
-    """A check: capacity over demand, satisfied where it is at least one."""
+    """A check by `name`: `capacity` over `demand`, both in `unit`, by the clause `source`; at least one."""
 
     name: str
     capacity: float

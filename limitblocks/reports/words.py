@@ -13,6 +13,7 @@ import numpy as np
 
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import AddedMass, MassProportional
+from limitblocks.mechanics.loads.forces import left_still
 from limitblocks.mechanics.loads.load import along, triple
 from limitblocks.model import Model
 from limitblocks.units import gravity
@@ -54,18 +55,19 @@ def resultant_words(model: Model, load: Load) -> str:
 def acceleration(model: Model) -> tuple[float, str] | None:
     """Return the acceleration over g of a load factor of one, and its direction in words.
 
-    None where the live load is no acceleration of the masses in one direction.
+    None where the live load is no acceleration of all masses in one direction.
     """
-    kinds = {
-        (factor, term.direction) if isinstance(term, MassProportional | AddedMass) else None
-        for factor, term in model.live.terms
-    }
-    weighed = any(isinstance(term, MassProportional) for _, term in model.live.terms)
-    if len(kinds) != 1 or None in kinds or not weighed:
+    masses = all(isinstance(term, MassProportional | AddedMass) for _, term in model.live.terms)
+    if not masses or left_still(model.dead, model.live):
         return None
-    (found,) = kinds
-    assert found is not None
-    factor, direction = found
+    pushes: dict[Any, list[float]] = {MassProportional: [], AddedMass: []}
+    for factor, term in model.live.terms:
+        pushes[type(term)].append(factor)
+    factor = sum(pushes[MassProportional])
+    directions = {term.direction for _, term in model.live.terms}  # type: ignore[attr-defined] # both have it
+    if not factor or len(directions) != 1 or any(own != factor for own in pushes[AddedMass]):
+        return None
+    (direction,) = directions
     word = "a horizontal acceleration" if abs(direction[2]) < 1e-9 else "an acceleration"
     return factor, f"{word} {along(direction)}"
 

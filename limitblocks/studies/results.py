@@ -32,13 +32,15 @@ class Study(Saved):
         Full results; where an analysis did not converge its best state, which `load_factors` leaves out.
     errors : tuple of str, length n
         Class and message of the error of each analysis, empty where there is none.
+    units : dict of str
+        Units of the columns that have one, by name.
     """
 
     analysis: str
     load_factors: Array
     results: tuple[Result | None, ...]
     errors: tuple[str, ...]
-    units: ClassVar[dict[str, str]] = {}  # of columns
+    units: ClassVar[dict[str, str]] = {}
 
     @property
     def least(self) -> int:

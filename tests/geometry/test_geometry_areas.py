@@ -90,6 +90,18 @@ def test_contact_of_two_tubes(n):
     check_pieces(interfaces, shapely.Polygon(outer, [inner]))
 
 
+@pytest.mark.parametrize("off", [-1e-9, -1e-12, 0.0, 1e-12, 1e-9])
+@pytest.mark.parametrize(("along", "count"), [((1.0, 0.0), 2), ((1.0, 1.0), 2), ((1.0, 0.25), 4)])
+def test_hole_that_meets_the_rim_but_for_rounding_divides_the_area(along, count, off):
+    """Tubes of 2 m with walls of .4 m, one off the other by the thickness of a wall."""
+    outer, inner, shift = 2 * SQUARE, 1.2 * SQUARE, (0.4 + off) * np.array(along)
+    low, high = ring("low", outer, inner, 0, 1), ring("high", outer + shift, inner + shift, 1, 2)
+    whole = shapely.Polygon(outer, [inner]) & shapely.Polygon(outer + shift, [inner + shift])
+    interfaces = find_interfaces([low, high], None)
+    assert len(interfaces) == count
+    check_pieces(interfaces, whole)
+
+
 def test_shaft_through_two_plates_touches_all_round():
     plate = ring("plate", 4 * SQUARE, SQUARE)
     shaft = Block.box("shaft", (1, 1, 3), (0, 0, 0))

@@ -19,7 +19,6 @@ from compas_documents import (
 )
 
 import limitblocks as lb
-from limitblocks.geometry.polygon import areas
 
 JOINT = lb.OrdunaLourenco(0.6)
 STRUCTURES = {
@@ -29,26 +28,19 @@ STRUCTURES = {
 }
 
 
-def total_area(interfaces):
-    return float(sum(areas(interface.polygon[None])[0] for interface in interfaces))
-
-
 def dumped(path, value):
     compas.json_dump(value, str(path))
     return path
 
 
 @pytest.mark.parametrize("name", STRUCTURES)
-def test_round_trip(tmp_path, name):
+def test_names_and_supports_survive(tmp_path, name):
     model = STRUCTURES[name]
     path = lb.files.write_blocks(model, tmp_path / "a.json")
     imported = lb.files.read_blocks(path)
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes
-    interfaces = lb.find_interfaces(imported.blocks, JOINT)
-    assert len(interfaces) == len(model.interfaces)
-    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
     assert lb.files.write_blocks(model, tmp_path / "b.json").read_bytes() == path.read_bytes()
 
 

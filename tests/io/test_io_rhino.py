@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.geometry.polygon import areas
 from limitblocks.io.formats.rhino import chunks
 
 rhino3dm = pytest.importorskip("rhino3dm")
@@ -17,10 +16,6 @@ STRUCTURES = {
     "vault": lb.structures.barrel_vault(JOINT, radius=2.0, thickness=0.3, length=1.5, courses=7, stones=2),
 }
 L_SHAPE = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-
-
-def total_area(interfaces):
-    return float(sum(areas(interface.polygon[None])[0] for interface in interfaces))
 
 
 def fault(path):
@@ -78,22 +73,13 @@ def extrusion(outline, height):
 
 
 @pytest.mark.parametrize("name", STRUCTURES)
-def test_round_trip(tmp_path, name):
+def test_names_supports_and_layers_survive(tmp_path, name):
     model = STRUCTURES[name]
     imported = lb.files.read_blocks(lb.files.write_blocks(model, tmp_path / "a.3dm"))
     assert [block.name for block in imported.blocks] == [block.name for block in model.blocks]
     assert imported.supports == model.supports
     assert not imported.notes
-    interfaces = lb.find_interfaces(imported.blocks, JOINT)
-    assert len(interfaces) == len(model.interfaces)
-    assert total_area(interfaces) == pytest.approx(total_area(model.interfaces), rel=1e-9)
-
-
-def test_round_trip_bounds(tmp_path):
-    model = STRUCTURES["arch"]
-    path = lb.files.write_blocks(model, tmp_path / "arch.3dm")
-    again = lb.read(path, joint=JOINT, unit_weight={"block": 20e3}, live=model.live)
-    assert lb.bounds(again).lower == pytest.approx(lb.bounds(model).lower, rel=1e-6)
+    assert set(imported.layers.values()) == {"support", "block"}
 
 
 def test_every_digit_survives_far_from_the_origin(tmp_path):

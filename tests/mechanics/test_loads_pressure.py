@@ -140,6 +140,32 @@ def test_point_on_a_face_of_a_block_that_is_not_convex():
         lb.loads.pressure("L", 1.0, at=(1.0, 1.0, 0.5)).on([block])  # in the plane of a face, in the block
 
 
+def with_a_window(off):
+    """A wall of 4 m x 2 m, .5 m thick, with a window of 2 m x 1 m; one corner is `off` by as much in y."""
+    around = [(-2, 0), (2, 0), (2, 2), (-2, 2)], [(-1, 0.5), (1, 0.5), (1, 1.5), (-1, 1.5)]
+    vertices = np.array([(x, y, z) for y in (0.0, 0.5) for ring in around for x, z in ring])
+    vertices[3, 1] += off
+    faces = []
+    for k, n in ((0, 1), (1, 2), (2, 3), (3, 0)):
+        faces += [(k, n, 4 + n, 4 + k), (8 + n, 8 + k, 12 + k, 12 + n)]  # front and back, in four parts
+        faces += [(n, k, 8 + k, 8 + n), (4 + k, 4 + n, 12 + n, 12 + k)]
+    return lb.Block("wall", vertices, faces, 20e3)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-4])
+@pytest.mark.parametrize("where", [{"facing": (0, -1, 0)}, {"at": (-1.5, 0.0, 1.0)}], ids=["facing", "at"])
+def test_faces_in_one_plane_around_a_window_are_one(where, off):
+    wall = with_a_window(off)
+    load = lb.loads.pressure("wall", 1e3, **where).on([wall])[0]
+    assert load == pytest.approx(np.array([0, 6e3, 0, 0, 0, 0]), abs=6e3 * (1e-9 + 4 * off))
+    water = lb.loads.pressure("wall", unit_weight=WATER, level=1.0, **where).on([wall])[0]
+    force, moment = (
+        4.0 * 1.0**k / k - 2.0 * 0.5**k / k for k in (2, 3)
+    )  # of depth and its square, by height
+    expected = WATER * np.array([0.0, force, 0.0, moment, 0.0, 0.0])
+    assert water == pytest.approx(expected, abs=WATER * (1e-9 + 8 * off))
+
+
 def test_pressure_that_grows_upwards_is_a_difference():
     uniform = lb.loads.pressure("wall", WATER * 2.0, facing=(-1, 0, 0))
     load = (uniform + (-1) * lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=WATER, level=2.0)).on(

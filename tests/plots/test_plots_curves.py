@@ -120,6 +120,7 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
         (JOINT, TRIANGLE, {"exact": True}, "symmetric about both"),
         (JOINT, RECTANGLE, {"x": "N"}, "N is missing: give the largest"),
         (JOINT, RECTANGLE, {"x": "N", "N": -1.0, "exact": True}, "no exact curve is known"),
+        (lb.OrdunaLourenco(0.6, cohesion=1e4), RECTANGLE, {"N": -1.0, "exact": True}, "with cohesion"),
     ],
 )
 def test_what_has_no_interaction_curve_is_refused(joint, interface, settings, message):

@@ -246,6 +246,18 @@ def test_a_share_of_the_weights_is_no_acceleration_over_g(facade, share):
         verification(half, lb.bounds(half), SITE, q=2.0)
 
 
+def test_a_mass_that_weighs_is_pushed_too(facade):
+    """Left out of the live load it stabilises, and the earthquake would pass it by."""
+    block = facade.free_blocks[0]
+    floor = lb.loads.added_mass(block.name, block.centroid.tolist(), weight=1e3)
+    still = replace(facade, dead=lb.self_weight([floor]))
+    with pytest.raises(lb.ModelError, match=f"lacks the mass added to {block.name} in the dead load"):
+        verification(still, lb.bounds(still), SITE, q=2.0)
+    direction = facade.live.terms[0][1].direction
+    pushed = replace(still, live=lb.mass_proportional(direction, [floor]))
+    assert any(floor.block in one.name for one in verification(pushed, lb.bounds(pushed), SITE, q=2.0).masses)
+
+
 @pytest.mark.parametrize(
     ("values", "words"),
     [((-1.0, 1.2, 2.5, 0.5), "a_g is -1.0"), ((2.0, 1.2, 1.0, 0.5), "F0 is 1.0, expected a .* >= 2.2")],

@@ -137,6 +137,14 @@ def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):
     assert f"{factor * 9.80665:#.4g} m/s²" in said
     twice = replace(house, live=2.0 * house.live)
     assert f"{2.0 * 0.5:#.4g} g" in Answer(0.5, True, "").quantity(twice)
+    again = replace(house, live=0.5 * house.live + 1.5 * house.live)  # of each mass twice its weight
+    assert f"{2.0 * 0.5:#.4g} g" in Answer(0.5, True, "").quantity(again)
+    block = house.free_blocks[0]
+    tank = lb.loads.added_mass(block.name, block.centroid.tolist(), weight=1e3)
+    still = replace(house, dead=lb.self_weight([tank]))  # weighs, and nothing pushes it
+    assert " g = " not in Answer(0.5, True, "").quantity(still)
+    moved = replace(still, live=lb.mass_proportional((0, 1, 0), [tank]))
+    assert f"{0.5:#.4g} g" in Answer(0.5, True, "").quantity(moved)
     pushed = replace(
         house, live=house.live + lb.loads.force(house.free_blocks[0].name, (1e3, 0, 0), (0, 0, 0))
     )

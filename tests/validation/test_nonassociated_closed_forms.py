@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from boxes import jammed, leaves
 
 import limitblocks as lb
 from limitblocks import structures
@@ -67,21 +68,6 @@ def test_force_at_a_height(joint_type, z):
     assert_load_factor(pushed, min(friction, b / (2 * z)) * weight)
 
 
-def leaves(joint, between, b=0.12, height=2.4):
-    """Two leaves side by side in Y, their common joint `between` or none."""
-    blocks = [
-        lb.Block.box("base", (1.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("inner", (1.0, b, height), (0, -b / 2, height / 2), 20e3),
-        lb.Block.box("outer", (1.0, b, height), (0, b / 2, height / 2), 20e3),
-    ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    vertical = {"inner", "outer"}
-    kept = [i for i in interfaces if {i.block_i, i.block_j} != vertical]
-    if between is not None:
-        kept += [replace(i, joint=between) for i in interfaces if {i.block_i, i.block_j} == vertical]
-    return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
-
-
 @pytest.mark.parametrize("smooth", [False, True])
 def test_two_leaves_without_connection_rock_one_by_one(joint_type, smooth):
     b, height = 0.12, 2.4
@@ -96,21 +82,6 @@ def test_two_leaves_with_a_rough_joint_rock_between_the_two(joint_type):
     result = lb.nonassociated(model)
     assert b / height * (1 - CLOSE) <= result.load_factor <= result.associated < 2 * b / height
     assert lb.check_mcp(model, result).passed
-
-
-def jammed(joint):
-    blocks = [
-        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
-        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
-    ]
-    return lb.Model(
-        blocks,
-        ["floor", "ceiling"],
-        lb.find_interfaces(blocks, joint),
-        lb.self_weight(),
-        lb.mass_proportional((1, 0, 0)),
-    )
 
 
 @pytest.mark.parametrize("friction", [0.3, 0.6])

@@ -18,6 +18,7 @@ from scipy import sparse
 from scipy.sparse import linalg
 
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
+from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem
 
@@ -42,27 +43,6 @@ class Loading:
     def problem(self) -> LimitProblem:
         """The structure."""
         return self.flow.problem
-
-
-@dataclass(frozen=True, eq=False)
-class Point:
-    """Variables of a step, or a direction in them: stresses, rates, load factor, slacks, multipliers."""
-
-    x: Array
-    u: Array
-    load_factor: float
-    s: Array
-    y: Array
-
-    def moved(self, t: float, d: Point) -> Point:
-        """Return this point moved by t along the direction d."""
-        return Point(
-            self.x + t * d.x,
-            self.u + t * d.u,
-            self.load_factor + t * d.load_factor,
-            self.s + t * d.s,
-            self.y + t * d.y,
-        )
 
 
 @dataclass(frozen=True, eq=False)

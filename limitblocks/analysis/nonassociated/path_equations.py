@@ -44,14 +44,17 @@ class Barrier:
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """Variables of a path, or a direction in them."""
+    """Variables of a path, or a direction in them: stresses, rates, load factor, slacks, multipliers, theta.
+
+    A single step has no theta.
+    """
 
     x: Array
     u: Array
     load_factor: float
     s: Array
     y: Array
-    theta: float
+    theta: float = 0.0
 
     def moved(self, t: float, d: Point) -> Point:
         """Return this point moved by t along the direction d."""

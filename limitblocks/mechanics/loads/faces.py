@@ -7,17 +7,20 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.geometry.accuracy import ANGLE, GAP
+from limitblocks.geometry.faces import surfaces_of
+from limitblocks.geometry.regions import regions
 
 _TIE = 1e-6
 _WIDEST = np.cos(np.pi / 4) - _TIE  # a face farther off than 45 degrees is not meant
 _NEAR = 1e-4  # of the block's size: how far a point may be off its face
 
 
-def face_towards(block: Block, direction: Sequence[float]) -> int:
-    """Return the face of `block` whose outward normal is closest to the unit vector `direction`.
+def faces_towards(block: Block, direction: Sequence[float]) -> Indices:
+    """Return the faces of `block`, all in one plane, whose outward normal is closest to a unit vector.
 
     Raises
     ------
@@ -32,17 +35,18 @@ def face_towards(block: Block, direction: Sequence[float]) -> int:
             f"block {block.name!r} has no face towards {tuple(direction)}: the closest is {off:.0f} degrees "
             "off, expected at most 45"
         )
+    plane = _planes(block)
     ties = np.flatnonzero(along > along[best] - _TIE)
-    if len(ties) > 1:
+    if (plane[ties] != plane[best]).any():
         raise ModelError(
             f"block {block.name!r}: faces {_listed(ties)} are equally close to direction {tuple(direction)}; "
             "give a point of the face instead"
         )
-    return best
+    return np.flatnonzero(plane == plane[best])
 
 
-def face_through(block: Block, point: Sequence[float]) -> int:
-    """Return the face of `block` on which `point` (m) lies, within 1e-4 of the block's size.
+def faces_through(block: Block, point: Sequence[float]) -> Indices:
+    """Return the faces of `block`, all in one plane, on which `point` (m) lies, within 1e-4 of its size.
 
     Raises
     ------
@@ -52,10 +56,17 @@ def face_through(block: Block, point: Sequence[float]) -> int:
     at, near = np.asarray(point, dtype=float), _NEAR * block.size
     level = np.flatnonzero(np.abs(block.normals @ at - block.offsets) <= near)
     faces = np.array([k for k in level.tolist() if _off(block, k, at) <= near], dtype=int)
-    if len(faces) == 1:
-        return int(faces[0])
+    plane = _planes(block)
+    if len(faces) and (plane[faces] == plane[faces[0]]).all():
+        return np.flatnonzero(plane == plane[faces[0]])
     where = "on no face" if not len(faces) else f"on an edge of faces {_listed(faces)}"
     raise ModelError(f"block {block.name!r}: point {tuple(point)} is {where}, expected a point inside a face")
+
+
+def _planes(block: Block) -> Indices:
+    """Number the plane regions of the faces, shape (m,), as contacts do: faces in one plane are one."""
+    flat = GAP / 2.0 * float(np.cbrt(block.volume))
+    return regions(surfaces_of([block], [block.vertices - block.centroid]), flat, ANGLE / 2.0)
 
 
 def _off(block: Block, face: int, point: Array) -> float:

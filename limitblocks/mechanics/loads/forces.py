@@ -182,6 +182,15 @@ def added_mass(
     return AddedMass(block, weight, vector(at, "at"))  # type: ignore[arg-type] # one of the two is given
 
 
+def left_still(dead: Load, live: Load) -> tuple[str, ...]:
+    """Return the blocks whose added masses weigh in `dead` and are not pushed in `live`, by name."""
+    weighed, pushed = (
+        {replace(term, direction=DOWN) for _, term in load.terms if isinstance(term, AddedMass)}
+        for load in (dead, live)
+    )
+    return tuple(sorted({mass.block for mass in weighed - pushed}))
+
+
 def force(block: str, force: Sequence[float], at: Sequence[float]) -> Load:
     """Return a force (N) on the block named `block`, acting at the point `at` (m), global axes."""
     return of(PointForce(block, vector(force, "force"), vector(at, "at")))

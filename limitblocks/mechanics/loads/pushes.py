@@ -82,6 +82,8 @@ class Tilting:
 def tilting(direction: Sequence[float], added: Sequence[AddedMass] = ()) -> Tilting:
     """Return the loads of a structure on a plane that tilts, down towards the horizontal `direction`.
 
+    The masses `added` (:func:`added_mass`) tilt with it.
+
     Raises
     ------
     ModelError

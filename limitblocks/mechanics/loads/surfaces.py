@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
-from limitblocks.mechanics.loads.faces import face_through, face_towards, integrals, part_where
+from limitblocks.mechanics.loads.faces import faces_through, faces_towards, integrals, part_where
 from limitblocks.mechanics.loads.load import (
     Load,
     Vector,
@@ -65,15 +65,16 @@ class Pressure:
         """Return forces and moments at the centroids, shape (n, 6)."""
         load, lowest = np.zeros((len(blocks), 6)), np.inf
         for k in (position(name, blocks) for name in self.blocks):
-            face, block = self._face(blocks[k]), blocks[k]
-            normal, about = block.normals[face], block.centroid
-            corners = block.vertices[list(block.faces[face])]
-            total, first = integrals(corners - about, np.full(len(corners), self.pressure), normal)
-            wet, depth = part_where(corners, self.level - corners[:, 2])
-            more, further = integrals(wet - about, self.unit_weight * depth, normal)
-            load[k, :3] -= (total + more) * normal
-            load[k, 3:] -= np.cross(first + further, normal)
-            lowest = min(lowest, float(corners[:, 2].min()))
+            block = blocks[k]
+            for face in self._faces(block).tolist():
+                normal, about = block.normals[face], block.centroid
+                corners = block.vertices[list(block.faces[face])]
+                total, first = integrals(corners - about, np.full(len(corners), self.pressure), normal)
+                wet, depth = part_where(corners, self.level - corners[:, 2])
+                more, further = integrals(wet - about, self.unit_weight * depth, normal)
+                load[k, :3] -= (total + more) * normal
+                load[k, 3:] -= np.cross(first + further, normal)
+                lowest = min(lowest, float(corners[:, 2].min()))
         if self.unit_weight > 0.0 and self.level <= lowest:
             raise ModelError(
                 f"pressure: level {self.level:g} m is below every face; the lowest is at {lowest:g} m"
@@ -87,10 +88,10 @@ class Pressure:
         parts = [f"{self.pressure / 1e3:.4g} kPa"] * bool(self.pressure) + [linear] * bool(self.unit_weight)
         return f"a pressure of {' plus '.join(parts)} on the face {where} of {some(self.blocks)}"
 
-    def _face(self, block: Block) -> int:
+    def _faces(self, block: Block) -> Indices:
         if self.at is not None:
-            return face_through(block, self.at)
-        return face_towards(block, unit_vector(self.facing or (), "pressure: facing"))
+            return faces_through(block, self.at)
+        return faces_towards(block, unit_vector(self.facing or (), "pressure: facing"))
 
 
 @dataclass(frozen=True)
@@ -160,6 +161,7 @@ def pressure(
 ) -> Load:
     """Return a pressure on a whole face of one or more blocks, normal to the face and into the block.
 
+    Several faces of a block in one plane, such as those around a hole, are one.
     It is ``pressure + unit_weight * max(level - z, 0)``; resultant and moment are exact. Whether something
     else covers the face does not matter. A pressure that grows upwards is a difference of two loads.
 

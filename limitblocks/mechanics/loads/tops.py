@@ -75,7 +75,7 @@ def top_force(force: Sequence[float], at: Sequence[float]) -> Load:
 
 
 def line_load(force_per_length: Sequence[float], start: Sequence[float], end: Sequence[float]) -> Load:
-    """Return a line load (N per m of plan, global axes) from `start` to `end`, places (x, y), m.
+    """Return a line load, `force_per_length` (N per m of plan, global axes), from `start` to `end` (x, y), m.
 
     Each stretch of the line acts on top of the highest free block below it; resultants and moments are exact.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -60,17 +61,12 @@ class Planar:
         )
 
     def averaged(self, state: State) -> State:
-        """Return the mean of a state of the whole problem and its mirror image as a reduced one.
-
-        Multipliers of rows that others imply go to the nearest ones.
-        """
-        M = self.multipliers
-        nearest = linalg.splu(sparse.csc_array(M.T @ M))
+        """Return the mean of a state of the whole problem and its mirror image as a reduced one."""
         return State(
             state.load_factor / self.live,
             self.stresses_of(state.x),
-            self.rates.T @ state.u / self._squares(self.rates) / self.live,
-            nearest.solve(M.T @ state.y) / self.live,
+            self.rates_of(state.u),
+            self.multipliers_of(state.y),
         )
 
     def measured(self, whole: LimitProblem) -> Planar:
@@ -117,21 +113,39 @@ class Planar:
         """
         S = self.stresses
         own = np.asarray(S.multiply(S).T @ weights)
-        squares = self._squares(S)
+        squares = self._squares
         off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / squares)
         return None if abs(off).max() > EXACT * weights.max() else own
 
     def stresses_of(self, x: Array) -> Array:
         """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
-        return np.asarray(self.stresses.T @ x / self._squares(self.stresses))
+        return np.asarray(self.stresses.T @ x / self._squares)
 
     def symmetric(self, x: Array) -> bool:
         """Whether stresses of the whole problem are their own mirror image."""
         off = np.abs(self.stresses @ self.stresses_of(x) - x).max(initial=0.0)
         return bool(off <= SYMMETRIC * np.abs(x).max(initial=0.0))
 
-    @staticmethod
-    def _squares(matrix: sparse.csr_array) -> Array:
-        """Squared lengths of the columns, one for nothing."""
-        squares = np.asarray(matrix.multiply(matrix).sum(axis=0)).ravel()
-        return np.where(squares > 0.0, squares, 1.0)
+    @cached_property
+    def _squares(self) -> Array:
+        return _squares(self.stresses)
+
+    def rates_of(self, u: Array) -> Array:
+        """Return rates of the whole problem, averaged with their mirror image, as reduced ones."""
+        return np.asarray(self.rates.T @ u / _squares(self.rates) / self.live)
+
+    def multipliers_of(self, y: Array) -> Array:
+        """Return the reduced multipliers nearest to those of the whole problem.
+
+        So go those of rows that others imply.
+        """
+        M = self.multipliers
+        if np.diff(M.indptr).max(initial=0) <= 1:  # no row is part of two
+            return np.asarray(M.T @ y / _squares(M) / self.live)
+        return np.asarray(linalg.splu(sparse.csc_array(M.T @ M)).solve(M.T @ y) / self.live)
+
+
+def _squares(matrix: sparse.csr_array) -> Array:
+    """Squared lengths of the columns, one for nothing."""
+    squares = np.bincount(matrix.indices, matrix.data**2, matrix.shape[1])
+    return np.where(squares > 0.0, squares, 1.0)

@@ -62,14 +62,18 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         compliance=read_only(stresses.multiply(stresses).T @ problem.compliance),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
-        row_mode=tuple(problem.row_mode[k] for k in source),
+        row_mode=_taken(problem.row_mode, source),
         friction=problem.friction[kept],
         units=problem.units.of(blocks, kept, source),
-        blocks=tuple(problem.blocks[k] for k in blocks),
-        interfaces=tuple(problem.interfaces[k] for k in kept),
+        blocks=_taken(problem.blocks, blocks),
+        interfaces=_taken(problem.interfaces, kept),
         centroids=problem.centroids[blocks],
     )
     return Planar(planar, stresses, rates, sparse.csr_array(W.T), blocks, mirror.flat, problem.units)
+
+
+def _taken(values: tuple[Any, ...], places: Indices) -> tuple[Any, ...]:
+    return tuple(map(values.__getitem__, places.tolist()))
 
 
 def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
