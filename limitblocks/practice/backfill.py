@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -32,7 +33,8 @@ def passive_fill(
     A block that moves into the fill along +-`along` meets up to ``coefficient unit_weight depth`` on the
     projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
     associated, mobilised at once, no friction between fill and masonry. The resistance of each face holds the
-    block from behind, on the line of its resultant, and is held by the first support.
+    block from behind, on the line of its resultant, and is held by the first support, or another at rest
+    where that one settles.
 
     Fill over a pier between two spans leans on the other span, not on the ground: name in `blocks` those of
     the end spans that push towards an abutment, unless backing or spandrel walls hold the rest.
@@ -84,3 +86,14 @@ def passive_fill(
     if not elements:
         raise ModelError(f"no block has a face that leans along the deck below the fill at {level:g} m")
     return elements
+
+
+def fill_at_rest(model: Model, support: str) -> Model:
+    """Return the model whose passive fill is held by another support than the one that moves."""
+    other = next((name for name in model.supports if name != support), support)
+
+    def held(one: Interface) -> Interface:
+        moves = isinstance(one.joint, Backfill) and one.block_j == support
+        return replace(one, block_j=other) if moves else one
+
+    return replace(model, interfaces=tuple(map(held, model.interfaces)))

@@ -13,6 +13,7 @@ from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, stopped
+from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
@@ -72,7 +73,7 @@ def settlement_to_collapse(
         As :func:`~limitblocks.practice.settlement` at the first point; later the curve ends, and says why.
     """
     refuse_left_behind("settlement until collapse", dead=model.dead)
-    assembly = moving.assembly_of(model)
+    assembly = moving.assembly_of(fill_at_rest(model, support))
     size = assembly.size
     step = number(STEP * size if step is None else step, "step", "m", above=0.0)
     accuracy = number(ACCURACY * size if accuracy is None else accuracy, "accuracy", "m", above=0.0)

@@ -10,7 +10,6 @@ import numpy as np
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.associated import Bounds
@@ -18,14 +17,15 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import JointPressure, force, moment
+from limitblocks.mechanics.loads import JointPressure, force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model
+from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element, axes_of
+from limitblocks.practice.freed import as_before, pressed
 from limitblocks.shown import Result
 
 RIGID = 1e3  # strength of the guide over the weight of the structure
-ROUNDING = 1e-12  # of that weight: a smaller difference of loads is none
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,13 +199,14 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
             f"settlement: {support!r} is the only support; the whole structure would move with it"
         )
     block = next(block for block in model.blocks if block.name == support)
+    model = fill_at_rest(model, support)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
     if not weight > 0.0:
         raise ModelError("settlement: the dead loads are zero; there is no reaction to lose")
     pulled = sum((Element(own).loads({support}) for own in model.interfaces), Load())
     water = Load(tuple(one for one in model.dead.terms if isinstance(one[1], JointPressure)))
     at = (pulled + water).on([block])[0, :3]
-    held = float((_pressed(model, support) + at) @ d)
+    held = float((pressed(model, support) + at) @ d)
     guide = Interface(
         others[0],
         support,
@@ -215,42 +216,14 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
         Guide(RIGID * weight / block.size**2),
     )
     weightless = replace(block, unit_weight=0.0)
+    reaction = force(support, (-held * d).tolist(), block.centroid.tolist())
     freed = replace(
         model,
         blocks=tuple(weightless if one is block else one for one in model.blocks),
         supports=tuple(others),
         interfaces=(*model.interfaces, guide),
-        dead=model.dead + pulled + force(support, (-held * d).tolist(), block.centroid.tolist()),
+        dead=model.dead + pulled + reaction,
         live=force(support, (weight * d).tolist(), block.centroid.tolist()),
     )
-    on_support = (pulled + water + force(support, (-held * d).tolist(), block.centroid.tolist())).on([block])[
-        0
-    ]
-    return Settling(
-        _as_before(model, freed, support, on_support, weight), support, read_only(d), held, weight
-    )
-
-
-def _as_before(model: Model, freed: Model, support: str, on_support: Array, weight: float) -> Model:
-    """Return the freed model less what fill and loads from above put elsewhere as it is free."""
-    wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
-    wanted[support] = on_support
-    free, back = freed.free_blocks, Load()
-    for block, has in zip(free, freed.dead.on(free), strict=True):
-        off = wanted[block.name] - has
-        if np.abs(off / np.repeat([1.0, block.size], 3)).max() > ROUNDING * weight:
-            back += force(block.name, off[:3].tolist(), block.centroid.tolist())
-            back += moment(block.name, off[3:].tolist())
-    return replace(freed, dead=freed.dead + back)
-
-
-def _pressed(model: Model, support: str) -> Array:
-    """Force of the structure on a support in an admissible state of the dead loads, global axes, N."""
-    problem = model.problem
-    x = dead_load_state(problem)
-    Q = (problem.resultants @ x * problem.units.resultants).reshape(-1, 6)
-    total = np.zeros(3)
-    for own, stresses in zip(model.interfaces, Q, strict=True):
-        on_j = -stresses[:3] @ own.axes
-        total += on_j if own.block_j == support else -on_j if own.block_i == support else 0.0
-    return total
+    on_support = (pulled + water + reaction).on([block])[0]
+    return Settling(as_before(model, freed, support, on_support), support, read_only(d), held, weight)

@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 import limitblocks as lb
 from limitblocks.practice import (
     capacity_curve,
+    passive_fill,
     reinforced,
     settlement,
     settlement_to_collapse,
@@ -251,3 +252,25 @@ def test_fill_does_not_rest_on_the_support_because_it_settles(ledge):
     down = settlement(portal, "right ground", (0, 0, -1))
     assert down.lower == pytest.approx(expected, rel=1e-6)
     assert down.nonassociated == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("order", [("wall", "floor"), ("floor", "wall")])
+def test_passive_fill_stays_at_rest_as_a_support_moves(order):
+    """A stone on a floor without friction, pushed by P against a wall, with fill of depth 1 on its slope.
+
+    The fill takes K gamma / 2 per m of depth of the face, whichever support is said to hold it.
+    """
+    outline = [(-2.0, 0.0), (0.0, 0.0), (0.0, 1.0), (-1.0, 2.0), (-2.0, 2.0)]
+    stones = [
+        lb.Block.box("floor", (6.0, 1.0, 0.2), (-1.0, 0.0, -0.1)),
+        lb.Block.box("wall", (0.5, 1.0, 0.8), (0.25, 0.0, 0.4)),
+        lb.Block.prism("stone", outline, (-0.5, 0.5), 20e3),
+    ]
+    dead = lb.self_weight() + lb.loads.force("stone", (10e3, 0.0, 0.0), (-2.0, 0.0, 0.5))
+    found = [one for one in lb.find_interfaces(stones, lb.PointContact(0.0)) if "stone" in one.name]
+    model = lb.Model(stones, order, found, dead, lb.mass_proportional((1, 0, 0)))
+    fill = passive_fill(model, 2.0, unit_weight=16e3, coefficient=0.5)
+    assert fill[0].interface.block_j == order[0]
+    own = settlement(reinforced(model, *fill), "wall", (1, 0, 0))
+    assert own.lower == pytest.approx(10e3 - 0.5 * 16e3 / 2.0, rel=1e-6)
+    assert own.nonassociated == pytest.approx(10e3 - 0.5 * 16e3 / 2.0, rel=1e-6)

@@ -1,0 +1,45 @@
+"""What acts on a support, and on the structure, once the support is a block that can move."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from limitblocks.analysis.stability import dead_load_state
+from limitblocks.arrays import Array
+from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import force, moment
+from limitblocks.model import Model
+
+ROUNDING = 1e-12  # of the dead loads: a smaller difference is none
+
+
+def as_before(model: Model, freed: Model, support: str, on_support: Array) -> Model:
+    """Return the freed model less what fill and loads from above put elsewhere as the support is free.
+
+    `on_support` (6,) are the forces and moments that act on the support.
+    """
+    wanted = dict(zip((b.name for b in model.free_blocks), model.dead.on(model.free_blocks), strict=True))
+    wanted[support] = on_support
+    free, back = freed.free_blocks, Load()
+    given = freed.dead.on(free)
+    least = ROUNDING * float(np.abs(given[:, :3]).sum())
+    for block, has in zip(free, given, strict=True):
+        off = wanted[block.name] - has
+        if np.abs(off / np.repeat([1.0, block.size], 3)).max() > least:
+            back += force(block.name, off[:3].tolist(), block.centroid.tolist())
+            back += moment(block.name, off[3:].tolist())
+    return replace(freed, dead=freed.dead + back)
+
+
+def pressed(model: Model, support: str) -> Array:
+    """Force of the structure on a support in an admissible state of the dead loads, global axes, N."""
+    problem = model.problem
+    x = dead_load_state(problem)
+    Q = (problem.resultants @ x * problem.units.resultants).reshape(-1, 6)
+    total = np.zeros(3)
+    for own, stresses in zip(model.interfaces, Q, strict=True):
+        on_j = -stresses[:3] @ own.axes
+        total += on_j if own.block_j == support else -on_j if own.block_i == support else 0.0
+    return total
