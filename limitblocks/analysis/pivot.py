@@ -34,7 +34,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 @np.errstate(all="ignore")  # a state that ran away is not kept
-def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: int = LARGEST) -> State:
+def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
     """Return the solution that complementary pivots lead to, or the state of least residual met.
 
     Parameters
@@ -43,14 +43,12 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: 
         The limit problem and its flow rule.
     state : State
         A state near a solution, dimensionless.
-    until : float
-        Residual that is small enough.
     largest : int
         Pairs that are not plain, beyond which no step is tried: their cost grows with the cube of it.
     """
     now, best, least = state, state, defect(flow, state)
     for delta in PROXIMAL:
-        if least <= until:
+        if least <= 0.01 * TOLERANCE:
             break
         found = _step(flow, now, delta, largest)
         if found is None:
