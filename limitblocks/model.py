@@ -16,7 +16,7 @@ import numpy as np
 
 from limitblocks.errors import ModelError, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
-from limitblocks.geometry.floating import floating
+from limitblocks.geometry.ends import floating
 from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem

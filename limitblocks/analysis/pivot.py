@@ -20,7 +20,7 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.polish import admissible, defect, polish
+from limitblocks.analysis.polish import admissible, defect, polished
 from limitblocks.arrays import Array
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
@@ -34,7 +34,7 @@ Mask = npt.NDArray[np.bool_]
 
 
 @np.errstate(all="ignore")  # a state that ran away is not kept
-def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: int = LARGEST) -> State:
+def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
     """Return the solution that complementary pivots lead to, or the state of least residual met.
 
     Parameters
@@ -43,22 +43,20 @@ def pivoted(flow: Flow, state: State, until: float = 0.01 * TOLERANCE, largest: 
         The limit problem and its flow rule.
     state : State
         A state near a solution, dimensionless.
-    until : float
-        Residual that is small enough.
     largest : int
         Pairs that are not plain, beyond which no step is tried: their cost grows with the cube of it.
     """
     now, best, least = state, state, defect(flow, state)
     for delta in PROXIMAL:
-        if least <= until:
+        if least <= 0.01 * TOLERANCE:
             break
         found = _step(flow, now, delta, largest)
         if found is None:
             break
         now = found
-        near = polish(flow, now, patience=2)
-        if defect(flow, near) < least:
-            best, least = near, defect(flow, near)
+        near, left = polished(flow, now, defect(flow, now), patience=2)
+        if left < least:
+            best, least = near, left
     return best
 
 

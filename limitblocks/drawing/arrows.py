@@ -13,6 +13,7 @@ from limitblocks.drawing.motion import motion
 from limitblocks.errors import ModelError
 from limitblocks.evidence.claim import claim_of, real_number
 from limitblocks.geometry import Block
+from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 
 #: Longest arrow, over the diagonal of the structure.
@@ -98,12 +99,11 @@ def picture(model: Model, result: Any, scale: float | None = None) -> Picture:
     if claim.displacement_rates is not None:
         (state,), magnification = motion(model, claim)
         moved = tuple(_moved(*pair) for pair in zip(model.blocks, state, strict=True))
-    place = {block.name: k for k, block in enumerate(model.blocks)}
     return Picture(
         tuple(model.blocks),
         moved,
         tuple(interface.name for interface in model.interfaces),
-        tuple((place[interface.block_i], place[interface.block_j]) for interface in model.interfaces),
+        tuple((i, j) for i, j in ends_of(model.blocks, model.interfaces).tolist()),
         frozenset(model.supports),
         claim.load_factor,
         at,

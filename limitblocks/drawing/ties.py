@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.geometry.ends import ends_of
 from limitblocks.joints import Backfill, Guide, Tie
 from limitblocks.model import Model
 
@@ -21,14 +22,14 @@ class TieLine(NamedTuple):
 
 def tie_lines(model: Model) -> list[TieLine]:
     """Return the ties of a model that have a length; the first anchor of each is in block i."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
+    ends = ends_of(model.blocks, model.interfaces).tolist()
     return [
         TieLine(
             k,
-            (place[one.block_i], place[one.block_j]),
+            (i, j),
             one.centroid + np.outer([-0.5, 0.5], one.joint.length * one.axes[2]),
         )
-        for k, one in enumerate(model.interfaces)
+        for k, (one, (i, j)) in enumerate(zip(model.interfaces, ends, strict=True))
         if isinstance(one.joint, Tie) and one.joint.length > 0.0
     ]
 

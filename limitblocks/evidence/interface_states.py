@@ -10,11 +10,12 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
+from limitblocks.geometry.ends import ends_of
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model, checked_model
 from limitblocks.problem import LimitProblem, Mode
@@ -173,15 +174,14 @@ def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
 
 def _strain_rates(model: Model, rates: Array, axes: Array, centroid: Array) -> Array:
     """Relative displacement rates v + w x r of block j to block i, local axes, shape (m, 6)."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
     centres = np.stack([block.centroid for block in model.blocks])
+    i, j = ends_of(model.blocks, model.interfaces).T
 
-    def at(block: str) -> Array:
-        k = [place[getattr(interface, block)] for interface in model.interfaces]
+    def at(k: Indices) -> Array:
         v, w = rates[k, :3], rates[k, 3:]
         return np.stack([v + np.cross(w, centroid - centres[k]), w], axis=1)
 
-    return np.asarray(((at("block_j") - at("block_i")) @ axes.swapaxes(1, 2)).reshape(-1, 6))
+    return np.asarray(((at(j) - at(i)) @ axes.swapaxes(1, 2)).reshape(-1, 6))
 
 
 def _largest(model: Model, rates: Array) -> float:

@@ -148,15 +148,14 @@ def _polytope(normals: Array, offsets: Array, inner: Array, outer: Array) -> Lim
     return LimitPolytope(read_only(normals), read_only(offsets), float((outer / inner).max() - 1))
 
 
-def unique_shapes(polygons: Array, decimals: int = 9) -> tuple[Indices, Indices]:
+def unique_shapes(polygons: Array) -> tuple[Indices, Indices]:
     """Find equal polygons of a stack, so that each shape is computed once.
 
     Parameters
     ----------
     polygons : Array, shape (m, n, 2)
-        Vertices about the centroids, m; equal means the same vertices from any first one on.
-    decimals : int
-        Digits kept of coordinates over the largest coordinate of the stack.
+        Vertices about the centroids, m; equal means the same vertices from any first one on, in nine digits
+        of the largest coordinate of the stack.
 
     Returns
     -------
@@ -164,7 +163,7 @@ def unique_shapes(polygons: Array, decimals: int = 9) -> tuple[Indices, Indices]
         Index of the first polygon of each shape; ``polygons[first][shape_of]`` repeats them all.
     """
     m, n, _ = polygons.shape
-    rounded = np.round(polygons / np.abs(polygons).max(initial=1e-300), decimals)
+    rounded = np.round(polygons / np.abs(polygons).max(initial=1e-300), 9)
     rounded += 0.0  # -0.0 becomes 0.0
     start = np.lexsort(np.moveaxis(rounded[..., ::-1], -1, 0), axis=1)[:, :1]
     order = (start + np.arange(n)) % n

@@ -13,6 +13,7 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Interface
+from limitblocks.geometry.ends import ends_of
 from limitblocks.geometry.polygon import areas, second_moments
 from limitblocks.joints.base import Joint, YieldRows, joint_of
 from limitblocks.mechanics.compatibility import compatibility_matrix
@@ -56,7 +57,7 @@ def limit_problem(
     ModelError
         If the live load is zero, or neither load has a force to scale with.
     """
-    ends, centroids = _ends(free, interfaces), _stacked([block.centroid for block in free])
+    ends, centroids = ends_of(free, interfaces), _stacked([block.centroid for block in free])
     units = units_of(free, interfaces, ends, dead, live)
     groups, cones = _grouped(interfaces, units)
     n_stresses = sum(group.column_index.size for group in groups)
@@ -112,13 +113,6 @@ def _modes(rows: YieldRows) -> list[Mode]:
     except ValueError as error:
         words = ", ".join(repr(mode.value) for mode in Mode)
         raise ModelError(f"a joint's failure mode: {error}; expected one of {words}") from None
-
-
-def _ends(free: Sequence[Block], interfaces: Sequence[Interface]) -> Indices:
-    """Places (m, 2) of blocks i and j among the free ones; -1 for a support."""
-    place = {block.name: k for k, block in enumerate(free)}
-    pairs = [(place.get(i.block_i, -1), place.get(i.block_j, -1)) for i in interfaces]
-    return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
 def _members(

@@ -104,9 +104,9 @@ def number(value: float) -> str:
     return digits if not power else rf"${digits}\times10^{{{int(power)}}}$"
 
 
-def in_newtons(value: float, unit: str = "N") -> str:
+def in_newtons(value: float) -> str:
     """Return a force with a prefix that keeps the number short."""
     for size, prefix in ((1e6, "M"), (1e3, "k")):
         if abs(value) >= size:
-            return f"{value / size:.3g} {prefix}{unit}"
-    return f"{value:.3g} {unit}"
+            return f"{value / size:.3g} {prefix}N"
+    return f"{value:.3g} N"

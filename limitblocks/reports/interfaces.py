@@ -9,6 +9,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.ties import tie_lines
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
+from limitblocks.geometry.ends import ends_of
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Dowel, Tie
 from limitblocks.mechanics.loads.load import triple
@@ -62,11 +63,10 @@ def relative_motion(model: Model, rates: Array) -> Array:
     The largest over the corners of its polygon of the difference of v + w x r of both blocks, m, for
     displacement rates (n, 6); of a tie along its line only.
     """
-    place = {block.name: k for k, block in enumerate(model.blocks)}
+    ends = ends_of(model.blocks, model.interfaces).tolist()
     centroids = np.array([block.centroid for block in model.blocks])
     largest = np.zeros(len(model.interfaces))
-    for k, interface in enumerate(model.interfaces):
-        i, j = place[interface.block_i], place[interface.block_j]
+    for k, (interface, (i, j)) in enumerate(zip(model.interfaces, ends, strict=True)):
         if not (rates[i].any() or rates[j].any()):
             continue
         tie = isinstance(interface.joint, Tie)  # counts along its line; its ends go where they like across it

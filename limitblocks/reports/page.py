@@ -37,11 +37,11 @@ def page(document: Document, scene: dict[str, Any], chosen: int) -> str:
     return _rendered("report.html", document.title, styles, scene, chosen, **known)
 
 
-def viewer_page(scene: dict[str, Any], version: str, chosen: int = 0) -> str:
+def viewer_page(scene: dict[str, Any], version: str) -> str:
     """Return the viewer alone as an HTML document, to be put into a frame of a notebook."""
     styles = [assets.style()]
     known = {"drawn": False, "generator": version}
-    return _rendered("viewer_page.html", scene["title"], styles, scene, chosen, **known)
+    return _rendered("viewer_page.html", scene["title"], styles, scene, 0, **known)
 
 
 @cache

@@ -17,6 +17,7 @@ from limitblocks.drawing.view import towards
 from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.interface_states import InterfaceStates, interface_states
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
+from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 from limitblocks.reports.words import joint_words
 
@@ -112,7 +113,7 @@ def _blocks(model: Model) -> dict[str, Any]:
 
 
 def _interfaces(model: Model) -> dict[str, Any]:
-    place = {block.name: k for k, block in enumerate(model.blocks)}
+    i, j = ends_of(model.blocks, model.interfaces).T.tolist()
     outlines: dict[Any, int] = {}
     joints: dict[str, int] = {}
     kinds, laws = [], []
@@ -125,8 +126,8 @@ def _interfaces(model: Model) -> dict[str, Any]:
         "joints": list(joints),
         "outlines": [{"corners": corners, "axes": axes} for corners, axes in outlines],
         "interfaces": {
-            "i": [place[interface.block_i] for interface in model.interfaces],
-            "j": [place[interface.block_j] for interface in model.interfaces],
+            "i": i,
+            "j": j,
             "outline": kinds,
             "joint": laws,
             "centroid": short([interface.centroid for interface in model.interfaces], 1e-9),

@@ -140,3 +140,13 @@ def test_load_on_a_block_turned_with_it():
     ):
         expected = before.on([old]).reshape(2, 3) @ turn.T
         assert after.on([old.moved(turn, shift)]).reshape(2, 3) == pytest.approx(expected, abs=1e-6)
+
+
+def test_masses_tilt_with_their_block():
+    """As heavy as the block, on its top: it overturns where (W + W) b / 2 = tan (W h / 2 + W h)."""
+    model = lb.structures.block(lb.PointContact(0.9), width=0.6, height=1.0, depth=1.0)
+    block = model.free_blocks[0]
+    mass = lb.loads.added_mass(block.name, (block.centroid[0], 0, 1.0), weight=block.weight)
+    tilt = lb.loads.tilting((1.0, 0.0, 0.0), [mass])
+    bounds = lb.bounds(replace(model, dead=tilt.dead, live=tilt.live))
+    assert bounds.lower == pytest.approx(0.6 / 1.5, rel=1e-6)

@@ -237,6 +237,7 @@ def test_eurocode_and_housner():
     low = element_acceleration(0.2, 1.2, z=0.0, height=9.0, element_period=9.0, building_period=0.4)
     assert low == pytest.approx(0.2 * 1.2)
     assert element_force(top, 1e3, q_a=2.0) == pytest.approx(660.0)
+    assert element_force(top, 1e3, importance=1.5) == pytest.approx(990.0)
     block = Rocking(1.0, 4.0)
     R = np.sqrt(17.0) / 2
     assert np.tan(block.slenderness) == pytest.approx(0.25)
