@@ -69,9 +69,7 @@ class Pair:
 
 
 @one_thread
-def bounds(
-    model: Model, *, tolerance: float = TOLERANCE, progress: Callable[[str], None] | None = None
-) -> Bounds:
+def bounds(model: Model, *, tolerance: float = TOLERANCE, progress: Tell | None = None) -> Bounds:
     """Return the static (lower) and the kinematic (upper) bound on the associated load factor.
 
     Parameters
@@ -97,9 +95,8 @@ def bounds(
     -----
     Solved once for each model and tolerance. Proven bounds of large models may be farther apart, and say so.
     """
-    return known(
-        model, ("bounds", tolerance), lambda: _bounds(model, tolerance, progress or (lambda _: None))
-    )
+    tell = progress or (lambda _: None)
+    return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance, tell))
 
 
 def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:

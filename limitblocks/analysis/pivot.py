@@ -20,7 +20,7 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.polish import admissible, defect, polish
+from limitblocks.analysis.polish import admissible, defect, polished
 from limitblocks.arrays import Array
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
@@ -54,9 +54,9 @@ def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
         if found is None:
             break
         now = found
-        near = polish(flow, now, patience=2)
-        if defect(flow, near) < least:
-            best, least = near, defect(flow, near)
+        near, left = polished(flow, now, defect(flow, now), patience=2)
+        if left < least:
+            best, least = near, left
     return best
 
 

@@ -81,7 +81,7 @@ def classified(cones: Cones, s: Array, y: Array) -> Active:
     return Active(kind, np.flatnonzero(of_row != Kind.FREE), np.flatnonzero(of_row == Kind.BOUNDARY))
 
 
-@np.errstate(all="ignore")  # a state that ran away is not kept
+@np.errstate(all="ignore")
 def polish(flow: Flow, state: State, *, until: float = ROUNDING, patience: int | None = None) -> State:
     """Return the state with residuals as small as rounding allows, or as it was where they do not fall.
 
@@ -97,21 +97,31 @@ def polish(flow: Flow, state: State, *, until: float = ROUNDING, patience: int |
         Proximal steps in turn that may fail to better the best state. Left out: a few, and then as many of
         least norm, which take ten times as long.
     """
-    best, least = state, defect(flow, state)
+    return polished(flow, state, defect(flow, state), until=until, patience=patience)[0]
+
+
+@np.errstate(all="ignore")  # a state that ran away is not kept
+def polished(
+    flow: Flow, state: State, least: float, *, until: float = ROUNDING, patience: int | None = None
+) -> tuple[State, float]:
+    """Return what `polish` returns and its largest residual; that of the state given is `least`."""
+    best, given = state, least
     if least <= until:
-        return best
+        return best, least
     for solution in (_proximal_solution, _least_solution)[: 1 if patience else 2]:
-        for iterate, worst in _steps(flow, state, solution, patience or PATIENCE):
+        for iterate, worst in _steps(flow, state, given, solution, patience or PATIENCE):
             if worst < least:
                 best, least = iterate, worst
             if least <= until:
-                return best
-    return best
+                return best, least
+    return best, least
 
 
-def _steps(flow: Flow, state: State, solution: Solution, patience: int) -> Iterator[tuple[State, float]]:
+def _steps(
+    flow: Flow, state: State, least: float, solution: Solution, patience: int
+) -> Iterator[tuple[State, float]]:
     """States of a semismooth Newton method and their residuals, until they get worse."""
-    p, now, least, failed = flow.problem, state, defect(flow, state), 0
+    p, now, failed = flow.problem, state, 0
     for _ in range(STEPS):
         s = p.F @ now.x + p.g
         sigma = float(np.linalg.norm(s)) / max(float(np.linalg.norm(now.y)), 1e-300)
@@ -177,8 +187,8 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
     )
     turn = None if flow.constant else -flow.derivative(now.x, now.y)
     blocks: list[list[Any]] = [
-        [turn, p.C, None, sparse.csr_array(G[yields].T)],
-        [sparse.csr_array(p.C.T), None, -live, None],
+        [turn, p.C, None, G[yields].T],
+        [p.C.T, None, -live, None],
         [None, live.T, None, None],
         [by_stress, None, None, by_multiplier],
     ]

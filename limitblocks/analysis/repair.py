@@ -19,7 +19,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
 from limitblocks.problem.plane import Planar
 
-EVERYWHERE = 1e-3  # of the joint that lacks most: the least that a joint is opened
+EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is opened
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,8 +3,9 @@
 The rows F x of stresses without loads and the multipliers of mechanisms are spaces normal to each other, and
 K is its own dual: one projection serves both. Douglas-Rachford splitting reflects at the cone and at the
 space in turn until a point of the space is within the cone (Lions & Mercier 1979, Splitting algorithms for
-the sum of two nonlinear operators, SIAM Journal on Numerical Analysis 16). Room is asked for, not accuracy:
-that takes a few rounds, each with one solution of linear equations that are factorised once.
+the sum of two nonlinear operators, SIAM Journal on Numerical Analysis 16), and a step goes beyond (Eckstein &
+Bertsekas 1992, Mathematical Programming 55). Room is asked for, not accuracy: that takes a few rounds, each
+with one solution of linear equations that are factorised once.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ ROUNDS = 200
 ROOM = 0.1  # that stresses are asked for at first, in the units of the rows
 LESS = 0.9  # times the room each round: there may be little
 SHARE = 0.5  # of the room asked for that is enough
+RELAXED = 1.7  # of 0 to 2: a third fewer rounds than with 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,5 +80,5 @@ class Splitting:
             found = onto(2.0 * inner - z)
             if (cones.margin(found) > SHARE * room[cones.heads]).all():
                 return found
-            z, room = z + found - inner, less * room
+            z, room = z + RELAXED * (found - inner), less * room
         return None

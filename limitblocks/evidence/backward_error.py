@@ -124,8 +124,9 @@ def settled(
     state with the exact mechanism; else the one given.
     """
     error = backward_error(flow, state, most)
-    loose = mcp_residuals(flow, state).worst.value > tolerance
-    if limit is None or error.exact is None or not loose or error.model > limit:
+    if limit is None or error.exact is None or error.model > limit:
+        return state, error
+    if mcp_residuals(flow, state).worst.value <= tolerance:
         return state, error
     return error.exact, backward_error(flow, error.exact, most)
 

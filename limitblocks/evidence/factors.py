@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from scipy import sparse
 from scipy.sparse import linalg
 
 
@@ -18,4 +17,4 @@ def diagonal_factors(K: Any, ordering: Literal["MMD_AT_PLUS_A", "NATURAL"] = "MM
     symmetric: Any = {"SymmetricMode": True}
     if ordering == "NATURAL":
         symmetric |= {"Relax": 1, "PanelSize": 1}
-    return linalg.splu(sparse.csc_array(K), permc_spec=ordering, diag_pivot_thresh=0.0, options=symmetric)
+    return linalg.splu(K.tocsc(), permc_spec=ordering, diag_pivot_thresh=0.0, options=symmetric)

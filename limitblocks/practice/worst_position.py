@@ -113,13 +113,7 @@ def worst_position(
     """
     refuse_kind(vehicle, Vehicle, "vehicle")
     checked_count("positions", positions, 3)
-    if between is not None and np.shape(between) != (2,):
-        raise ModelError(f"between is {between!r}, expected two places of the first axle, X in m")
-    low, high = (number(x, "between", "m") for x in between or _whole(model, vehicle))
-    if not low < high:
-        raise ModelError(
-            f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
-        )
+    low, high = _ends(model, vehicle, between, positions)
     tried: dict[float, tuple[Bounds, Model] | None] = {}
 
     def at(x: float) -> float:
@@ -135,21 +129,40 @@ def worst_position(
     factors = np.array([at(float(x)) for x in places])
     if not np.isfinite(factors).any():
         raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
-    k = int(factors.argmin())
-    about = float(places[max(k - 1, 0)]), float(places[min(k + 1, positions - 1)])
-    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
-    minimize_scalar(
-        lambda x: min(at(float(x)), beyond),
-        bounds=about,
-        method="bounded",
-        options={"xatol": (high - low) * 1e-3},
-    )
+    _search(at, places, factors)
     worst = min((x for x, found in tried.items() if found), key=at)
     found = tried[worst]
     assert found  # one is finite
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
     return WorstPosition(order, values, worst, *found, vehicle, deck, model.digest)
+
+
+def _ends(
+    model: Model, vehicle: Vehicle, between: tuple[float, float] | None, positions: int
+) -> tuple[float, float]:
+    """First and last place of the first axle, as given or over the whole structure."""
+    if between is not None and np.shape(between) != (2,):
+        raise ModelError(f"between is {between!r}, expected two places of the first axle, X in m")
+    low, high = (number(x, "between", "m") for x in between or _whole(model, vehicle))
+    if not low < high:
+        raise ModelError(
+            f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
+        )
+    return low, high
+
+
+def _search(at: Callable[[float], float], places: Array, factors: Array) -> None:
+    """Try places about the one of least load factor, to a thousandth of the way."""
+    k = int(factors.argmin())
+    about = float(places[max(k - 1, 0)]), float(places[min(k + 1, len(places) - 1)])
+    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
+    minimize_scalar(
+        lambda x: min(at(float(x)), beyond),
+        bounds=about,
+        method="bounded",
+        options={"xatol": float(places[-1] - places[0]) * 1e-3},
+    )
 
 
 def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:

@@ -124,12 +124,13 @@ class SampledStudy(Saved):
         return {"analysis": self.analysis, "parameters": list(self.names), "rows": rows}
 
     def __str__(self) -> str:
-        low, middle, high = self.quantiles()
         failed = f", {self.failures} without an answer" if self.failures else ""
-        return (
-            f"{len(self.load_factors)} analyses of {', '.join(self.names)}: load factor {middle:.6g}, "
-            f"5 % to 95 % {low:.6g} to {high:.6g}{failed}"
-        )
+        said = f"{len(self.load_factors)} analyses of {', '.join(self.names)}"
+        try:
+            low, middle, high = self.quantiles()
+        except SolveError:
+            return f"{said}, no load factor{failed}"
+        return f"{said}: load factor {middle:.6g}, 5 % to 95 % {low:.6g} to {high:.6g}{failed}"
 
     def _known(self) -> Array:
         own, errors = self.load_factors[: self.samples], self.errors[: self.samples]

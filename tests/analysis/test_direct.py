@@ -1,5 +1,9 @@
 """The program of one form, solved by Clarabel itself: the answer that cvxpy has; and what a proof solves."""
 
+from dataclasses import replace
+from importlib import import_module
+from unittest.mock import Mock
+
 import cvxpy as cp
 import numpy as np
 import pytest
@@ -133,3 +137,24 @@ def test_friction_of_next_to_nothing_overflows_without_a_warning():
     push = (np.cos(4.981481785679262), np.sin(4.981481785679262), 0.0)
     model = structures.column(lb.PointContact(mu), count=2, width=2.0, height=h, depth=0.7, direction=push)
     assert lb.bounds(model).upper < 1e-6
+
+
+def test_an_accurate_solution_is_not_sought_again_where_only_its_proof_takes_more(monkeypatch):
+    """As with 50,000 blocks: accuracy is asked for by the block. Here the tolerance is narrow instead."""
+    module = import_module("limitblocks.analysis.bounds")
+    again = Mock(side_effect=LookupError)
+    monkeypatch.setattr(module, "CLOSE", 0.0)
+    monkeypatch.setattr(module, "_with_care", again)
+    large = structures.wall(JOINTS[0], length=5.0, courses=10)
+    assert lb.bounds(large, tolerance=3e-11).proof.width > 3e-11
+    monkeypatch.setattr(module, "PER_BLOCK", 0.0)
+    with pytest.raises(LookupError):
+        lb.bounds(replace(large), tolerance=3e-11)
+
+
+@pytest.mark.parametrize("joint", JOINTS)
+def test_more_of_the_strict_state_is_taken_where_the_estimate_was_short(joint, monkeypatch):
+    monkeypatch.setattr(certified, "NEEDED", certified.RESERVE / 2.0)
+    assert lb.bounds(wall(joint)).proven
+    monkeypatch.setattr(certified, "ROUNDS", 1)
+    assert not lb.bounds(wall(joint)).proven

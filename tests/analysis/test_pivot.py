@@ -50,7 +50,7 @@ def test_a_state_off_a_solution_is_taken_to_one(joint, about, dilatancy):
 
 def test_steps_close_without_newtons_method(monkeypatch):
     """The proximal term fades from step to step."""
-    monkeypatch.setattr(pivot, "polish", lambda flow, state, **_: state)
+    monkeypatch.setattr(pivot, "polished", lambda _, state, left, **__: (state, left))
     problem = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=4).problem
     flow = Flow(problem)
     solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)

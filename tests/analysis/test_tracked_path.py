@@ -206,7 +206,7 @@ def test_the_derivative_is_that_of_the_equations(joint, rule):
     random = np.random.default_rng(0)
     q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))
     q = replace(q, multiplier=1e-3 * random.normal(size=z.y.shape))
-    d = Newton(path, z).solve(q)
+    (d,) = Newton(path, z).solve(q)
     h = 1e-5
     points = [z.moved(t, d) for t in (h, -h)]
     ends = [residuals(path, point) for point in points]
@@ -222,7 +222,7 @@ def test_the_products_of_moved_points_are_those_of_their_theta():
     flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
     path = path_from(flow, x0, weights, Barrier(), 1)
     z, _ = centred(path)
-    tangent = Newton(path, z).solve(theta_slope(path, z).negative())
+    (tangent,) = Newton(path, z).solve(theta_slope(path, z).negative())
     ahead = moved(path, z, 0.1, replace(tangent, theta=1.0))
     for point in (z, ahead):
         products = path.cones.product(point.s, point.y)
@@ -239,7 +239,7 @@ def test_the_stresses_move_on_without_a_jump_of_the_path():
     flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
     path = path_from(flow, x0, weights, Barrier(floor=2.0), 0)
     z, _ = centred(path)
-    d = Newton(path, z).solve(theta_slope(path, z).negative())
+    (d,) = Newton(path, z).solve(theta_slope(path, z).negative())
     z = z.moved(0.5, d)
     onward = moved_on(path, z)
     assert np.abs(onward.x0 - path.x0).max() > 1e-3

@@ -101,6 +101,11 @@ def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
     assert np.isinf(found.quantiles([0.75, 0.9, 1.0])).all()
 
 
+def test_a_study_without_an_answer_prints():
+    none = lb.study(falls_where_slippery, {"friction": (0.1, 0.2)}, 2)
+    assert str(none) == "2 analyses of friction, no load factor, 2 without an answer"
+
+
 def test_sobol_indices_of_a_product():
     """f = a b with independent a, b: S_a = Va mb^2 / (Va mb^2 + Vb ma^2 + Va Vb)."""
     found = lb.study(product, {"friction": (0.2, 0.6), "scale": (0.5, 2.5)}, 64, indices=True, seed=4)

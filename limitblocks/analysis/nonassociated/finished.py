@@ -16,7 +16,7 @@ from limitblocks.evidence.backward_error import settled, within
 from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
-from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State
@@ -47,7 +47,7 @@ def finished(
     problem = flow.problem
     state, error = settled(flow, state, tolerance, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
-    status = _status(flow, state, how, tolerance)
+    status = _status(flow, residuals, how, tolerance)
     change = None
     if confirm and status is Status.CONVERGED:
         change = fixed_point_change(flow, state, plane_of(model, problem, state.x))
@@ -112,8 +112,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     )
 
 
-def _status(flow: Flow, state: State, how: str, tolerance: float) -> Status:
-    equations_left, worst = left_over(flow, state, tolerance)
+def _status(flow: Flow, residuals: Residuals, how: str, tolerance: float) -> Status:
+    equations_left, worst = left_over(residuals, tolerance)
     if worst <= tolerance:
         return Status.CONVERGED
     if how.endswith(INTERRUPTED):

@@ -17,6 +17,7 @@ from typing import Any
 
 import cvxpy as cp
 import numpy as np
+from scipy import sparse
 
 from limitblocks.analysis.programs import in_cone
 from limitblocks.arrays import Array
@@ -54,8 +55,11 @@ def by_planes(problem: LimitProblem, weights: Array, settings: dict[str, Any] = 
     """
     x = cp.Variable(problem.C.shape[0])
     rows = problem.F @ x + problem.g
+    W = sparse.csc_array(
+        sparse.diags_array(weights)
+    )  # a sum of squares would be given as many variables again
     program = cp.Problem(
-        cp.Minimize(0.5 * cp.sum_squares(cp.multiply(np.sqrt(weights), x))),
+        cp.Minimize(0.5 * cp.quad_form(x, W, assume_PSD=True)),
         [problem.dead - problem.C.T @ x == 0, rows >= 0],
     )
     values = _values(lambda: program.solve(solver=cp.OSQP, warm_start=False, **settings), x)

@@ -31,7 +31,7 @@ from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked, winds
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.pivot import pivoted
-from limitblocks.analysis.polish import defect, polish
+from limitblocks.analysis.polish import defect, polished
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
@@ -104,9 +104,9 @@ def track(
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         walk.patience = patience
         end = walk.go()
-        best = walk.best or walk.state
+        best, left = (walk.best, walk.left) if walk.best else (walk.state, defect(flow, walk.state))
     counts = walk.factorisations, walk.failures, tuple(walk.points)
-    return best, Tracked(walk.path.barrier, seed, end, defect(flow, best), *counts)
+    return best, Tracked(walk.path.barrier, seed, end, left, *counts)
 
 
 def state_of(z: Point) -> State:
@@ -165,8 +165,7 @@ class Walk:
         self.factorisations += 1
         try:
             newton = Newton(self.path, self.z)
-            step = newton.solve(left.negative())
-            turn = newton.solve(theta_slope(self.path, self.z).negative())
+            step, turn = newton.solve(left.negative(), theta_slope(self.path, self.z).negative())
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
             self._retreat()
             return
@@ -235,13 +234,16 @@ class Walk:
         if z.theta < LAST:
             raise Lost("no solution at the end")
         self.tried = AGAIN * z.theta
-        self._keep(polish(self.path.flow, self.state, patience=1))  # a point costs less than more steps
-        if self.left > TOLERANCE and defect(self.path.flow, self.state) < DEGENERATE:
-            self._keep(pivoted(self.path.flow, self.state, largest=PIVOTS))
+        flow, reached = self.path.flow, self.state
+        left = defect(flow, reached)
+        self._keep(*polished(flow, reached, left, patience=1))  # a point costs less than more steps
+        if self.left > TOLERANCE and left < DEGENERATE:
+            state = pivoted(flow, reached, largest=PIVOTS)
+            self._keep(state, defect(flow, state))
         return self.left < TOLERANCE
 
-    def _keep(self, state: State) -> None:
+    def _keep(self, state: State, residual: float) -> None:
         """Keep a state as the best one met, unless it belongs to another path."""
-        reached, residual = self.state.load_factor, defect(self.path.flow, state)
+        reached = self.state.load_factor
         if abs(state.load_factor - reached) <= DRIFT * abs(reached) and residual < self.left:
             self.best, self.left = state, residual

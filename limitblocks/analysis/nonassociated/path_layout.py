@@ -6,6 +6,7 @@ left couples the rates of neighbouring blocks and the load factor. All index map
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -163,15 +164,16 @@ class Layout:
         live = self.problem.live[self.problem.live != 0.0]
         data[border] = np.concatenate([live, live])
         data[idle] = -1.0
-        matrix = sparse.csc_array((data, pattern.indices, pattern.indptr), shape=pattern.shape)
+        matrix = copy(pattern)  # which is checked once
+        matrix.data = data
         return diagonal_factors(matrix, "NATURAL")
 
     def solved(self, lu: Any, right: Array) -> Array:
-        """Return the solution of those factors for a right-hand side (6 n + 1,)."""
+        """Return the solution of those factors for a right-hand side (6 n + 1,), or several (6 n + 1, c)."""
         order = self._pattern[-1]
         ordered = np.empty_like(right)
         ordered[order] = right
-        return np.asarray(lu.solve(ordered).take(order))
+        return np.asarray(lu.solve(ordered).take(order, axis=0))
 
     @cached_property
     def _stress_at(self) -> Indices:
@@ -182,13 +184,17 @@ class Layout:
         return np.asarray(self.problem.row_interface * self.interface_rows.shape[1] + self.row_place)
 
     def per_interface(self, x: Array) -> Array:
-        """Return stresses (s,) by interface, shape (m, k)."""
-        return np.append(x, 0.0).take(self.stresses)
+        """Return stresses (s,) or (s, c) by interface, shape (m, k) or (m, k, c)."""
+        return np.concatenate([x, np.zeros_like(x[:1])]).take(self.stresses, axis=0)
 
     def per_stress(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, k) as stresses (s,)."""
-        return blocks.take(self._stress_at)
+        """Return what stands by interface (m, k, c) as stresses (s, c)."""
+        return _flat(blocks).take(self._stress_at, axis=0)
 
     def per_row(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, r) as rows (R,)."""
-        return blocks.take(self._row_at)
+        """Return what stands by interface (m, r, c) as rows (R, c)."""
+        return _flat(blocks).take(self._row_at, axis=0)
+
+
+def _flat(blocks: Array) -> Array:
+    return blocks.reshape(-1, blocks.shape[2])

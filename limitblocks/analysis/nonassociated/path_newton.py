@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from scipy.sparse import linalg
@@ -44,41 +44,57 @@ class Newton:
         """Sign of det J, but for a factor that is the same all along the path."""
         return float(np.prod(np.sign(np.linalg.det(self.stiffness)))) * _sign(self.lu)
 
-    def solve(self, q: Equations) -> Point:
-        """Return the direction d with J d = q, refined once far down the path.
+    def solve(self, *sides: Equations) -> list[Point]:
+        """Return the direction d with J d = q for each q, refined once far down the path.
 
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
+        q = _Columns(*(np.stack(parts, axis=-1) for parts in zip(*map(_parts, sides), strict=True)))
         d = self._eliminated(q)
-        return d.moved(1.0, self._eliminated(self._left(q, d))) if self.z.theta < REFINED else d
+        if self.z.theta < REFINED:
+            again = self._eliminated(self._left(q, d))
+            d = _Columns(*(a + b for a, b in zip(d, again, strict=True)))
+        own = zip(*(np.ascontiguousarray(part.T) for part in d), strict=True)
+        return [Point(x, u, float(load_factor), s, y, 0.0) for x, u, load_factor, s, y in own]
 
-    def _eliminated(self, q: Equations) -> Point:
+    def _eliminated(self, q: _Columns) -> _Columns:
+        """Directions x, u, load factor, s and y in place of the right-hand sides of their equations."""
         p, layout = self.path.flow.problem, self.path.layout
         multiplier = q.multiplier + self.fall(q.slack)
         free = self._flexed(q.flow + self.GT @ multiplier)
-        w = layout.solved(self.lu, np.append(q.balance + layout.balance @ free, q.work))
+        w = layout.solved(self.lu, np.concatenate([q.balance + layout.balance @ free, q.work[None]]))
         dx = free + self._flexed(p.C @ w[:-1])
-        fall = layout.per_row(_times(self.slopes, layout.per_interface(dx)))
-        return Point(dx, w[:-1], float(w[-1]), p.F @ dx - q.slack, multiplier - fall, 0.0)
+        fall = layout.per_row(self.slopes @ layout.per_interface(dx))
+        return _Columns(dx, w[:-1], w[-1], p.F @ dx - q.slack, multiplier - fall)
 
-    def _left(self, q: Equations, d: Point) -> Equations:
-        """What a direction leaves of q; slacks and products are exact."""
+    def _left(self, q: _Columns, d: _Columns) -> _Columns:
+        """What directions leave of q; slacks and products are exact."""
         p, layout = self.path.flow.problem, self.path.layout
-        flow = q.flow - self.elastic * d.x + p.C @ d.u + self.GT @ d.y
+        x, u, load_factor, _, y = d
+        flow = q.flow - self.elastic[:, None] * x + p.C @ u + self.GT @ y
         if self.turning is not None:
-            flow -= self.turning @ d.x
-        balance = q.balance + layout.balance @ d.x - d.load_factor * p.live
+            flow -= self.turning @ x
+        balance = q.balance + layout.balance @ x - p.live[:, None] * load_factor
         none = np.zeros_like(q.slack)
-        return Equations(flow, balance, q.work - float(p.live @ d.u), none, none)
+        return _Columns(flow, balance, q.work - p.live @ u, none, none)
 
     def _flexed(self, v: Array) -> Array:
         layout = self.path.layout
-        return layout.per_stress(_times(self.flexibility, layout.per_interface(v)))
+        return layout.per_stress(self.flexibility @ layout.per_interface(v))
 
 
-def _times(blocks: Any, x: Array) -> Array:
-    """Products of matrices (m, r, k) and vectors (m, k)."""
-    return np.asarray((blocks @ x[:, :, None])[:, :, 0])
+class _Columns(NamedTuple):
+    """The parts of :class:`Equations`, or of directions in their place, with a column for each side."""
+
+    flow: Array
+    balance: Array
+    work: Array
+    slack: Array
+    multiplier: Array
+
+
+def _parts(q: Equations) -> tuple[Array | float, ...]:
+    return q.flow, q.balance, q.work, q.slack, q.multiplier
 
 
 def _sign(lu: linalg.SuperLU) -> float:

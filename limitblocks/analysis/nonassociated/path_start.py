@@ -76,5 +76,5 @@ def centred(path: Path) -> tuple[Point | None, int]:
         left = residuals(path, z)
         if k and distance(path, z, left) <= 1.0:
             return z, k
-        z = moved(path, z, 1.0, Newton(path, z).solve(left.negative()))
+        z = moved(path, z, 1.0, Newton(path, z).solve(left.negative())[0])
     return None, ITERATIONS

@@ -24,9 +24,9 @@ from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, ROUNDS, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.pivot import pivoted
-from limitblocks.analysis.polish import defect, polish
+from limitblocks.analysis.polish import defect, polish, polished
 from limitblocks.arrays import Array
-from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.shown import many
@@ -77,7 +77,7 @@ def first_to_solve(
         if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break
     # what solves all equations but gives power comes next
-    state, way = min(met, key=lambda one: left_over(flow, one[0], tolerance))
+    state, way = min(met, key=lambda one: left_over(mcp_residuals(flow, one[0]), tolerance))
     interrupted = how.endswith(INTERRUPTED) and not way.endswith(INTERRUPTED)
     return state, f"{way}, {INTERRUPTED}" if interrupted else way
 
@@ -150,7 +150,9 @@ def _polished(flow: Flow, state: State, how: str, tolerance: float) -> tuple[Sta
     left = defect(flow, state)
     if how.endswith(INTERRUPTED) or (flow.constant and left > NEAR):
         return state, how
-    return polish(flow, pivoted(flow, state) if flow.constant and left > tolerance else state), how
+    if flow.constant and left > tolerance:
+        return polish(flow, pivoted(flow, state)), how
+    return polished(flow, state, left)[0], how
 
 
 def _in_space(flow: Flow) -> bool:
@@ -228,9 +230,8 @@ def _increments(
         return met[-1], f"{how}, {INTERRUPTED}"
 
 
-def left_over(flow: Flow, state: State, tolerance: float) -> tuple[bool, float]:
+def left_over(left: Residuals, tolerance: float) -> tuple[bool, float]:
     """Whether more than the dissipation is above the tolerance, and the worst residual."""
-    left = mcp_residuals(flow, state)
     return any(one.name != "dissipation" for one in left.above(tolerance)), left.worst.value
 
 
