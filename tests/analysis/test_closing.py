@@ -104,7 +104,7 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
-@pytest.mark.parametrize("stopped, barrier", [(1, "0.2"), (2, "3")])
+@pytest.mark.parametrize(("stopped", "barrier"), [(1, "0.2"), (2, "3")])
 def test_a_large_wall_in_its_plane_has_larger_barriers_before_increments(stopped, barrier, monkeypatch):
     def never(*_):
         raise AssertionError("increments cost too much")

@@ -49,9 +49,9 @@ LARGE_MEANS = (
     Means(Barrier(0.2, 2.0), 2, 800),
     Means(Barrier(30.0, 2.0), 2, 600),
 )
-# In a plane: walls of 690 to 1,511 blocks take 300 to 600 factorisations with a barrier of 0.2, ten times their
-# bounds; with a small one they are not closed after 2,500, and increments take 35 times the bounds. Walls of
-# 1,388 and 2,000 are not closed with 0.2: patience gives it up after 400, and the larger barrier closes them.
+# In a plane: walls of 690 to 1,511 blocks take 300 to 600 factorisations with a barrier of 0.2, ten times
+# their bounds; with a small one they are not closed after 2,500, and increments take 35 times the bounds.
+# Walls of 1,388 and 2,000 are not closed with 0.2: patience gives it up after 400, the larger barrier closes.
 LARGE_PLANAR_MEANS = (
     Means(Barrier(), 1, 100),
     Means(Barrier(0.2, 2.0), 2, 1500, 300),
