@@ -104,17 +104,18 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
-def test_a_large_wall_in_its_plane_has_a_larger_barrier_before_increments(monkeypatch):
+@pytest.mark.parametrize(("stopped", "barrier"), [(1, "0.2"), (2, "3")])
+def test_a_large_wall_in_its_plane_has_larger_barriers_before_increments(stopped, barrier, monkeypatch):
     def never(*_):
         raise AssertionError("increments cost too much")
 
-    stopped = LARGE_PLANAR_MEANS[0]._replace(budget=1)
+    means = tuple(one._replace(budget=1) for one in LARGE_PLANAR_MEANS[:stopped])
     monkeypatch.setattr(ways, "LARGE_IN_PLANE", 10)
-    monkeypatch.setattr(ways, "LARGE_PLANAR_MEANS", (stopped, *LARGE_PLANAR_MEANS[1:]))
+    monkeypatch.setattr(ways, "LARGE_PLANAR_MEANS", (*means, *LARGE_PLANAR_MEANS[stopped:]))
     monkeypatch.setattr(ways, "_increments", never)
     model = lb.structures.wall(lb.PointContact(0.6), length=2.4, courses=6)
     found = lb.nonassociated(model)
-    assert found.how.startswith("tracked path, barrier 0.2")
+    assert found.how.startswith(f"tracked path, barrier {barrier} ")
     assert lb.check_mcp(model, found).passed
 
 

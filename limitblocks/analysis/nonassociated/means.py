@@ -49,9 +49,14 @@ LARGE_MEANS = (
     Means(Barrier(0.2, 2.0), 2, 800),
     Means(Barrier(30.0, 2.0), 2, 600),
 )
-# In a plane: a wall of 1,008 blocks takes 600 factorisations with a barrier of 0.2, ten times its bounds;
-# with a small one it is not closed after 2,500, and increments take 35 times the bounds.
-LARGE_PLANAR_MEANS = (Means(Barrier(), 1, 100), Means(Barrier(0.2, 2.0), 2, 1500))
+# In a plane: walls of 690 to 1,511 blocks take 300 to 600 factorisations with a barrier of 0.2, ten times
+# their bounds; with a small one they are not closed after 2,500, and increments take 35 times the bounds.
+# Walls of 1,388 and 2,000 are not closed with 0.2: patience gives it up after 400, the larger barrier closes.
+LARGE_PLANAR_MEANS = (
+    Means(Barrier(), 1, 100),
+    Means(Barrier(0.2, 2.0), 2, 1500, 300),
+    Means(Barrier(3.0, 2.0, LOW), 1, 1500),
+)
 # With a flow that can give power, from the solution that twists about the centroid: a solution that gives
 # power at an interface is none, and another seed leads to another one.
 TURNED_MEANS = tuple(
