@@ -119,7 +119,7 @@ def rounded_down(ratio: float) -> str:
 
 
 def cut(value: float, digits: int = 4) -> str:
-    """Return a load factor or displacement as text, the first of the seven digits of the tables: never rounded up."""
+    """Return a load factor or displacement as text: the first of the seven digits of tables, never more."""
     first = Decimal(f"{value:.7g}")
     return f"{float(Context(prec=digits, rounding=ROUND_DOWN).plus(first)):#.{digits}g}"
 
