@@ -88,13 +88,17 @@ def capacity_curve(
     first = nonassociated(model)
     point = _control(model, first, control)
     points, ended = [], ""
-    for one in _curve(model, first, point, steps, largest):
-        if isinstance(one, str):
-            ended = one
-            break
-        points.append(one)
-        if progress:
-            progress(one)
+    try:
+        for one in _curve(model, first, point, steps, largest):
+            if isinstance(one, str):
+                ended = one
+                break
+            points.append(one)
+            if progress:
+                progress(one)
+    except KeyboardInterrupt:
+        points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
+        ended = f"interrupted beyond {points[-1].displacement:.6g} m"
     zero = None if ended else points[-2 if points[-1].snapped else -1].displacement
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
 
@@ -140,8 +144,8 @@ def _ahead(
     assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
-    most, least = SECANT, min(EVENT * assembly.size, SMALLEST * step)
-    least = step if step <= JUMP * assembly.size else least
+    share = 1.0 if step <= JUMP * assembly.size else SMALLEST
+    most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)

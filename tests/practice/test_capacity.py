@@ -1,5 +1,6 @@
 """Capacity curves: closed forms at finite displacement, what moves with the blocks, negative controls."""
 
+import importlib
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
+from limitblocks.evidence.ending import Status
 from limitblocks.loads import added_mass, pressure
 from limitblocks.practice import (
     CapacityPoint,
@@ -278,6 +280,28 @@ def test_a_curve_whose_end_is_not_solved_ends_on_the_safe_side_of_its_zero(monke
         assert "no checked answer beyond" in curve.ended
     else:
         assert exact - 1e-6 * assembly_of(model).size <= curve.zero < exact
+
+
+@pytest.mark.parametrize("within", [False, True])
+def test_an_interrupted_curve_keeps_its_points(monkeypatch, within):
+    """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""
+    model, solve, calls = lb.structures.block(JOINTS[0], width=B, height=H), lb.nonassociated, []
+
+    def stopped(model):
+        calls.append(model)
+        if len(calls) < 2:
+            return solve(model)
+        if not within:
+            raise KeyboardInterrupt
+        state = replace(solve(model), status=Status.INTERRUPTED)
+        raise lb.errors.NotConverged("interrupted", state)
+
+    monkeypatch.setattr(importlib.import_module("limitblocks.practice.answered"), "nonassociated", stopped)
+    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
+    assert len(calls) == 2
+    assert len(curve.points) == 2
+    assert curve.zero is None
+    assert curve.ended == f"interrupted beyond {curve.points[1].displacement:.6g} m"
 
 
 @pytest.mark.parametrize(("away", "gamma"), [(1.0, 1.0), (9.0, 1.0), (9.0, 1.2)])
