@@ -31,7 +31,9 @@ def check_section(_model: Model, check: Check) -> Section:
         ),
         checks=checks_of(check.residuals, check.tolerance),
         tolerance=check.tolerance,
-        warnings=check.remarks + (far(check.backward_error) if check.passed else ()) + loose(check.tolerance),
+        warnings=check.remarks
+        + (far(check.backward_error) if check.passed else ())
+        + loose(check.tolerance, check.usual),
     )
 
 

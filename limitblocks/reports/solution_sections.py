@@ -7,10 +7,10 @@ from math import isfinite
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.claims import USUAL_OF_BOUNDS
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
@@ -46,7 +46,7 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         checks=checks_of(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
-        warnings=loose(bounds.tolerance, USUAL_OF_BOUNDS),
+        warnings=loose(bounds.tolerance, OF_BOUNDS),
         upper=bounds.lower,
         compared=(("Associated", f"{bounds.lower:#.7g}", ASSOCIATED),),
     )
