@@ -12,7 +12,7 @@ AUTHOR, TITLE, PROJECT = "A. Engineer", "Pier at the mill", "Mill bridge 7"
 FRICTION, WIDTH, HEIGHT, DEMAND = 0.6, 0.5, 1.0, 0.4
 EXPECTED = min(FRICTION, WIDTH / HEIGHT)  # it rocks about its lower edge before it slides
 FACES = ((1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4))
-VERDICT = "the load factor 0.5 is 1.25 times the demand 0.4: the demand is reached"
+VERDICT = "the load factor 0.5000 is 1.25 times the demand 0.4: the demand is reached"
 
 
 def box(name, low, high, first):

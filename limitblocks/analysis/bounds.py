@@ -35,11 +35,17 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.proof import Proof
-from limitblocks.evidence.residuals import Residual, Residuals, bounds_residuals, nearest, static_residuals
+from limitblocks.evidence.residuals import (
+    OF_BOUNDS,
+    Residual,
+    Residuals,
+    bounds_residuals,
+    nearest,
+    static_residuals,
+)
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-TOLERANCE = 1e-6  # largest residual, gap and worth of a pair of bounds
 UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
@@ -69,7 +75,7 @@ class Pair:
 
 
 @one_thread
-def bounds(model: Model, *, tolerance: float = TOLERANCE, progress: Tell | None = None) -> Bounds:
+def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None = None) -> Bounds:
     """Return the static (lower) and the kinematic (upper) bound on the associated load factor.
 
     Parameters

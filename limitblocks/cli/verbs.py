@@ -20,6 +20,7 @@ from limitblocks.cli.options import (
     Force,
     Mechanisms,
     ModelFile,
+    OwnTolerance,
     Paths,
     ResultFile,
     Seconds,
@@ -112,7 +113,7 @@ def load_factor_range(
 def check(
     model: ModelFile,
     result: ClaimFile,
-    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    tolerance: OwnTolerance = None,
     backward_error: BackwardLimit = None,
     as_json: AsJson = False,
 ) -> None:

@@ -16,6 +16,7 @@ from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.proof import proof_of
 from limitblocks.evidence.residuals import (
+    OF_BOUNDS,
     TOLERANCE,
     Residual,
     Residuals,
@@ -73,6 +74,11 @@ class Check(Result):
         return self.passed or within(self.backward_error, self.residuals, self.tolerance, self.limit)
 
     @property
+    def usual(self) -> float:
+        """Tolerance unless another is asked for: that of bounds where both bounds were judged."""
+        return OF_BOUNDS if any(entry.name == "gap" for entry in self.residuals.entries) else TOLERANCE
+
+    @property
     def worst(self) -> Residual:
         """The largest residual."""
         return self.residuals.worst
@@ -115,7 +121,7 @@ class Check(Result):
         return f"check {word}: {worst}, {self.backward_error}{source}{said}{self._as_read}"
 
 
-def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward_error: Any = None) -> Check:
+def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_error: Any = None) -> Check:
     """Check a claimed solution residual by residual, Eqs (54)-(59).
 
     Residuals are dimensionless: every block is measured by what acts on it, every interface by its own
@@ -129,8 +135,9 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward
         The structure.
     result : Claim, or any result of limitblocks
         What is claimed, with the flow rule that it names; bounds are judged by the associated flow.
-    tolerance : float
-        Largest residual of a solution, positive and finite.
+    tolerance : float, optional
+        Largest residual of a solution, positive and finite; left out, that of the analysis: 1e-6 of bounds,
+        else 1e-8.
     backward_error : float, optional
         Largest change of the model for which the claim may be exact instead, such as 1e-4; see
         :class:`limitblocks.evidence.backward_error.BackwardError`. Without it only the tolerance counts.
@@ -142,8 +149,8 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward
         tolerance is out of range.
     """
     checked_model(model)
-    least = real_number("tolerance", tolerance)
-    if not least > 0.0:
+    least = None if tolerance is None else real_number("tolerance", tolerance)
+    if least is not None and not least > 0.0:
         raise ModelError(f"tolerance is {tolerance!r}, expected a number above 0, such as {TOLERANCE:g}")
     limit = checked_limit(backward_error)
     claim = claim_of(model, result)
@@ -151,11 +158,12 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = TOLERANCE, backward
         return _checked(model, claim, least, limit)
 
 
-def _checked(model: Model, claim: Claim, tolerance: float, limit: float | None) -> Check:
+def _checked(model: Model, claim: Claim, least: float | None, limit: float | None) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, mechanism_found = _state(model, flow, claim)
     bounds = claim.upper is not None and flow.associated
+    tolerance = least or (OF_BOUNDS if bounds else TOLERANCE)
     judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
     entries = (*judged.entries, _standing(problem, claim))
     error = backward_error(flow, state)

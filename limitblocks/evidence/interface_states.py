@@ -145,10 +145,11 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     dq = _strain_rates(model, collapse.displacement_rates, axes, centroid)
     least = MOVING * _largest(model, collapse.displacement_rates)
     modes = _active_modes(problem, collapse.flow_multipliers, least)
+    states = _states(model.interfaces, dq, e, modes, loaded, least)
     return InterfaceStates(
         names=problem.interfaces,
-        state=_states(model.interfaces, dq, e, modes, loaded, least),
-        active_modes=modes,
+        state=states,
+        active_modes=_with_largest(problem, collapse.flow_multipliers, modes, states),
         centroid=read_only(centroid),
         strain_rates=read_only(dq),
         stress_resultants=read_only(Q),
@@ -204,6 +205,15 @@ def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tu
     for row in np.flatnonzero(moving).tolist():
         active[problem.row_interface[row]][problem.row_mode[row]] = None
     return tuple(tuple(modes) for modes in active)
+
+
+def _with_largest(
+    problem: LimitProblem, multipliers: Array, modes: tuple[tuple[Mode, ...], ...], states: tuple[str, ...]
+) -> tuple[tuple[Mode, ...], ...]:
+    """Modes; where none is and the corners are just seen to move, that of the largest multiplier."""
+    rows = np.argsort(np.abs(multipliers), kind="stable")
+    largest = {problem.row_interface[row]: (problem.row_mode[row],) for row in rows if multipliers[row]}
+    return tuple(own or largest.get(k, ()) * (states[k] != "stick") for k, own in enumerate(modes))
 
 
 def _states(

@@ -16,6 +16,7 @@ from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.shown import many
 
+OF_BOUNDS = 1e-6  # largest residual, gap and worth of a pair of bounds
 TOLERANCE = 1e-8  # largest residual of an answer
 
 POWER = "the power of the interface's own force on it over that of the live load"

@@ -69,9 +69,9 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
         made = _made(data)
         kind = kind_of(made)
         if kind and not kind.document:  # no claimed solution
-            _refuse_other(model, made.digest)
+            _refuse_other(model, made.digest, data.get("versions"))
             return made
-        claim = _claim(_document(text, data), model)
+        claim = _claim(_document(text, data), model, data.get("versions"))
         return claim if made is None else made
 
 
@@ -107,9 +107,18 @@ def _made(data: Any) -> Any:
         return None
 
 
-def _refuse_other(model: Model | None, digest: str) -> None:
+def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
     if model and digest and digest != model.digest:
-        raise ModelError(f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
+        said = f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}"
+        saved, own = (
+            stated.get("limitblocks") if isinstance(stated, dict) else None,
+            versions()["limitblocks"],
+        )
+        if saved:
+            said += f"; it was saved by limitblocks {saved}, this is limitblocks {own}"
+        if saved and saved != own:
+            said += ", which may know the same model by another digest: analyse it again"
+        raise ModelError(said)
 
 
 def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
@@ -122,9 +131,9 @@ def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
     return found
 
 
-def _claim(document: ResultDocument | BoundsDocument, model: Model | None) -> Claim:
+def _claim(document: ResultDocument | BoundsDocument, model: Model | None, stated: Any) -> Claim:
     digest = document.model_digest
-    _refuse_other(model, digest)
+    _refuse_other(model, digest, stated)
     wrong = faults.Faults()
     interfaces = [interface.name for interface in model.interfaces] if model else None
     resultants = wrong.made("stress_resultants", _rows, document.stress_resultants, interfaces)

@@ -35,7 +35,7 @@ GROWTH = 10.0  # of a step over the one before where the load factor rises
 MOST = 50  # points a step asked for: a curve that snaps on and on has no end
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next one, the least and those after
-JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero
+JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero, or is lost
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
@@ -127,6 +127,8 @@ def _curve(
         next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
+        if isinstance(found, str) and _to_zero(before, point) <= JUMP * assembly.size:
+            return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
             yield found if isinstance(found, str) else stopped(point.displacement)
             return
@@ -139,6 +141,7 @@ def _ahead(
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
     """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
     most, least = SECANT, min(EVENT * assembly.size, SMALLEST * step)
+    least = step if step <= JUMP * assembly.size else least
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
@@ -162,13 +165,19 @@ def _next_step(
     before, point = last
     if before is None or point.snapped:
         return FIRST * assembly.size
-    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
-    last_step = abs(point.displacement - before.displacement)
-    if not slope > 0.0:  # it may rise at first
+    last_step, ahead = abs(point.displacement - before.displacement), _to_zero(before, point)
+    if ahead == np.inf:  # it may rise at first
         return GROWTH * last_step
-    ahead = point.load_factor / slope
     whole = (point.displacement + ahead) / steps
     return ahead if ahead <= 1.5 * whole or ahead <= last_step else whole
+
+
+def _to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
+    """How far ahead the secant of two points is zero, m; infinite where they do not fall to it."""
+    if before is None or point.snapped:
+        return np.inf
+    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
+    return point.load_factor / slope if slope > 0.0 else np.inf
 
 
 def _advanced(

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from limitblocks.model import Model
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import as_acceleration, rounded_down
+from limitblocks.reports.words import as_acceleration, cut, rounded_down
 
 CERTIFIED = (
     "Stresses, mechanism and multipliers that satisfy equilibrium, yield, flow rule and complementarity, "
@@ -56,7 +56,7 @@ class Answer:
         """The load factor as text."""
         if self.load_factor is None:
             return "none"
-        return f"{'' if self.certified else '≤ '}{self.load_factor:#.4g}"
+        return f"{'' if self.certified else '≤ '}{cut(self.load_factor)}"
 
     def quantity(self, model: Model) -> str:
         """What the number is, in words."""
@@ -96,7 +96,7 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
         return None
     ratio = found.load_factor / demand
     word = "load factor" if found.certified else "upper estimate of the load factor"
-    said = f"the {word} {found.load_factor:.4g} is {rounded_down(ratio)} times the demand {demand:.4g}"
+    said = f"the {word} {cut(found.load_factor)} is {rounded_down(ratio)} times the demand {demand:.4g}"
     if ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:

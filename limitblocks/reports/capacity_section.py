@@ -8,7 +8,7 @@ from limitblocks.practice import CapacityCurve, CapacityPoint
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import some
+from limitblocks.reports.words import cut, some
 
 
 def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
@@ -28,7 +28,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
             "each point is an answer of its own, recomputed without the solver. Slow motion: no impact, no "
             "rebound."
         ),
-        headline=f"{last.displacement:#.4g} m",
+        headline=f"{cut(last.displacement)} m",
         quantity=f"displacement at {ended}",
         values=(
             ("Load factor at rest", f"{first.load_factor:#.7g}", "without dilatancy, the first point"),

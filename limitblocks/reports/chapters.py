@@ -157,7 +157,7 @@ def _model(model: Model, known: dict[str, Any]) -> Chapter:
     given = acceleration(model)
     if given:
         factor, words = given
-        parts.append(Text(f"A load factor of 1 is {words} of {factor:g} g."))
+        parts.append(Text(f"A load factor of 1 of the model's own live load is {words} of {factor:g} g."))
     return Chapter("Model", tuple(parts))
 
 

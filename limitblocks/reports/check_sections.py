@@ -11,7 +11,7 @@ from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.rows import SHOWN, backward, far, loose, number
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import some
+from limitblocks.reports.words import cut, some
 
 
 def check_section(_model: Model, check: Check) -> Section:
@@ -31,7 +31,9 @@ def check_section(_model: Model, check: Check) -> Section:
         ),
         checks=checks_of(check.residuals, check.tolerance),
         tolerance=check.tolerance,
-        warnings=check.remarks + (far(check.backward_error) if check.passed else ()) + loose(check.tolerance),
+        warnings=check.remarks
+        + (far(check.backward_error) if check.passed else ())
+        + loose(check.tolerance, check.usual),
     )
 
 
@@ -44,7 +46,7 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
     return Section(
         title=f"Claimed solution, check {check.headline}",
         meaning=f"A load factor and a state that were read, not computed here. {check.meaning}",
-        headline=f"{claim.load_factor:#.4g}" if claim.check.accepted else "not proven",
+        headline=cut(claim.load_factor) if claim.check.accepted else "not proven",
         quantity="load factor α as claimed",
         values=(
             ("Load factor", number(claim.load_factor), "as claimed"),

@@ -15,12 +15,10 @@ from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
-from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.residuals import OF_BOUNDS, TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.kinds import kind_of, named
 from limitblocks.model import Model
-
-USUAL_OF_BOUNDS = 1e-6  # tolerance of bounds
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +84,7 @@ def checked(model: Model, result: Any) -> Any:
 
 def judged_bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
     """Return bounds that the check has proven again, or the claim of them that it has not."""
-    tolerance = min(bounds.tolerance, USUAL_OF_BOUNDS)
+    tolerance = min(bounds.tolerance, OF_BOUNDS)
     check = check_mcp(model, bounds, tolerance=tolerance)
     if not check.passed:
         return CheckedClaim(claim_of(model, bounds), check)

@@ -9,7 +9,7 @@ from limitblocks.practice import SettlementCurve
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
-from limitblocks.reports.words import kilonewtons, some
+from limitblocks.reports.words import cut, kilonewtons, some
 
 FOLLOWING = (
     "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
@@ -34,7 +34,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
             "own, recomputed without the solver. Where no stresses within yield carry the dead loads any "
             "more, it falls (static theorem). Slow motion: no impact."
         ),
-        headline=f"{curve.stands_to:#.4g} m",
+        headline=f"{cut(curve.stands_to)} m",
         quantity="settlement up to which it stands" + (", then it falls" if fallen else ""),
         values=(
             ("Stands up to", f"{curve.stands_to:#.7g} m", "no joint presses across a gap"),

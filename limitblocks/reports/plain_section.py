@@ -9,6 +9,7 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import cut
 
 _LEFT_OUT = ("analysis", "model_digest", "tolerance")
 
@@ -27,7 +28,7 @@ def plain_section(_model: Model, result: Any) -> Section:
     return Section(
         title=getattr(result, "title", word.capitalize()),
         meaning=getattr(result, "meaning", str(result)),
-        headline=word if factor is None else f"{factor:#.4g}",
+        headline=word if factor is None else cut(factor),
         quantity=str(result) if factor is None else "load factor α",
         values=tuple(_values(said)),
         checks=checks_of(residuals, tolerance) if residuals else (),

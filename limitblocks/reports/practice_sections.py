@@ -13,7 +13,7 @@ from limitblocks.practice import Repair, Settlement, WorstPosition
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
-from limitblocks.reports.words import kilonewtons
+from limitblocks.reports.words import cut, kilonewtons
 
 SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
@@ -99,7 +99,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
     order = np.argsort(found.positions)
     x, factors = found.positions[order], found.load_factors[order]
     rows = [
-        (f"{a:.3f}", f"{b:#.4g}" if np.isfinite(b) else "unlimited", "worst" if a == found.position else "")
+        (f"{a:.3f}", cut(b) if np.isfinite(b) else "unlimited", "worst" if a == found.position else "")
         for a, b in zip(x.tolist(), factors.tolist(), strict=True)
     ]
     picture = mechanism_picture(found.model, found.bounds.displacement_rates)
@@ -117,7 +117,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             "the model's own live load; the fill disperses the axles. The least one is found by a search "
             "between the worst positions, a local minimum."
         ),
-        headline=f"{found.bounds.lower:#.4g}",
+        headline=cut(found.bounds.lower),
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
         values=(
             *_vehicle_rows(found),

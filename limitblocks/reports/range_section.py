@@ -9,6 +9,7 @@ from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import limits
 from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.words import cut
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
@@ -35,7 +36,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
     return Section(
         title="Range of load factors",
         meaning=MEANING,
-        headline=f"{result.load_path.load_factor:#.4g}" if result.load_path else "none",
+        headline=cut(result.load_path.load_factor) if result.load_path else "none",
         quantity="load factor α of the load path",
         values=(
             ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),

@@ -7,15 +7,15 @@ from math import isfinite
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
+from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.claims import USUAL_OF_BOUNDS
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import some
+from limitblocks.reports.words import cut, some
 from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
@@ -36,7 +36,7 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
             "where they agree, both are proven for the yield surface below. Real joints dilate less: their "
             "load factor is at most this one and can be smaller."
         ),
-        headline=f"{bounds.lower:#.4g}",
+        headline=cut(bounds.lower),
         values=(
             ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
             ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
@@ -46,7 +46,7 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         checks=checks_of(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
-        warnings=loose(bounds.tolerance, USUAL_OF_BOUNDS),
+        warnings=loose(bounds.tolerance, OF_BOUNDS),
         upper=bounds.lower,
         compared=(("Associated", f"{bounds.lower:#.7g}", ASSOCIATED),),
     )
@@ -63,7 +63,7 @@ def nonassociated_section(_model: Model, result: Nonassociated) -> Section:
             f"Joints that slide or twist {flow}. Stresses, mechanism and multipliers {proven} equilibrium, "
             "yield, flow rule and complementarity, Eqs (54)-(59), at this load factor."
         ),
-        headline=f"{result.load_factor:#.4g}",
+        headline=cut(result.load_factor),
         values=(
             ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, within the next two"),
             *limits(result),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
+from decimal import ROUND_DOWN, Context, Decimal
 from inspect import getdoc
 from math import floor, log10
 from typing import Any
@@ -78,7 +79,7 @@ def as_acceleration(model: Model, load_factor: float) -> str:
     if known is None:
         return ""
     size = known[0] * load_factor
-    return f"{known[1]} of {size:#.4g} g = {size * gravity:#.4g} m/s²"
+    return f"{known[1]} of {cut(size)} g = {cut(size * gravity)} m/s²"
 
 
 def counted(words: Iterable[str]) -> dict[str, int]:
@@ -115,6 +116,12 @@ def rounded_down(ratio: float) -> str:
     digits = 2 - floor(log10(abs(ratio))) if ratio else 2
     scale = 10.0**digits
     return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
+
+
+def cut(value: float, digits: int = 4) -> str:
+    """Return a load factor or displacement as text: the first of the seven digits of tables, never more."""
+    first = Decimal(f"{value:.7g}")
+    return f"{float(Context(prec=digits, rounding=ROUND_DOWN).plus(first)):#.{digits}g}"
 
 
 def kilonewtons(force: float) -> str:

@@ -61,8 +61,10 @@ class Threshold(Saved):
 
     def __str__(self) -> str:
         beside = f" with load factor {self.load_factor:g}" if self.load_factor else ""
+        size, width = max(map(abs, self.bracket)), abs(self.falls - self.stands)
+        digits = max(6, int(np.ceil(np.log10(size / width))) + 2)  # two of the width: the ends are told apart
         return (
-            f"{self.parameter} {self.stands:.6g} stands, {self.falls:.6g} falls{beside} "
+            f"{self.parameter} {self.stands:.{digits}g} stands, {self.falls:.{digits}g} falls{beside} "
             f"({len(self.trials)} trials)"
         )
 

@@ -12,8 +12,7 @@ from scipy.linalg import null_space
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import programs, scales
-from limitblocks.analysis.bounds import TOLERANCE
-from limitblocks.evidence.residuals import bounds_residuals, worth_of_violations
+from limitblocks.evidence.residuals import OF_BOUNDS, bounds_residuals, worth_of_violations
 from limitblocks.problem import ASSOCIATED, Flow, State
 
 STATIC, KINEMATIC = {"equilibrium", "yield"}, {"flow", "normalisation", "multipliers", "power"}
@@ -34,7 +33,7 @@ def solved(request):
 
 
 def caught(flow, state, upper):
-    return {entry.name for entry in bounds_residuals(flow, state, upper).above(TOLERANCE)}
+    return {entry.name for entry in bounds_residuals(flow, state, upper).above(OF_BOUNDS)}
 
 
 def test_the_result_itself_passes(solved):
@@ -215,7 +214,7 @@ def test_bounds_of_a_small_load_factor():
     """Mirrored, an arch has the same load factor; both pass the default tolerance."""
     model = small_load_factor()
     there, back = lb.bounds(model), lb.bounds(replace(model, live=model.live * -1.0))
-    assert there.residuals.worst.value <= TOLERANCE
+    assert there.residuals.worst.value <= OF_BOUNDS
     assert there.lower == pytest.approx(back.upper, rel=1e-6)
     assert there.lower <= there.upper * (1 + 1e-7)
 

@@ -104,6 +104,17 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
+def test_the_last_path_of_a_large_model_keeps_more_compliance(monkeypatch):
+    """It closes what the others leave open: here they are stopped, and rounds close nothing."""
+    means = tuple(one._replace(budget=1) for one in LARGE_MEANS[:-1])
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (*means, LARGE_MEANS[-1]))
+    monkeypatch.setattr(ways, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
+    found = lb.nonassociated(corner())
+    assert found.how.startswith("tracked path, barrier 3 (large barrier), power 2, seed 2")
+    assert lb.check_mcp(corner(), found).passed
+
+
 @pytest.mark.parametrize(("stopped", "barrier"), [(1, "0.2"), (2, "3")])
 def test_a_large_wall_in_its_plane_has_larger_barriers_before_increments(stopped, barrier, monkeypatch):
     def never(*_):

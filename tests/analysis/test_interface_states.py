@@ -55,6 +55,24 @@ def test_low_block_slides_with_its_weight_off_the_middle(joint, analysis):
     assert np.isclose(found.strain_rates[0, 2] * block.weight, lift, atol=1e-4)
 
 
+def test_a_twist_that_is_just_seen_has_its_mode():
+    """At a corner 1.2e-3 of the fastest block, by a multiplier of .65e-3 of it; one that sticks has none."""
+    blocks = [GROUND, stone("fast", at=(-1, 0, 0.5)), stone("twists", at=(1, 0, 0.5))]
+    model = model_of(blocks, lb.OrdunaLourenco(0.5), lb.mass_proportional((1, 0, 0)))
+    found, problem = lb.nonassociated(model), model.problem
+    y, rates = np.zeros(len(problem.g)), np.zeros((3, 6))
+    rates[1, 0], rates[2, 5] = 1.0, 1.2e-3 / np.sqrt(0.5)
+    k = [interface.name for interface in model.interfaces].index("ground|twists")
+    own = [row for row in np.flatnonzero(problem.row_interface == k) if problem.row_mode[row] == "slip-twist"]
+    y[own[0]] = 0.65e-3
+    claimed = dataclasses.replace(found, displacement_rates=rates, flow_multipliers=y)
+    states = interface_states(model, claimed)
+    assert states.state[k] == "twist"
+    assert states.active_modes[k] == ("slip-twist",)
+    still = dataclasses.replace(claimed, displacement_rates=np.zeros((3, 6)) + rates * [[0], [1], [0]])
+    assert interface_states(model, still).active_modes[k] == ()
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 def test_unmoved_joint_below_a_sliding_block_uses_half_its_friction(joint):
     blocks = [GROUND, stone("low", (3, 3, 0.2), (0, 0, 0.1)), stone("top", (3, 3, 0.2), (0, 0, 0.3))]

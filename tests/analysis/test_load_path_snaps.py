@@ -120,6 +120,14 @@ def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
     assert not path.collapse.converged
 
 
+def test_a_lintel_whose_end_the_polish_leaves_open_is_closed_by_pivots():
+    """Which rows yield at a joint that carries next to nothing is not plain: the flow stays at 1e-4."""
+    model = lb.structures.eccentric_lintel(lb.OrdunaLourenco(0.6), eccentricity=0.1, direction=(1, 0, 0))
+    path = lb.load_path(model, settings=lb.settings.Settings(growth=2.0))
+    assert path.collapse.residuals.worst.value <= 1e-8
+    assert path.collapse.frictionless <= path.load_factor <= path.collapse.associated
+
+
 def test_folds_are_where_the_displacement_turns():
     def visit(tau, forward=True):
         return Visit(None, 1.0 / tau, 0.0, forward)

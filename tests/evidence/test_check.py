@@ -50,6 +50,19 @@ def test_the_closed_form_passes(model, claim):
     check.require()
 
 
+def test_bounds_are_judged_by_their_own_tolerance():
+    """A block that rocks at b / h, its upper bound raised by 1e-7: within 1e-6, not within 1e-8."""
+    rocking = lb.structures.block(lb.PointContact(0.6), width=0.2, height=1.0)
+    bounds = lb.bounds(rocking)
+    wide = replace(bounds, upper=bounds.upper * (1 + 1e-7), proof=replace(bounds.proof, static="not asked"))
+    check = check_mcp(rocking, wide)
+    assert check.passed
+    assert 0.9e-7 < check.worst.value < 1.1e-7
+    assert check.tolerance == check.usual == 1e-6
+    assert not check_mcp(rocking, wide, tolerance=1e-8).passed
+    assert check_mcp(rocking, lb.nonassociated(rocking)).tolerance == 1e-8
+
+
 def test_a_mechanism_is_found_for_the_stress_state_alone(model, claim):
     check = check_mcp(model, replace(claim, displacement_rates=None))
     assert check.mechanism_found

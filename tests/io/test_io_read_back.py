@@ -163,5 +163,8 @@ def test_files_without_the_new_keys_are_read(tmp_path):
 def test_result_of_another_model_is_refused(tmp_path):
     other = lb.structures.block(lb.PointContact(0.4), width=0.5, height=1.0)
     for kind, saved in SAVED.items():
-        with pytest.raises(lb.ModelError, match="belongs to model"):
-            lb.read_result(saved.save(tmp_path / f"{kind}.json"), other)
+        file = saved.save(tmp_path / f"{kind}.json")
+        with pytest.raises(lb.ModelError, match=f"belongs to model .* saved by .* {lb.__version__}$"):
+            lb.read_result(file, other)
+        with pytest.raises(lb.ModelError, match=r"limitblocks 0\.0\.9, this .*: analyse it again$"):
+            lb.read_result(changed(file, versions={"limitblocks": "0.0.9"}), other)

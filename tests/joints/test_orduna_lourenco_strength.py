@@ -1,6 +1,7 @@
 """Crushing, cohesion and tension on the paper's yield surface, Eqs (39)-(42), Table 6."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,6 +24,8 @@ from rectangles import (
 
 import limitblocks as lb
 from limitblocks.joints.interaction import effective_strength
+
+DOCS = (Path(__file__).parents[2] / "docs/choosing-a-joint.md").read_text(encoding="utf-8")
 
 
 def test_crushing_flow_is_table_6_by_finite_differences_and_by_duality():
@@ -58,6 +61,16 @@ def test_moment_strength_is_the_stress_block(share, f, along):
     moment = joint.strength(interface, (0, 0, 0, *along, 0), (0, 0, -force, 0, 0, 0))
     half = L2 if along[0] else L1
     assert moment == pytest.approx(force * half * (1 - share), abs=1e-9 * f * AREA * half)
+
+
+@pytest.mark.parametrize(("share", "ratio"), [(0.02, 1.131), (0.1, 1.282), (0.5, 1.5)])
+def test_along_a_diagonal_the_stress_block_is_a_triangle(share, ratio):
+    """A corner of legs sqrt(2 share) of the sides carries N, its centroid a third of them inside."""
+    joint, interface = lb.OrdunaLourenco(MU, compressive_strength=1e4), lb.joints.interface(RECTANGLE, None)
+    force = share * 1e4 * AREA
+    off = joint.strength(interface, (0, 0, 0, -force * L2, force * L1, 0), (0, 0, -force, 0, 0, 0))
+    assert off / (1 - 2 * np.sqrt(2 * share) / 3) == pytest.approx(ratio, abs=1e-3)
+    assert f"{ratio - 1:.0%}".removesuffix("%") + " %" in DOCS
 
 
 def test_eq_39_becomes_eq_36_as_the_strength_grows():

@@ -257,6 +257,29 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
     assert 0.15 <= found.displacement < 0.3
 
 
+@pytest.mark.parametrize("lost", [1e-6, 1e-3])
+def test_a_curve_whose_end_is_not_solved_ends_on_the_safe_side_of_its_zero(monkeypatch, lost):
+    """Nothing is solved below 1e-6 of the first load factor, as on a tower: zero within 1e-6 of the size.
+
+    Lost at 1e-3 it is too far from its zero, and has none.
+    """
+    model, whole = lb.structures.block(JOINTS[0], width=B, height=H), capacity.answered
+
+    def answered_above(assembly):
+        if (found := whole(assembly))[3].load_factor - found[1] < lost * B / H:
+            raise lb.SolveError("lost")
+        return found
+
+    monkeypatch.setattr(capacity, "answered", answered_above)
+    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
+    exact = H * np.sin(np.arctan(B / H))
+    if lost > 1e-6:
+        assert curve.zero is None
+        assert "no checked answer beyond" in curve.ended
+    else:
+        assert exact - 1e-6 * assembly_of(model).size <= curve.zero < exact
+
+
 @pytest.mark.parametrize(("away", "gamma"), [(1.0, 1.0), (9.0, 1.0), (9.0, 1.2)])
 def test_prestress_stays_on_the_line_of_its_tie(away, gamma):
     """A tie that yields pulls with its strength whatever of it is prestress: moments about the toe."""

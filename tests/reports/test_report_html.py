@@ -172,6 +172,8 @@ def test_failed_residual_is_told_apart(model, bounds):
     html = lb.report(model, replace(bounds, tolerance=1e-20)).html
     assert 'class="fail">FAIL' in html
     assert "looser than the usual" in lb.report(model, replace(bounds, tolerance=1e-3)).html
+    assert "looser than the usual" not in lb.report(model, lb.check_mcp(model, bounds, tolerance=1e-6)).html
+    assert "looser than the usual" in lb.report(model, lb.check_mcp(model, bounds, tolerance=1e-5)).html
 
 
 @pytest.mark.parametrize(

@@ -55,6 +55,12 @@ def test_ends_of_the_bracket_stand_and_fall():
         lb.bounds(wall(threshold.falls))
 
 
+def test_both_ends_are_told_apart_as_text():
+    found = studies.Threshold("width", 1.0672131, 1.0672124, 1e-6, 0.0, ())
+    assert "width 1.0672131 stands, 1.0672124 falls" in str(found)
+    assert "push 0.3 stands, 0.4 falls" in str(studies.Threshold("push", 0.3, 0.4, 0.1, 0.0, ()))
+
+
 def test_sliding():
     """mu gamma b h = P."""
     mu = 0.3

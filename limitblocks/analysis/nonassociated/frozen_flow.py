@@ -29,7 +29,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.bounds import TOLERANCE, Pair, pair_of_bounds
+from limitblocks.analysis.bounds import Pair, pair_of_bounds
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import Stresses
 from limitblocks.analysis.limit_state import limit_state
@@ -37,6 +37,7 @@ from limitblocks.analysis.scales import scaled
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure, UnlimitedLoad
 from limitblocks.evidence.measure import Measure
+from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Planar
 
@@ -74,14 +75,14 @@ def _round(flow: Flow, x: Array, plane: Planar | None) -> Pair:
     whole = frozen(flow, x)
     at = whole if plane is None else frozen(replace(flow, problem=plane.problem), plane.stresses_of(x))
     found = limit_state(Programs(Stresses(scaled(at), refined=False)), plane)
-    if found is not None and (pair := Pair(whole, *found)).residuals.worst.value <= TOLERANCE:
+    if found is not None and (pair := Pair(whole, *found)).residuals.worst.value <= OF_BOUNDS:
         return pair
-    return pair_of_bounds(whole, x, TOLERANCE)
+    return pair_of_bounds(whole, x, OF_BOUNDS)
 
 
 def unconfirmed(change: float | None) -> tuple[str, ...]:
     """What a reader should know where a round changes the load factor beyond the accuracy of bounds."""
-    if change is None or change <= TOLERANCE:
+    if change is None or change <= OF_BOUNDS:
         return ()
     if np.isinf(change):
         return ("no solver confirms the state as a fixed point of frozen flow",)

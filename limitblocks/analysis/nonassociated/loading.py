@@ -21,11 +21,12 @@ from limitblocks.analysis.nonassociated.increment import (
     faded,
     increment,
 )
-from limitblocks.analysis.nonassociated.path import state_of
+from limitblocks.analysis.nonassociated.path import DEGENERATE, state_of
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
-from limitblocks.analysis.polish import polish
+from limitblocks.analysis.pivot import pivoted
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.problem import Flow, State
@@ -150,7 +151,10 @@ def _proof(flow: Flow, met: Increment) -> Residuals | None:
 
 
 def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
-    """The collapse that an increment ends at, None if it does not."""
-    state, before = polish(flow, state_of(met.end)), met.end.load_factor
+    """The collapse that an increment ends at, None if it does not: polished, else by pivots."""
+    reached, before = state_of(met.end), met.end.load_factor
+    state = polish(flow, reached)
+    if tolerance < defect(flow, state) < DEGENERATE:
+        state = pivoted(flow, reached)
     near = abs(state.load_factor - before) <= DRIFT * max(abs(state.load_factor), abs(before))
-    return state if near and mcp_residuals(flow, state).worst.value <= tolerance else None
+    return state if near and defect(flow, state) <= tolerance else None
