@@ -53,5 +53,6 @@ def solution(program: Conic, settings: Mapping[str, object]) -> clarabel.Default
     cones = [clarabel.ZeroConeT(len(program.b) - K.height)]
     cones += [clarabel.NonnegativeConeT(K.linear)] * (K.linear > 0)
     cones += [cone for count, size in K.second_order for cone in [clarabel.SecondOrderConeT(size)] * count]
-    nothing, A = sparse.csc_matrix((n, n)), sparse.csc_matrix(program.A)
-    return clarabel.DefaultSolver(nothing, program.c, A, program.b, cones, options).solve()
+    W = sparse.csc_matrix((n, n)) if program.W is None else sparse.csc_matrix(sparse.diags_array(program.W))
+    A = sparse.csc_matrix(program.A)
+    return clarabel.DefaultSolver(W, program.c, A, program.b, cones, options).solve()

@@ -21,7 +21,7 @@ from scipy import sparse
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
 from limitblocks.analysis.polish import admissible, defect, polished
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
@@ -63,17 +63,20 @@ def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
 def _step(flow: Flow, now: State, delta: float, largest: int) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
     linear, found = _Linearised(flow, now, delta), None
-    unsure = np.zeros(len(linear.pairs.slack), dtype=bool)
-    for _ in range(WIDENED):
-        if np.count_nonzero(unsure) > largest:
-            return None
-        try:
-            found = linear.solved(unsure)
-        except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
-            return None
-        if found is None or not found.violated.any():
-            break
-        unsure = unsure | found.violated
+    unsure = np.zeros(0, dtype=int)
+    ends = np.zeros((0, 0))
+    try:
+        ends = linear.plain
+        for _ in range(WIDENED):
+            found = linear.solved(unsure, ends)
+            if found is None or not len(found.violated):
+                break
+            unsure = np.append(unsure, found.violated)
+            if len(unsure) > largest:
+                return None
+            ends = np.column_stack([ends, linear.opened(found.violated)])
+    except (RuntimeError, ValueError, np.linalg.LinAlgError):  # singular, or not finite
+        return None
     return None if found is None else admissible(flow.problem.cones, found.state)
 
 
@@ -81,7 +84,7 @@ class _Solved(NamedTuple):
     """The end of a step, and the plain pairs that it violates."""
 
     state: State
-    violated: Mask
+    violated: Indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,54 +107,101 @@ class _Linearised:
         p = self.flow.problem
         return pairs(p.cones, p.F @ self.now.x + p.g, self.sigma * self.now.y)
 
-    def solved(self, unsure: Mask) -> _Solved | None:
-        """The end of the step with these pairs open, and the others as they are."""
-        p, pair, k = self.flow.problem, self.pairs, int(np.count_nonzero(unsure))
-        tight, signed = (pair.signed < 0.0) & ~unsure, pair.signed
-        held = sparse.csr_array(sparse.vstack([pair.rows[tight], pair.across]))
-        ends = self._ends(tight, held, pair.rows[unsure])
-        n, m = p.C.shape
-        F = sparse.csr_array(pair.rows[unsure] @ p.F)
-        q = F @ ends[:n, k] + pair.rows[unsure] @ p.g
-        M = F @ ends[:n, :k] + self.delta * np.eye(k)
-        q = q - self.delta * np.maximum(pair.multiplier[unsure], 0.0)
-        if not np.isfinite(M).all():
+    @cached_property
+    def tight(self) -> Mask:
+        """Pairs held at s = 0; the others are at y = 0."""
+        return self.pairs.signed < 0.0
+
+    @cached_property
+    def held(self) -> sparse.csr_array:
+        """Rows of what is held."""
+        return sparse.csr_array(sparse.vstack([self.pairs.rows[self.tight], self.pairs.across]))
+
+    def solved(self, unsure: Indices, ends: Array) -> _Solved | None:
+        """The end of the step with these pairs open, and the others as they are, from what `opened` gives."""
+        p, pair, tight = self.flow.problem, self.pairs, self.tight
+        n, first = p.C.shape[0], p.C.shape[0] + p.C.shape[1] + 1
+        rows, was_tight = pair.rows[unsure], tight[unsure]
+        # slacks of the pairs that were loose and multipliers of those that were held, by the others
+        table = rows @ (p.F @ ends[:n]) + self.delta * np.eye(len(unsure), ends.shape[1], 1)
+        table[:, 0] += rows @ p.g - self.delta * np.maximum(pair.multiplier[unsure], 0.0)
+        places = first + np.cumsum(tight) - 1
+        table[was_tight] = ends[places[unsure[was_tight]]]
+        if not np.isfinite(table).all():
             return None
-        found = complementary(q, M, np.maximum(signed[unsure], 0.0), np.maximum(-signed[unsure], 0.0))
+        q, M = _exchanged(table, was_tight)
+        signed = pair.signed[unsure]
+        found = complementary(q, M, np.maximum(signed, 0.0), np.maximum(-signed, 0.0))
         if found is None:
             return None
-        end = ends[:, k] + ends[:, :k] @ found[1]
-        y = pair.rows[unsure].T @ found[1] + held.T @ end[n + m + 1 :]
-        state = State(float(end[n + m]), end[:n], end[n : n + m] / self.sigma, y / self.sigma)
+        end = ends @ np.append(1.0, np.where(was_tight, *found))
+        y = rows[~was_tight].T @ found[1][~was_tight] + self.held.T @ end[first:]
+        state = State(float(end[first - 1]), end[:n], end[n : first - 1] / self.sigma, y / self.sigma)
         slack = pair.rows @ (p.F @ state.x + p.g)
         least = -TOLERANCE * max(1.0, float(np.abs(slack).max()))
-        violated = (slack < least) & ~tight & ~unsure
-        violated[np.flatnonzero(tight)[end[n + m + 1 :][: np.count_nonzero(tight)] < least]] = True
-        return _Solved(state, violated)
+        violated = slack < least
+        violated[tight] = end[places[tight]] < least
+        violated[unsure] = False
+        return _Solved(state, np.flatnonzero(violated))
 
-    def _ends(self, tight: Mask, held: sparse.csr_array, unsure: sparse.csr_array) -> Array:
-        """(x, sigma u, load factor, multipliers of what is held) by unit multipliers (k), and without any."""
-        p, now, delta, sigma = self.flow.problem, self.now, self.delta, self.sigma
-        G, live = self.flow.matrix(now.x), sparse.csr_array(p.live[:, None])
-        n = p.C.shape[0]
-        turn = None if self.flow.constant else self.flow.derivative(now.x, sigma * now.y)
-        kappa = np.concatenate([np.zeros(np.count_nonzero(tight)), self.pairs.kappa])
+    @cached_property
+    def plain(self) -> Array:
+        """(x, sigma u, load factor, multipliers of what is held) with every pair as it is, one column."""
+        p, now, sigma = self.flow.problem, self.now, self.sigma
+        multipliers = np.concatenate([self.pairs.multiplier[self.tight], self.pairs.across @ (sigma * now.y)])
+        before = np.concatenate([now.x, sigma * now.u, [now.load_factor], multipliers])
+        known = np.concatenate([np.zeros(len(now.x)), p.dead, [sigma], -(self.held @ p.g)])
+        if self._turn is not None:
+            known[: len(now.x)] += self._turn @ now.x
+        return self._refined((known + self.delta * before)[:, None])
+
+    def opened(self, unsure: Indices) -> Array:
+        """What a unit of slack adds to it for pairs that are held, and a unit multiplier for loose ones."""
+        p, was_tight = self.flow.problem, self.tight[unsure]
+        n, first = p.C.shape[0], p.C.shape[0] + p.C.shape[1] + 1
+        units = np.zeros((first + self.held.shape[0], len(unsure)))
+        units[:n, ~was_tight] = (self._matrix.T @ self.pairs.rows[unsure[~was_tight]].T).toarray()
+        units[first + np.cumsum(self.tight)[unsure[was_tight]] - 1, np.flatnonzero(was_tight)] = 1.0
+        return self._refined(units)
+
+    def _refined(self, right: Array) -> Array:
+        J, lu = self._system
+        ends = lu.solve(right)
+        return np.asarray(ends + lu.solve(right - J @ ends))
+
+    @cached_property
+    def _matrix(self) -> sparse.csr_array:
+        return self.flow.matrix(self.now.x)
+
+    @cached_property
+    def _turn(self) -> sparse.csr_array | None:
+        return None if self.flow.constant else self.flow.derivative(self.now.x, self.sigma * self.now.y)
+
+    @cached_property
+    def _system(self) -> tuple[sparse.csc_array, Any]:
+        """The system of what is held, and its factors."""
+        p, held, live = self.flow.problem, self.held, sparse.csr_array(self.flow.problem.live[:, None])
+        kappa = np.concatenate([np.zeros(np.count_nonzero(self.tight)), self.pairs.kappa])
         blocks: list[list[Any]] = [
-            [turn, -p.C, None, -sparse.csr_array(G.T @ held.T)],
+            [self._turn, -p.C, None, -sparse.csr_array(self._matrix.T @ held.T)],
             [sparse.csr_array(p.C.T), None, -live, None],
             [None, live.T, None, None],
             [sparse.csr_array(held @ p.F), None, None, sparse.diags_array(kappa)],
         ]
         J = sparse.block_array(blocks, format="csc")
-        J = sparse.csc_array(J + delta * sparse.eye_array(J.shape[0]))
-        multipliers = np.concatenate([self.pairs.multiplier[tight], self.pairs.across @ (sigma * now.y)])
-        before = np.concatenate([now.x, sigma * now.u, [now.load_factor], multipliers])
-        known = np.concatenate([np.zeros(n), p.dead, [sigma], -(held @ p.g)])
-        if turn is not None:
-            known[:n] += turn @ now.x
-        units = np.zeros((len(known), unsure.shape[0]))
-        units[:n] = (G.T @ unsure.T).toarray()
-        right = np.column_stack([units, known + delta * before])
-        lu = diagonal_factors(J)
-        ends = lu.solve(right)
-        return np.asarray(ends + lu.solve(right - J @ ends))
+        J = sparse.csc_array(J + self.delta * sparse.eye_array(J.shape[0]))
+        return J, diagonal_factors(J)
+
+
+def _exchanged(table: Array, was_tight: Mask) -> tuple[Array, Array]:
+    """The q and M of s = q + M y from [q, M] with slacks and multipliers of some pairs exchanged."""
+    table = table.copy()
+    on, columns = np.flatnonzero(was_tight), np.flatnonzero(np.append(False, was_tight))
+    back = np.linalg.inv(table[np.ix_(on, columns)])
+    rest = -back @ table[on]
+    rest[:, columns] = back
+    by = table[:, columns].copy()
+    table[:, columns] = 0.0
+    table += by @ rest
+    table[on] = rest
+    return table[:, 0], table[:, 1:]

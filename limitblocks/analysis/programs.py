@@ -87,12 +87,13 @@ class Program:
 
 @dataclass(frozen=True, eq=False)
 class Conic:
-    """A problem as cvxpy compiles it: the least c.v, b - A v zero in its first rows, in K in all others."""
+    """The least c.v + v^T W v / 2 with b - A v zero in its first rows, in K in all others; no W is zero."""
 
     c: Array
     A: sparse.csc_array
     b: Array
     cones: Cones
+    W: Array | None = None
 
 
 def compiled(problem: cp.Problem) -> Conic:

@@ -42,8 +42,7 @@ def displacement_check(
     share, factor, T_0 = SHARES[state], FACTORS[state], place.elastic_period
     d0, a0 = curve.zero * scales[0], curve.load_factors[0] * scales[1]
     d = share * d0
-    order = np.argsort(curve.displacements)  # the last steps go to and fro about the zero
-    there = float(np.interp(share * curve.zero, curve.displacements[order], curve.load_factors[order]))
+    there = _least_at(curve, share * curve.zero)
     elastic = 4.0 * np.pi**2 * d / T_0**2 if T_0 else np.inf
     line, own = min(a0 * (1.0 - share), elastic), min(there * scales[1], elastic)
     periods = [factor * np.pi * float(np.sqrt(d / a)) for a in (line, own)]
@@ -77,3 +76,11 @@ def displacement_check(
         Quantity(f"a_g,{state},d", f"ground acceleration at which the demand is d*_{state}",
                  "from S_De = d*", most, "m/s2", "[C8.7.1.12]"),
     ], compared  # fmt: skip
+
+
+def _least_at(curve: CapacityCurve, displacement: float) -> float:
+    """Least load factor at a displacement before the zero: a curve that snaps may pass there again."""
+    until = len(curve.points) - curve.points[-1].snapped
+    x, y = curve.displacements[:until] - displacement, curve.load_factors[:until]
+    k = np.flatnonzero(x[:-1] * x[1:] <= 0.0)
+    return float((y[k] + (y[k + 1] - y[k]) * x[k] / (x[k] - x[k + 1])).min())

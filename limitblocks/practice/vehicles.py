@@ -64,7 +64,8 @@ class Deck:
         Z of the road, m.
     spread : float
         Horizontal over vertical of the dispersion through the fill along the deck: 0.5 of the usual 2:1 rule.
-        An axle acts on the length ``contact + 2 spread depth`` of the extrados, evenly, straight down.
+        An axle acts on the length ``contact + 2 spread depth`` of the extrados, straight down, as eight equal
+        forces in the middles of its eighths: where a block ends up to a sixteenth counts for its neighbour.
     y : float
         Of the line, m. Across the deck the axle is taken to spread over the whole width.
 

@@ -20,7 +20,9 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
         if filled
         else ()
     )
-    ended = "load factor zero" if curve.zero is not None else "end of the curve"
+    # what snaps through zero has its last point beyond
+    end = last.displacement if curve.zero is None else curve.zero
+    ended = "end of the curve" if curve.zero is None else "load factor zero"
     return Section(
         title="Capacity curve",
         meaning=(
@@ -28,11 +30,11 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
             "each point is an answer of its own, recomputed without the solver. Slow motion: no impact, no "
             "rebound."
         ),
-        headline=f"{cut(last.displacement)} m",
+        headline=f"{cut(end)} m",
         quantity=f"displacement at {ended}",
         values=(
             ("Load factor at rest", f"{first.load_factor:#.7g}", "without dilatancy, the first point"),
-            ("Ends", f"{last.displacement:#.6g} m", curve.ended),
+            ("Ends", f"{end:#.6g} m", curve.ended),
             ("No joint presses across a gap up to", f"{curve.proven_to:#.6g} m", "proven for the geometry"),
             ("Control point", triple(curve.control.point.tolist()), f"m, on {curve.control.block}"),
             ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),

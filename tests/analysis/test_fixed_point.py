@@ -10,21 +10,20 @@ import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.nonassociated import finished
 from limitblocks.analysis.nonassociated.fixed_point import (
-    OSQP,
-    by_cones,
-    by_planes,
     nearest_program,
     permanent_state,
 )
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
+from limitblocks.analysis.programs import in_cone
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, Turning
 from limitblocks.problem.plane import Choice
 
 MU = 0.6
 FERRIS_TIN_LOI = {1: 0.640, 2: 0.563, 3: 0.356, 4: 0.264}  # (2001), zero dilatancy
+CRUSHING = lb.OrdunaLourenco(MU, compressive_strength=3e5)
 JOINTS = [lb.OrdunaLourenco, lb.PointContact]
 
 
@@ -206,23 +205,27 @@ def test_without_cohesion_open_contacts_leave_a_round_without_solution():
 
 
 @pytest.mark.parametrize(
-    "joint", [lb.OrdunaLourenco(MU, slip="paper"), lb.PointContact(MU, cone="inner"), lb.PointContact(0.0)]
+    "joint",
+    [lb.OrdunaLourenco(MU, slip="paper"), lb.PointContact(0.0), lb.PointContact(MU), CRUSHING],
+    ids=repr,
 )
-def test_permanent_state_by_planes_is_that_by_cones(joint):
+def test_permanent_state_is_the_least_norm(joint):
+    """As cvxpy finds it by a solver of its own; no live load is left to help."""
     problem = lb.structures.wall(joint, length=1.2, courses=4, direction=(1.0, 0.0, 0.0)).problem
-    x, expected = by_planes(problem, problem.compliance), by_cones(problem, problem.compliance)
+    x, W = permanent_state(problem, problem.compliance), problem.compliance
     assert problem.C.T @ x == pytest.approx(problem.dead, abs=1e-8)
-    assert (problem.F @ x + problem.g).min() > -1e-8
-    assert x @ (problem.compliance * x) == pytest.approx(expected @ (problem.compliance * expected), rel=1e-7)
-    assert permanent_state(problem, problem.compliance) == pytest.approx(x, abs=1e-9)
+    assert problem.cones.margin(problem.F @ x + problem.g).min() > -1e-8
+    y = cp.Variable(len(x))
+    inside = in_cone(problem.F @ y + problem.g, problem.cones)
+    norm = cp.sum_squares(cp.multiply(np.sqrt(W), y))
+    cp.Problem(cp.Minimize(norm), [problem.C.T @ y == problem.dead, *inside]).solve(cp.SCS, eps=1e-9)
+    assert x @ (W * x) == pytest.approx(norm.value, rel=1e-7)
 
 
-def test_permanent_state_that_does_not_hold_is_refused():
-    problem = lb.structures.wall(
-        lb.PointContact(MU, cone="inner"), length=1.2, courses=4, direction=(1.0, 0.0, 0.0)
-    ).problem
-    rough = OSQP | {"eps_abs": 1e-2, "eps_rel": 1e-2, "polishing": False}
-    assert by_planes(problem, problem.compliance, rough) is None
+def test_no_permanent_state_of_blocks_that_fall_up():
+    problem = lb.structures.wall(lb.PointContact(MU), length=1.2, courses=4).problem
+    assert permanent_state(problem, problem.compliance) is not None
+    assert permanent_state(replace(problem, dead=-problem.dead), problem.compliance) is None
 
 
 def portal(friction, push):

@@ -207,6 +207,18 @@ def test_a_capacity_curve_has_its_points_and_its_drawing(reports):
     assert "displacement of wall along" in " ".join(label.text for label in drawing.sheet.labels)
 
 
+def test_what_snaps_through_zero_ends_before_it_does(facade, answers):
+    """A last point that snapped, wherever it lies, is beyond the zero: it changes no number."""
+    solved, verified, curve, _ = answers
+    for share in (0.4, 3.0):
+        there = replace(curve.points[-1], displacement=share * curve.zero, load_factor=-0.05, snapped=True)
+        beyond = replace(curve, points=(*curve.points, there))
+        (shown,), (expected,) = (lb.report(facade, one).sections for one in (beyond, curve))
+        assert (shown.headline, shown.values[:2]) == (expected.headline, expected.values[:2])
+        again = verification(facade, solved, SITE, q=2.0, confidence=FC, curve=beyond, collapse_demand=SITE)
+        assert [one.value for one in again.quantities] == [one.value for one in verified.quantities]
+
+
 def test_a_repair_lists_its_candidates(reports):
     """The upper tie alone, T z = alpha (sum of P h) - the moments that hold."""
     force = (0.3 * (OWN * H / 2 + FLOOR * H) - OWN * T / 2 - FLOOR * ARM) / 4.5

@@ -19,7 +19,8 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.programs import in_cone
+from limitblocks.analysis.direct import FIXED, solution
+from limitblocks.analysis.programs import Conic, in_cone
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, LimitProblem, State
@@ -33,63 +34,19 @@ SETTINGS = {
     "direct_solve_method": "qdldl",
 }
 
-# Polishing solves the equations of the rows that are active: as accurate as an interior-point method.
-OSQP = {"eps_abs": 1e-7, "eps_rel": 1e-7, "max_iter": 20_000, "polishing": True}
-ACCURATE = 1e-8  # largest violation of the conditions of a minimum that is believed
+# The norm leaves no pivot of a stress without size: little is added to any, and nothing to refine.
+DEAD_LOADS = SETTINGS | {"static_regularization_constant": 1e-12, "iterative_refinement_enable": False}
 
 
 def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses under the dead loads alone of least norm x^T W x; None if the solver finds none.
-
-    Where all rows are planes, OSQP finds them fastest; what it says is believed if the conditions of the
-    minimum hold, recomputed. Otherwise, and for cones, Clarabel.
-    """
-    x = None if problem.cones.second_order else by_planes(problem, weights)
-    return by_cones(problem, weights) if x is None else x
-
-
-def by_planes(problem: LimitProblem, weights: Array, settings: dict[str, Any] = OSQP) -> Array | None:
-    """Stresses of least norm x^T W x by OSQP; None where they are not within ACCURATE of the conditions.
-
-    Equilibrium C^T x = dead, yield F x + g >= 0, W x = C u + F^T y with y >= 0, and y.(F x + g) = 0.
-    """
-    x = cp.Variable(problem.C.shape[0])
-    rows = problem.F @ x + problem.g
-    W = sparse.csc_array(
-        sparse.diags_array(weights)
-    )  # a sum of squares would be given as many variables again
-    program = cp.Problem(
-        cp.Minimize(0.5 * cp.quad_form(x, W, assume_PSD=True)),
-        [problem.dead - problem.C.T @ x == 0, rows >= 0],
-    )
-    values = _values(lambda: program.solve(solver=cp.OSQP, warm_start=False, **settings), x)
-    if values is None:
+    """Stresses under the dead loads of least norm x^T W x, by Clarabel itself; None if it finds none."""
+    A = sparse.csc_array(sparse.vstack([problem.C.T, -problem.F]))
+    program = Conic(np.zeros(len(weights)), A, np.append(problem.dead, problem.g), problem.cones, weights)
+    try:
+        found = solution(program, DEAD_LOADS | FIXED)
+    except (ValueError, ArithmeticError):
         return None
-    u, y = (np.asarray(constraint.dual_value) for constraint in program.constraints)
-    return values[0] if _least(problem, weights, values[0], u, y) <= ACCURATE else None
-
-
-def _least(problem: LimitProblem, weights: Array, x: Array, u: Array, y: Array) -> float:
-    """Largest violation of the conditions of the least norm, over the size of what is compared."""
-    s, force, strain = problem.F @ x + problem.g, np.abs(x).max(), np.abs(weights * x).max()
-    violations = (
-        np.abs(problem.dead - problem.C.T @ x).max() / force,
-        np.maximum(-s, 0.0).max() / force,
-        np.abs(weights * x - problem.C @ u - problem.F.T @ y).max() / strain,
-        np.maximum(-y, 0.0).max() / strain,
-        abs(y @ s) / abs(x @ (weights * x)),
-    )
-    worst = float(np.max(violations))
-    return worst if np.isfinite(worst) else np.inf
-
-
-def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses of least norm x^T W x by Clarabel; None if it finds none."""
-    x = cp.Variable(problem.C.shape[0])
-    norm = cp.sum_squares(cp.multiply(np.sqrt(weights), x))
-    constraints = [problem.C.T @ x == problem.dead, *in_cone(problem.F @ x + problem.g, problem.cones)]
-    values = _minimised(norm, constraints, x)
-    return None if values is None else values[0]
+    return np.array(found.x) if str(found.status) in ("Solved", "AlmostSolved") else None
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:

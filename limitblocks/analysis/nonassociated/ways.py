@@ -145,10 +145,11 @@ def _from_centroid(
 def _polished(flow: Flow, state: State, how: str, tolerance: float) -> tuple[State, str]:
     """The end of a path polished, or closed by pivots where it is near, unless the user stopped it.
 
-    A path of this very flow has tried the polish of an end that is farther off.
+    A path of this very flow has tried the polish of an end that is farther off; what it leaves of one that
+    is near enough takes steps of least norm, which may cost as much as the path.
     """
     left = defect(flow, state)
-    if how.endswith(INTERRUPTED) or (flow.constant and left > NEAR):
+    if how.endswith(INTERRUPTED) or left <= tolerance / 10 or (flow.constant and left > NEAR):
         return state, how
     if flow.constant and left > tolerance:
         return polish(flow, pivoted(flow, state)), how
