@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import logging
+from logging.handlers import BufferingHandler
 from typing import Any
 
 import typer
@@ -34,6 +36,7 @@ from limitblocks.cli.options import (
 from limitblocks.errors import LimitBlocksError
 
 _SUFFIX = ".html"
+MOST = 10**6  # lines kept
 
 
 def info(model: ModelFile, as_json: AsJson = False) -> None:
@@ -43,7 +46,14 @@ def info(model: ModelFile, as_json: AsJson = False) -> None:
         from limitblocks.reports.facts import fact_rows, facts
         from limitblocks.reports.terminal import print_table, print_warnings
 
-        known = facts(read(model))
+        heard, log = BufferingHandler(MOST), logging.getLogger("limitblocks")
+        log.addHandler(heard)  # what reading it says is among the facts, too: said once
+        try:
+            known = facts(read(model))
+        finally:
+            log.removeHandler(heard)
+        said = [record.getMessage() for record in heard.buffer]
+        known["warnings"] = list(dict.fromkeys([*said, *known["warnings"]]))
         if as_json:
             typer.echo(json.dumps(known))
             return

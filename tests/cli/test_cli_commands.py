@@ -81,6 +81,29 @@ def test_info_prints_what_the_file_contains(file):
     assert (known["blocks"], known["interfaces"], known["weight"]) == (2, 1, pytest.approx(40e3))
 
 
+def test_info_says_a_near_miss_once(tmp_path):
+    """Two stones 2 mm apart on one base, whose interfaces the file leaves to be found."""
+    boxes = {"A": [-0.501, 0, 0.5], "B": [0.501, 0, 0.5]}
+    stones = [
+        {"name": name, "box": {"size": [1, 1, 1], "at": at}, "unit_weight": 2e4} for name, at in boxes.items()
+    ]
+    ground = {"name": "base", "box": {"size": [6, 2, 1], "at": [0, 0, -0.5]}}
+    document = {
+        "schema_version": 1,
+        "blocks": [ground, *stones],
+        "supports": ["base"],
+        "joints": {"m": {"type": "PointContact", "friction": 0.6}},
+        "interfaces": {"find": {"joint": "m"}},
+        "dead": [{"type": "SelfWeight"}],
+        "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
+    }
+    file = tmp_path / "near.json"
+    file.write_text(json.dumps(document), encoding="utf-8")
+    words = [sys.executable, "-m", "limitblocks", "info", str(file)]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    assert (done.stdout + done.stderr).count("nearly touch") == 1
+
+
 def test_report_is_written_beside_the_model_and_overwrites_nothing(file):
     result = run("report", file)
     page = file.with_suffix(".html")
