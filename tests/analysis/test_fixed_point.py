@@ -8,13 +8,11 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished
-from limitblocks.analysis.nonassociated.fixed_point import (
-    nearest_program,
-    permanent_state,
-)
+from limitblocks.analysis.nonassociated import finished, least_norm
+from limitblocks.analysis.nonassociated.fixed_point import nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
+from limitblocks.analysis.nonassociated.least_norm import by_cones, by_planes, permanent_state
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
 from limitblocks.analysis.programs import in_cone
 from limitblocks.evidence.residuals import mcp_residuals
@@ -222,8 +220,28 @@ def test_permanent_state_is_the_least_norm(joint):
     assert x @ (W * x) == pytest.approx(norm.value, rel=1e-7)
 
 
-def test_no_permanent_state_of_blocks_that_fall_up():
-    problem = lb.structures.wall(lb.PointContact(MU), length=1.2, courses=4).problem
+@pytest.mark.parametrize(
+    "joint", [lb.OrdunaLourenco(MU, slip="paper"), lb.PointContact(MU, cone="inner"), lb.PointContact(0.0)]
+)
+def test_permanent_state_by_planes_is_that_by_cones(joint):
+    problem = lb.structures.wall(joint, length=1.2, courses=4, direction=(1.0, 0.0, 0.0)).problem
+    W = problem.compliance
+    x, expected = by_planes(problem, W), by_cones(problem, W)
+    assert problem.C.T @ x == pytest.approx(problem.dead, abs=1e-12)
+    assert (problem.F @ x + problem.g).min() > -1e-12
+    assert x @ (W * x) == pytest.approx(expected @ (W * expected), rel=1e-7)
+
+
+def test_permanent_state_that_does_not_hold_is_refused(monkeypatch):
+    problem = lb.structures.wall(lb.PointContact(MU, cone="inner"), length=1.2, courses=4).problem
+    rough = least_norm.OSQP | {"eps_abs": 1e-2, "eps_rel": 1e-2, "polishing": False}
+    monkeypatch.setattr(least_norm, "OSQP", rough)
+    assert by_planes(problem, problem.compliance) is None
+
+
+@pytest.mark.parametrize("cone", ["exact", "inner"])
+def test_no_permanent_state_of_blocks_that_fall_up(cone):
+    problem = lb.structures.wall(lb.PointContact(MU, cone=cone), length=1.2, courses=4).problem
     assert permanent_state(problem, problem.compliance) is not None
     assert permanent_state(replace(problem, dead=-problem.dead), problem.compliance) is None
 

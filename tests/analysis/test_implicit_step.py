@@ -7,7 +7,7 @@ from scipy import sparse
 
 import limitblocks as lb
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
 from limitblocks.problem import Flow
 

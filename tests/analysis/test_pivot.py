@@ -6,7 +6,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis import pivot
 from limitblocks.analysis.nonassociated import path
-from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.means import MEANS
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.pivot import pivoted

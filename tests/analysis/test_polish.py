@@ -6,7 +6,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis import polish as polishing
 from limitblocks.analysis.nonassociated import path as paths
-from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.polish import Kind, classified, defect, polish
 from limitblocks.problem import ASSOCIATED, Cones, Flow, State, Turning

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.loading import pushed
 from limitblocks.analysis.nonassociated.means import MEANS, SOFTENING, Means
 from limitblocks.analysis.nonassociated.path import track

@@ -19,8 +19,7 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.direct import FIXED, solution
-from limitblocks.analysis.programs import Conic, in_cone
+from limitblocks.analysis.programs import in_cone
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, LimitProblem, State
@@ -33,20 +32,6 @@ SETTINGS = {
     "tol_feas": 1e-10,
     "direct_solve_method": "qdldl",
 }
-
-# The norm leaves no pivot of a stress without size: little is added to any, and nothing to refine.
-DEAD_LOADS = SETTINGS | {"static_regularization_constant": 1e-12, "iterative_refinement_enable": False}
-
-
-def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses under the dead loads of least norm x^T W x, by Clarabel itself; None if it finds none."""
-    A = sparse.csc_array(sparse.vstack([problem.C.T, -problem.F]))
-    program = Conic(np.zeros(len(weights)), A, np.append(problem.dead, problem.g), problem.cones, weights)
-    try:
-        found = solution(program, DEAD_LOADS | FIXED)
-    except (ValueError, ArithmeticError):
-        return None
-    return np.array(found.x) if str(found.status) in ("Solved", "AlmostSolved") else None
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.nonassociated.fixed_point import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
