@@ -7,8 +7,8 @@ from scipy import sparse
 
 import limitblocks as lb
 from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.implicit_step import Loading, implicit_step
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.problem import Flow
 
 MU = 0.6

@@ -11,8 +11,8 @@ from limitblocks import structures
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import path as tracking
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import (

@@ -12,8 +12,8 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.means import follow
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.evidence.residuals import mcp_residuals

@@ -17,7 +17,6 @@ from typing import Any
 
 import cvxpy as cp
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.programs import in_cone
 from limitblocks.arrays import Array

@@ -14,8 +14,8 @@ import numpy as np
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.increment import Increment
+from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
