@@ -13,7 +13,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.known import known
-from limitblocks.analysis.nonassociated import fixed_point
+from limitblocks.analysis.nonassociated import least_norm
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.structures.examples import EXAMPLES
@@ -31,8 +31,8 @@ def column(push=(1.0, 0.0, 0.0)):
 
 @pytest.fixture
 def programs(monkeypatch):
-    """Programs that cvxpy, or Clarabel by itself, was asked to solve."""
-    solved, solve, directly, permanent = [], cp.Problem.solve, Programs._solved, fixed_point.solution
+    """Programs that cvxpy, Clarabel or OSQP was asked to solve."""
+    solved, solve, directly, permanent = [], cp.Problem.solve, Programs._solved, least_norm.by_planes
 
     def counted(self, *settings, **named):
         solved.append(self)
@@ -42,12 +42,12 @@ def programs(monkeypatch):
         solved.append(self)
         return directly(self, *numbers)
 
-    def counted_as_well(program, settings):
-        solved.append(program)
-        return permanent(program, settings)
+    def counted_as_well(problem, weights):
+        solved.append(problem)
+        return permanent(problem, weights)
 
     monkeypatch.setattr(cp.Problem, "solve", counted)
-    monkeypatch.setattr(fixed_point, "solution", counted_as_well)
+    monkeypatch.setattr(least_norm, "by_planes", counted_as_well)
     monkeypatch.setattr(Programs, "_solved", counted_too)
     return solved
 
