@@ -14,6 +14,7 @@ from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, f
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.least_norm import by_cones, by_planes, permanent_state
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
+from limitblocks.analysis.nonassociated.start import bracket, own_units
 from limitblocks.analysis.programs import in_cone
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, Turning
@@ -237,6 +238,18 @@ def test_permanent_state_that_does_not_hold_is_refused(monkeypatch):
     rough = least_norm.OSQP | {"eps_abs": 1e-2, "eps_rel": 1e-2, "polishing": False}
     monkeypatch.setattr(least_norm, "OSQP", rough)
     assert by_planes(problem, problem.compliance) is None
+    assert permanent_state(problem, problem.compliance) is not None
+    few = least_norm.CLARABEL | {"max_iter": 5}
+    monkeypatch.setattr(least_norm, "CLARABEL", few)
+    assert permanent_state(problem, problem.compliance) is None
+
+
+def test_permanent_state_of_a_corner_that_takes_refinement():
+    """Without refinement Clarabel ends in insufficient progress."""
+    size = {"length": 2.4, "return_length": 2.4, "courses": 4, "direction": (0.0, 1.0, 0.0)}
+    model = lb.structures.corner(lb.OrdunaLourenco(0.8), **size)
+    problem = own_units(model, bracket(model))
+    assert permanent_state(problem, problem.compliance) is not None
 
 
 @pytest.mark.parametrize("cone", ["exact", "inner"])
