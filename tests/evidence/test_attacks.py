@@ -5,12 +5,12 @@ from attacks import ATTACKS
 from true_claims import TRUE, true
 
 import limitblocks as lb
-from limitblocks.evidence.residuals import TOLERANCE
 
 
 def refused_by(model, claim):
     check = lb.check_mcp(model, claim)
-    assert check.tolerance == TOLERANCE == 1e-8
+    of_bounds = "gap" in {entry.name for entry in check.residuals.entries}
+    assert check.tolerance == (1e-6 if of_bounds else 1e-8)
     return {entry.name for entry in check.residuals.above(check.tolerance)}
 
 

@@ -62,6 +62,7 @@ def _believed(problem: LimitProblem, weights: Array, x: Array, dual: Array) -> A
     return x if violation(problem, weights, x, -dual[:n], -dual[n:]) <= ACCURATE else None
 
 
+@np.errstate(all="ignore")  # a state that ran away is not believed
 def violation(problem: LimitProblem, weights: Array, x: Array, u: Array, y: Array) -> float:
     """Largest violation of the conditions of the least norm, over the size of what is compared.
 
