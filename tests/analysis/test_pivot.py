@@ -14,19 +14,16 @@ from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow, State, Turning
 
 CRUSHING = lb.OrdunaLourenco(0.6, compressive_strength=3e5)
-VAULT = lb.structures.barrel_vault(
-    CRUSHING, radius=1.5, thickness=0.4, length=1.8, courses=7, stones=3, direction=(1.0, 1.0, 0.0)
-)
 LINTEL, LINTEL_CRUSHING = (
-    lb.structures.eccentric_lintel(joint, eccentricity=0.1, direction=(1.0, 0.0, 0.0))
+    lb.structures.eccentric_lintel(joint, eccentricity=0.15, direction=(1.0, 0.0, 0.0))
     for joint in (lb.OrdunaLourenco(0.6), CRUSHING)
 )
 
 
 @pytest.mark.parametrize("pivots", [True, False])
-@pytest.mark.parametrize("model", [VAULT, LINTEL_CRUSHING], ids=["vault", "lintel crushing"])
+@pytest.mark.parametrize("model", [LINTEL, LINTEL_CRUSHING], ids=["lintel", "lintel crushing"])
 def test_the_load_path_is_closed_where_it_is_not_plain_what_yields(model, pivots, monkeypatch):
-    """Without pivots on the way the path leaves 4e-5 and more, too far for those at its end."""
+    """Without pivots on the way the path leaves 3e-5 and more, too far for those at its end."""
     if not pivots:
         monkeypatch.setattr(path, "pivoted", lambda flow, state, **_: state)
     result = lb.nonassociated(model, means=MEANS[:1], confirm=False, throw=False)
