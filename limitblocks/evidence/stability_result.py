@@ -10,13 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
-from limitblocks.evidence.residuals import (
-    Residual,
-    Residuals,
-    largest_of,
-    residual,
-    static_residuals,
-)
+from limitblocks.evidence.residuals import Residual, Residuals, largest_of, residual, static_residuals
 from limitblocks.problem import Flow, State
 from limitblocks.shown import Result
 

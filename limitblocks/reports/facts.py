@@ -12,15 +12,7 @@ from limitblocks.analysis.magnitudes import questions, weightless
 from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
-from limitblocks.reports.words import (
-    assumed,
-    counted,
-    joint_words,
-    load_words,
-    resultant_words,
-    some,
-    times,
-)
+from limitblocks.reports.words import assumed, counted, joint_words, load_words, resultant_words, some, times
 from limitblocks.shown import many
 
 

@@ -11,14 +11,7 @@ from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
-from limitblocks.structures.build import (
-    HORIZONTAL,
-    UNIT_WEIGHT,
-    model_of,
-    prism,
-    refuse,
-    refuse_not_positive,
-)
+from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, model_of, prism, refuse, refuse_not_positive
 from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
 from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
 from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed

@@ -9,13 +9,7 @@ import numpy as np
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.arches import (
-    arch,
-    arch_on_piers,
-    elliptical_arch,
-    pointed_arch,
-    segmental_arch,
-)
+from limitblocks.structures.arches import arch, arch_on_piers, elliptical_arch, pointed_arch, segmental_arch
 from limitblocks.structures.bridges import arch_bridge
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
 from limitblocks.structures.cross_vaults import groin_vault, pavilion_vault
