@@ -7,6 +7,7 @@ docs/nonassociated.md, "The bracket", has the proof.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -68,7 +69,7 @@ def _program(p: LimitProblem, kept: Indices, most: float | None) -> Conic:
         F, g, cones = F[cones.heads], g[cones.heads], Cones(cones.degree)
     capped = [] if most is None else [most]
     first = sparse.csr_array(np.ones((len(capped), 1)))
-    blocks = [[-p.live[:, None], p.C[kept].T], [first, None], [None, -F]]
+    blocks: list[list[Any]] = [[-p.live[:, None], p.C[kept].T], [first, None], [None, -F]]
     A = sparse.csc_array(sparse.block_array(blocks))
     cones = replace(cones, linear=cones.linear + len(capped))
     return Conic(-np.eye(1, A.shape[1])[0], A, np.concatenate([p.dead, capped, g]), cones)
