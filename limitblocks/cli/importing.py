@@ -47,8 +47,7 @@ Angle = Annotated[
     typer.Option(help="Angle between faces that counts as touching, rad [default: by the accuracy of FILE]."),
 ]
 Heal = Annotated[
-    bool,
-    typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
+    bool, typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal.")
 ]
 SkipBad = Annotated[
     bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")

@@ -210,8 +210,7 @@ class Block:
         turn = given.numbers(self.name, "rotation", rotation, (3, 3))
         if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
             given.wrong(
-                self.name,
-                f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed",
+                self.name, f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed"
             )
         shift = given.numbers(self.name, "translation", translation, (3,))
         return replace(self, vertices=self.vertices @ turn.T + shift)

@@ -124,8 +124,7 @@ def test_confirmation_is_an_option_and_only_of_answers():
 
 
 @pytest.mark.parametrize(
-    ("change", "remark"),
-    [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")],
+    ("change", "remark"), [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")]
 )
 def test_an_answer_that_is_not_confirmed_says_so(change, remark, monkeypatch):
     monkeypatch.setattr(finished, "fixed_point_change", lambda *_: change)

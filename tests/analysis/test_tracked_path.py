@@ -146,8 +146,7 @@ def test_pivots_close_what_rounds_leave_open(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("name", "direction", "means"),
-    [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3)],
+    ("name", "direction", "means"), [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3)]
 )
 def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, means):
     model = pushed(name, lb.OrdunaLourenco(0.7), direction)

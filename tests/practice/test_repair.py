@@ -217,10 +217,7 @@ def test_passive_fill_holds_a_block_that_moves_into_it_only():
     outline = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
     points = np.concatenate([np.insert(outline, 1, y, axis=1) for y in (-0.5, 0.5)])
     faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)),
-        lb.Block("wedge", points, faces, 20e3),
-    ]
+    stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
     found = lb.find_interfaces(stones, lb.PointContact(0.2))
     held = 2.0 * 1e3 * (1.5 - 0.5) * 1.0 * 1.0
     for sign, more in ((1.0, held / 10e3), (-1.0, 0.0)):
