@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates

@@ -1,4 +1,4 @@
-"""Ties that a mechanism neither stretches nor shortens: their tension may be any, and the load factor with it."""
+"""Ties that a mechanism neither stretches nor shortens: no equation says what they carry."""
 
 from __future__ import annotations
 
@@ -35,6 +35,6 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     most = float((N * problem.units.interface_force)[locked].max())
     return (
-        f"a force of up to {most:.4g} N is locked in {shown}, whose ends move across it alone: it may be any from "
-        "zero to the strength, and the load factor with it; load_factor_range says how far",
+        f"a force of up to {most:.4g} N is locked in {shown}, whose ends move across it alone: it may be any "
+        "from zero to the strength, and the load factor with it; load_factor_range says how far",
     )

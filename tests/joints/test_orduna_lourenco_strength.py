@@ -136,7 +136,7 @@ def pushed(blocks, joint, direction):
 
 @pytest.mark.parametrize("share", [0.02, 0.1, 1 / 3])
 def test_crushing_of_an_L_is_the_sum_of_its_pieces(share):
-    """Along x + y: 4/3 (1 - n) of two pieces; two triangles of stress at the far corners, 4/3 - (2/3) sqrt(3 n)."""
+    """Along x + y: 4/3 (1 - n); two triangles of stress at the far corners, 4/3 - (2/3) sqrt(3 n)."""
     height = 6.0
     joint = lb.OrdunaLourenco(2.0, compressive_strength=20e3 * height / share)
     blocks = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], height)

@@ -118,7 +118,9 @@ def test_what_stretches_or_carries_nothing_locks_nothing():
     ahead = tie("block 1", (0.5, 0, 0.1), "base", (4.0, 0, 0.1), area=1e-4, strength=1e8)
     for one in (held, reinforced(stone, ahead)):
         result = lb.nonassociated(one)
-        assert not [said for said in (*result.remarks, *lb.check_mcp(one, result).remarks) if "locked" in said]
+        assert not [
+            said for said in (*result.remarks, *lb.check_mcp(one, result).remarks) if "locked" in said
+        ]
 
 
 def test_dowel_adds_shear():
