@@ -13,6 +13,7 @@ from limitblocks.evidence.backward_error import BackwardError, backward_error, c
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
+from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.proof import proof_of
 from limitblocks.evidence.residuals import (
@@ -168,6 +169,7 @@ def _checked(model: Model, claim: Claim, least: float | None, limit: float | Non
     entries = (*judged.entries, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
+    remarks += locked_tension(model, flow, state)
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 
