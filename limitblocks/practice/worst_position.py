@@ -95,8 +95,7 @@ def worst_position(
 
     Evenly spaced positions first, then a bounded search (Brent) between the neighbours of the worst. The load
     factor has kinks where an axle leaves a block: the search finds a local minimum, to a thousandth of the
-    way. Give more `positions` where several spans are about as bad. Interrupted by Ctrl-C it returns the worst
-    of those tried.
+    way. Give more `positions` where several spans are about as bad. After Ctrl-C: the worst of those tried.
 
     Parameters
     ----------
