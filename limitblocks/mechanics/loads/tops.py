@@ -119,7 +119,7 @@ def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
 
 
 def covered(start: Array, end: Array, blocks: Sequence[Block]) -> Array:
-    """Return the parts of a line in plan, from `start` to `end` (2,), with a block below; shape (k, 2, 2), m."""
+    """Return the parts of a line in plan, from `start` to `end` (2,), with a block below, m; (k, 2, 2)."""
     s = _crossings(start, end - start, blocks)
     owner, _ = tops(blocks, start + np.outer((s[1:] + s[:-1]) / 2.0, end - start))
     change = np.diff(np.concatenate([[False], owner >= 0, [False]]).astype(int))
