@@ -79,18 +79,21 @@ def answer(
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(INTERRUPTED) from None
         raise
-    if output:
-        write_result(result, output, overwrite=force)
-    if filed:
-        from limitblocks.reports import report
+    try:
+        if output:
+            write_result(result, output, overwrite=force)
+        if filed:
+            from limitblocks.reports import report
 
-        report(model, result, *beside).save(filed, overwrite=force)
-    if animation:
-        from limitblocks.io import write_animation
+            report(model, result, *beside).save(filed, overwrite=force)
+        if animation:
+            from limitblocks.io import write_animation
 
-        write_animation(model, animation, result, overwrite=force)
-    show(model, result, as_json)
+            write_animation(model, animation, result, overwrite=force)
+    finally:  # a full disk does not cost the answer
+        show(model, result, as_json)
     if stopped:
+        typer.echo("interrupted: what was found until then is above", err=True)
         raise typer.Exit(INTERRUPTED)
     return result
 

@@ -107,9 +107,7 @@ def _axle(model: Model, load: float, contact: float, deck: Deck, x: float) -> Lo
     """One axle; the parts of its length that lie beyond the structure go to the approaches."""
     free = model.free_blocks
     x_of = np.concatenate([block.vertices[:, 0] for block in free])
-    nearest = float(
-        np.clip(x, x_of.min(), x_of.max())
-    )  # beyond its end the fill is as deep as there
+    nearest = float(np.clip(x, x_of.min(), x_of.max()))  # beyond its end the fill is as deep as there
     owner, top = tops(free, np.array([(nearest, deck.y)]))
     if owner[0] >= 0 and deck.level < float(top[0]) - SUNK * free[owner[0]].size:
         raise ModelError(

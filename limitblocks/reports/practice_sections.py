@@ -10,6 +10,7 @@ from limitblocks.drawing.picture import mechanism_picture
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.practice import Repair, Settlement, WorstPosition
+from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
@@ -131,6 +132,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,
+        warnings=() if found.complete else (STOPPED,),
         curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,
     )

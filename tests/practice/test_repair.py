@@ -210,6 +210,25 @@ def test_a_printed_envelope_says_what_stands_beside_the_blocks():
     assert "axles" not in str(worst_position(beam(), Vehicle((10e3,)), Deck(0.5), (3.5, 3.8), positions=3))
 
 
+def test_an_interrupted_search_keeps_the_positions_tried():
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2); the first two of four positions are done."""
+    places = []
+
+    def second(x, _factor):
+        places.append(x)
+        if len(places) == 2:
+            raise KeyboardInterrupt
+
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 3.8), positions=4, progress=second)
+    assert found.positions == pytest.approx([3.2, 3.4])
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / 0.4, rel=1e-6)
+    assert not found.complete
+    assert not found.to_dict()["complete"]
+    assert "may be worse" in str(found)
+    assert "may be worse" in lb.report(model, found).text
+
+
 def test_vehicle_of_two_axles_and_dispersion():
     """Forces and moments of two axles; through a fill each acts on contact + 2 spread depth, evenly."""
     model, deck = beam(), Deck(level=1.5, spread=0.5)
