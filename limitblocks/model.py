@@ -14,7 +14,7 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
-from limitblocks.errors import ModelError, missing, sequence_of
+from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.ends import floating
 from limitblocks.joints.base import joints_of
@@ -223,8 +223,7 @@ def _name_problems(model: Model) -> list[str]:
 def _floating_problems(model: Model) -> list[str]:
     """Free blocks that no chain of interfaces ties to a support."""
     loose = floating(model.blocks, model.interfaces, model.supports)
-    more = f" and {len(loose) - 8} more" if len(loose) > 8 else ""
-    said = f"floating: no chain of interfaces ties {', '.join(map(repr, loose[:8]))}{more} to a support"
+    said = f"floating: no chain of interfaces ties {few([*map(repr, loose)])} to a support"
     return [said, *missing(model.left_out)] if loose else []
 
 

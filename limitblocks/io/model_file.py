@@ -28,12 +28,7 @@ from limitblocks.model import Model
 
 if TYPE_CHECKING:
     from limitblocks.io.block_documents import BlockDocument
-    from limitblocks.io.documents import (
-        FindSettings,
-        InterfaceDocument,
-        ModelDocument,
-        TermDocument,
-    )
+    from limitblocks.io.documents import FindSettings, InterfaceDocument, ModelDocument, TermDocument
 
 _log = logging.getLogger("limitblocks")
 

@@ -80,11 +80,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
 
 
 def load_path(
-    path: LoadPath,
-    model: Model,
-    block: str | None = None,
-    component: str | None = None,
-    ax: Any = None,
+    path: LoadPath, model: Model, block: str | None = None, component: str | None = None, ax: Any = None
 ) -> Any:
     """Draw the load factor against a displacement of one block, from the permanent loads to collapse.
 

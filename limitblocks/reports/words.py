@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.errors import few
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import AddedMass, MassProportional
 from limitblocks.mechanics.loads.forces import left_still
@@ -19,7 +20,6 @@ from limitblocks.mechanics.loads.load import along, triple
 from limitblocks.model import Model
 from limitblocks.units import gravity
 
-SHOWN = 8  # names in a line
 _OF_BLOCK = re.compile(r"block ('.*?'): (.*)")
 
 
@@ -87,11 +87,6 @@ def counted(words: Iterable[str]) -> dict[str, int]:
     return dict(Counter(words).most_common())
 
 
-def some(names: list[str], shown: int = SHOWN) -> str:
-    """Return the first of some names as text."""
-    return ", ".join(names[:shown]) + (f" and {len(names) - shown} more" if len(names) > shown else "")
-
-
 def together(notes: Iterable[str]) -> list[str]:
     """Return notes that differ in the name of the block alone as one, with the first names."""
     blocks: dict[str, list[str]] = {}
@@ -99,16 +94,14 @@ def together(notes: Iterable[str]) -> list[str]:
         name, said = found.groups() if (found := _OF_BLOCK.fullmatch(note)) else ("", note)
         blocks.setdefault(said, []).append(name)
     return [
-        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {some(names)}: {said}"
-        if names[0]
-        else said
+        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {few(names)}: {said}" if names[0] else said
         for said, names in blocks.items()
     ]
 
 
 def times(counts: dict[str, int]) -> str:
     """Return counted words as text."""
-    return some([f"{count} × {word}" for word, count in counts.items()])
+    return few([f"{count} × {word}" for word, count in counts.items()])
 
 
 def rounded_down(ratio: float) -> str:

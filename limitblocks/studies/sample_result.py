@@ -57,8 +57,8 @@ class SampledStudy(Saved):
     def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
         """Return quantiles of the load factor over the independent samples that have one.
 
-        A row whose dead loads fall counts as load factor zero; other failures are left out. Between a load
-        factor and an unlimited one the lower counts.
+        One for each of `shares`, 0 to 1. A row whose dead loads fall counts as load factor zero; other
+        failures are left out. Between a load factor and an unlimited one the lower counts.
 
         Raises
         ------
@@ -112,7 +112,13 @@ class SampledStudy(Saved):
         ]
 
     def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the rows to a CSV file and return its path; LimitBlocksError if it exists."""
+        """Write the rows to a CSV file and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            It exists and `overwrite` is false, or it cannot be written.
+        """
         return write_rows(self.rows(), file, overwrite=overwrite)
 
     def to_dict(self) -> dict[str, Any]:

@@ -255,8 +255,7 @@ def test_bracket_claims_a_lower_end_for_all_results_or_for_none():
 
 
 @pytest.mark.parametrize(
-    ("results", "message"),
-    [((), "no result given"), ((3,), "int given"), (({},), "dict given")],
+    ("results", "message"), [((), "no result given"), ((3,), "int given"), (({},), "dict given")]
 )
 def test_bracket_refuses_what_is_no_result(results, message):
     with pytest.raises(lb.LimitBlocksError, match=message):

@@ -92,6 +92,37 @@ def test_strip_across_the_base_is_a_force_at_the_edge():
     assert lb.interface_states(held, result).state == ("hinge", "yield")
 
 
+@every_joint
+def test_tension_that_a_slide_locks_in_a_strip_is_named(joint):
+    """Across a joint that slides without dilatancy a strip may pull by any 0 <= F <= c: mu (1 + F/W) each."""
+    model = lb.structures.block(joint, width=1.0, height=0.5)
+    weight = model.free_blocks[0].weight
+    held = reinforced(
+        model, strip(model.interfaces[0], model.interfaces[0].centroid, width=0.1, capacity=weight / 4)
+    )
+    result = lb.nonassociated(held)
+    F = result.stress_resultants[1, 2]
+    assert 0.0 < F < weight / 4
+    assert result.load_factor == pytest.approx(0.6 * (1 + F / weight), rel=1e-8) != pytest.approx(0.6)
+    check = lb.check_mcp(held, result)
+    assert check.passed
+    for found in (result, check):
+        assert f"a force of up to {F:.4g} N is locked in strip base|block 1" in found.remarks[-1]
+
+
+def test_what_stretches_or_carries_nothing_locks_nothing():
+    """A strip that yields as its wall hinges; a level tie that a sliding block slackens."""
+    model = facade()
+    held = reinforced(model, strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3))
+    stone = lb.structures.block(lb.PointContact(0.3), width=1.0, height=0.5)
+    ahead = tie("block 1", (0.5, 0, 0.1), "base", (4.0, 0, 0.1), area=1e-4, strength=1e8)
+    for one in (held, reinforced(stone, ahead)):
+        result = lb.nonassociated(one)
+        assert not [
+            said for said in (*result.remarks, *lb.check_mcp(one, result).remarks) if "locked" in said
+        ]
+
+
 def test_dowel_adds_shear():
     """A block that slides at mu; a dowel adds its capacity, with or without dilatancy."""
     model = lb.structures.block(lb.PointContact(0.3), width=1.0, height=0.5)
