@@ -60,6 +60,7 @@ class Healed:
     def contacts(self, joint: object) -> Contacts:
         """Return the contacts of the blocks, found with the tolerances of the blocks as they were.
 
+        `joint` is as for :func:`limitblocks.find_contacts`.
         What was mended within an accuracy has edges that lie apart by as much, so that strips between stones
         that meet at an edge are still none.
         """

@@ -54,7 +54,7 @@ class Settling:
     unit: float
 
     def reaction(self, load_factor: float) -> float:
-        """Return the reaction against the direction at a load factor, N."""
+        """Return the reaction against the direction, N, at a `load_factor` of the settling model."""
         return self.held - load_factor * self.unit
 
     def to_dict(self) -> dict[str, Any]:

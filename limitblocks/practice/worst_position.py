@@ -76,9 +76,13 @@ class WorstPosition(Result):
         }
 
     def __str__(self) -> str:
+        acting = -float(self.model.live.on(self.model.free_blocks)[:, 2].sum())
+        total = sum(self.vehicle.axles)
+        beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
+        beyond = beyond * (acting < total * (1.0 - 1e-6))
         return (
             f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
+            f"{self.bounds.lower:.6g}{beyond}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
         )
 
 

@@ -127,7 +127,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             (
                 "Axles on the structure",
                 kilonewtons(-float(acting[2])),
-                "at load factor one, at the worst position",
+                f"of {kilonewtons(sum(found.vehicle.axles))}, at load factor one, at the worst position",
             ),
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
