@@ -96,7 +96,8 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
         return None
     ratio = found.load_factor / demand
     word = "load factor" if found.certified else "upper estimate of the load factor"
-    said = f"the {word} {cut(found.load_factor, most=not found.certified)} is {rounded_down(ratio)} times the demand {demand:.4g}"
+    number = cut(found.load_factor, most=not found.certified)
+    said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.4g}"
     if ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:
