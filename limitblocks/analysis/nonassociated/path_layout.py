@@ -90,13 +90,13 @@ class Layout:
         np.minimum.at(first, cones.member[row], place)
         np.maximum.at(last, cones.member[row], place)
         sizes = (size for size in range(1, k) if k % size == 0 and (last // size <= first // size).all())
-        return next(sizes, k)
+        return int(next(sizes, k))
 
     def uncoupled(self, parts: Array) -> Array:
         """Return the diagonal blocks of parts (m, k, k) that rows couple, not copied, (b, m, size, size)."""
         size, k = self.coupled, parts.shape[1]
         each = parts.reshape(len(parts), k // size, size, k // size, size)
-        return np.einsum("mbibj->bmij", each)
+        return np.asarray(np.einsum("mbibj->bmij", each))
 
     @cached_property
     def _owned_rows(self) -> tuple[Indices, Indices]:
