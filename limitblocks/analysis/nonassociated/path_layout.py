@@ -79,7 +79,7 @@ class Layout:
     @cached_property
     def coupled(self) -> int:
         """Number of stresses in turn that rows couple: 3 where all are those of contact points, else k."""
-        k, cones = self.stresses.shape[1], self.problem.cones
+        k, cones = int(self.stresses.shape[1]), self.problem.cones
         if not self.flow.constant:
             return k
         acts = (self.yield_rows != 0.0) | (
@@ -90,7 +90,7 @@ class Layout:
         np.minimum.at(first, cones.member[row], place)
         np.maximum.at(last, cones.member[row], place)
         sizes = (size for size in range(1, k) if k % size == 0 and (last // size <= first // size).all())
-        return int(next(sizes, k))
+        return next(sizes, k)
 
     def uncoupled(self, parts: Array) -> Array:
         """Return the diagonal blocks of parts (m, k, k) that rows couple, not copied, (b, m, size, size)."""
