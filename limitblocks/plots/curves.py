@@ -33,6 +33,7 @@ KINDS = {
     "after snap": "^",
     "polish": "*",
 }
+WORDS = {"polish": "collapse"}  # of a legend, where the kind of a step is a word of ours
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
@@ -129,7 +130,14 @@ def load_path(
         these = [step.kind == kind for step in path.steps]
         size = 11.0 if kind == "polish" else 4.5
         style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
-        ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
+        ax.plot(
+            x[these],
+            loads[these],
+            KINDS.get(kind, "o"),
+            label=WORDS.get(kind, kind),
+            linestyle="none",
+            **style,
+        )
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
     ax.set_ylabel("load factor (–)")

@@ -105,6 +105,15 @@ def test_strips_are_findings(width):
     assert wide.isolated == ("low", "high")
 
 
+@pytest.mark.parametrize("share", [0.45, 0.55])
+def test_a_sheet_that_is_covered_by_more_than_a_half_stands(share):
+    """A sheet 4 mm thick whose lower edge is on the stone by `share` of its length."""
+    blocks = [box("stone", UNIT, (0, 0, 0)), box("sheet", (1.0, 0.004, 1.0), (1.0 - share, 0, 1))]
+    found = lb.find_contacts(blocks, None, width=0.01)
+    assert len(found.interfaces) == (share > 0.5)
+    assert len(found.strips) == (share < 0.5)
+
+
 def test_narrow_faces_that_are_covered_are_no_strips():
     tile = box("tile", (2e-3, 1.0, 1.0), (0, 0, 0.5))
     (one,) = lb.find_interfaces([box("ground", UNIT, (0, 0, -0.5)), tile], None, width=0.1)
