@@ -35,6 +35,6 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     names = [problem.interfaces[k] for k in np.flatnonzero(locked)]
     most = float((N * problem.units.interface_force)[locked].max())
     return (
-        f"a force of up to {most:.4g} N is locked in {few(names, 3)}, whose ends move across it alone: it may "
-        "be any from zero to the strength, and the load factor with it; load_factor_range says how far",
+        f"a force of up to {most:.4g} N is locked in {few(names, 3)}, whose ends move across it alone: it "
+        "may be any from zero to the strength, and the load factor with it; load_factor_range says how far",
     )
