@@ -133,7 +133,8 @@ class Report:
         return text(self.document)
 
     def __repr__(self) -> str:
-        return f"<report {self.title!r}: {many(len(self.results), 'result')}; save it as .html, .pdf, .md or .json>"
+        of = many(len(self.results), "result")
+        return f"<report {self.title!r}: {of}; save it as .html, .pdf, .md or .json>"
 
     def __str__(self) -> str:
         found = answer(self.sections)
