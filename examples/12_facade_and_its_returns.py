@@ -56,11 +56,7 @@ def main(folder="output"):
         assert free.lower < found.load_factor < lifted[friction] + 1e-6
         assert lifted[friction] < min(friction, one_body) + 1e-6
     picture(Path(folder), alone, free, tied, lifted, one_body)
-    return {
-        "free-standing": free.lower,
-        "friction 0.3": lifted[0.3],
-        "one body": one_body,
-    }
+    return {"free-standing": free.lower, "friction 0.3": lifted[0.3], "one body": one_body}
 
 
 def facade(friction):

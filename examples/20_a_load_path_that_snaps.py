@@ -42,10 +42,7 @@ SEAT, JACK = lb.OrdunaLourenco(MU), lb.OrdunaLourenco(0.5)  # two joints, for tw
 def main(folder="output", suffix=".png"):
     model = plug_in_its_seat()
     weight, jack = (block.weight for block in model.free_blocks)
-    options = {
-        "start": driven_in(model).ravel(),
-        "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)},
-    }
+    options = {"start": driven_in(model).ravel(), "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)}}
     path, along = (lb.load_path(model, **options, snaps=how) for how in ("across", "along"))
     lb.check_mcp(model, path.collapse).require()
     (snap,) = path.snaps
@@ -122,7 +119,7 @@ def picture(file, model, path):
     figure, axes = plt.subplots(1, 3, figsize=(7, 3), width_ratios=(0.8, 1, 1))
     lb.plots.mechanism(model, path.collapse, ax=axes[0])
     axes[0].set_title("the plug leaves its seat")
-    lb.plots.load_path(path, model, block="jack", component="Z", ax=axes[1])
+    lb.plots.load_path(model, path, block="jack", component="Z", ax=axes[1])
     length, _, load_factor = path.trace.T
     axes[2].plot(length, load_factor, ".-", color="#0072B2", linewidth=1)
     for one, mark in ((path.snaps[0].before, "v"), (path.snaps[0].after, "^")):

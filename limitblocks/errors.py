@@ -47,14 +47,18 @@ def bounded(lines: Sequence[str]) -> tuple[str, ...]:
     return (*lines[:MOST_PROBLEMS], f"and {more} more faults") if more > 1 else tuple(lines)
 
 
+def few(names: Sequence[object], most: int = 8) -> str:
+    """Return the first of some names as text, and how many more there are."""
+    return ", ".join(map(str, names[:most])) + (f" and {len(names) - most} more" if len(names) > most else "")
+
+
 def missing(left_out: Sequence[str]) -> list[str]:
     """Return the line that says which parts of a file are missing in its model; none where none is."""
     if not left_out:
         return []
-    shown = ", ".join(left_out[:8]) + (f" and {len(left_out) - 8} more" if len(left_out) > 8 else "")
     return [
-        f"left out when the file was read: {shown}; if these are what is missing, mend or show them in the "
-        "drawing (limitblocks look says what is wrong) and import it again"
+        f"left out when the file was read: {few(left_out)}; if these are what is missing, mend or show them "
+        "in the drawing (limitblocks look says what is wrong) and import it again"
     ]
 
 
@@ -88,9 +92,8 @@ class NoEquilibrium(SolveError):
         self, blocks: tuple[str, ...], left_out: Sequence[str] = (), loads: str = "the dead loads alone"
     ) -> None:
         self.blocks, self.left_out = blocks, tuple(left_out)
-        shown = ", ".join(blocks[:8]) + (f" and {len(blocks) - 8} more" if len(blocks) > 8 else "")
         super().__init__(
-            f"{loads} cannot stand: {shown} would fall; "
+            f"{loads} cannot stand: {few(blocks)} would fall; "
             + "; ".join(["check supports, missing interfaces, friction and strengths", *missing(left_out)])
         )
 

@@ -14,9 +14,10 @@ from weakref import WeakValueDictionary
 
 import numpy as np
 
-from limitblocks.errors import ModelError, missing, sequence_of
+from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.ends import floating
+from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
@@ -76,7 +77,7 @@ class Model(Viewed):
             supports = set(self.supports)
             loose = (i for i in self.interfaces if not {i.block_i, i.block_j} <= supports)
             object.__setattr__(self, "interfaces", tuple(loose))
-            problems = _floating_problems(self) + _load_problems(self)
+            problems = interface_faults(self.interfaces) or _floating_problems(self) + _load_problems(self)
         if problems:
             raise ModelError(*problems)
 
@@ -223,8 +224,7 @@ def _name_problems(model: Model) -> list[str]:
 def _floating_problems(model: Model) -> list[str]:
     """Free blocks that no chain of interfaces ties to a support."""
     loose = floating(model.blocks, model.interfaces, model.supports)
-    more = f" and {len(loose) - 8} more" if len(loose) > 8 else ""
-    said = f"floating: no chain of interfaces ties {', '.join(map(repr, loose[:8]))}{more} to a support"
+    said = f"floating: no chain of interfaces ties {few([*map(repr, loose)])} to a support"
     return [said, *missing(model.left_out)] if loose else []
 
 

@@ -17,7 +17,7 @@ from limitblocks.errors import LimitBlocksError, ModelError
 def refuse_existing(files: Iterable[Path], overwrite: bool) -> None:
     """Raise LimitBlocksError where one of `files` exists and `overwrite` is false."""
     for path in files:
-        if not overwrite and path.exists():
+        if not overwrite and os.path.exists(path):
             raise _exists(path)
 
 

@@ -68,10 +68,7 @@ EXPECTED = {
     "11_oppenheims_arch": {"load factor": (0.37, 0.005), "hinges": (4, 0)},  # Oppenheim (1992)
     "12_facade_and_its_returns": {
         "free-standing": (0.4 / 2.0, 1e-6),  # t/H
-        "friction 0.3": (
-            0.3,
-            1e-5,
-        ),  # less 3e-6: stones part as they slide
+        "friction 0.3": (0.3, 1e-5),  # less 3e-6: stones part as they slide
         "one body": (0.5, 1e-9),  # moments of 400 x 40 cm and 2 x 120 x 40 cm in plan, 2 m high
     },
     "13_corner_failure_with_twist": {

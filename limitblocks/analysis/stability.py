@@ -15,25 +15,14 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.known import known
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.analysis.programs import (
-    ROUNDS,
-    Program,
-    in_cone,
-    solved,
-    solvers,
-)
+from limitblocks.analysis.programs import ROUNDS, Program, in_cone, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
-from limitblocks.evidence.stability_result import (
-    Stability,
-    Standing,
-    arising_residuals,
-    mechanism_residuals,
-)
+from limitblocks.evidence.stability_result import Stability, Standing, arising_residuals, mechanism_residuals
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice

@@ -66,16 +66,7 @@ def answer(
     from limitblocks.io import write_result
 
     as_json, output, force, filed = kept
-    refuse_existing(output, force, file)
-    if filed:
-        from limitblocks.reports.files import suffix
-
-        suffix(filed)  # before the analysis, not after it
-        refuse_existing(filed, force, file, option="--report")
-    if animation:
-        from limitblocks.io.formats.gltf.writer import animation_path
-
-        refuse_existing(animation_path(animation), force, file, option="--animation")
+    _refuse_files(file, kept, animation)
     model = questioned(file)
     try:
         with interrupts() as stopped:
@@ -88,20 +79,37 @@ def answer(
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(INTERRUPTED) from None
         raise
-    if output:
-        write_result(result, output, overwrite=force)
-    if filed:
-        from limitblocks.reports import report
+    try:
+        if output:
+            write_result(result, output, overwrite=force)
+        if filed:
+            from limitblocks.reports import report
 
-        report(model, result, *beside).save(filed, overwrite=force)
-    if animation:
-        from limitblocks.io import write_animation
+            report(model, result, *beside).save(filed, overwrite=force)
+        if animation:
+            from limitblocks.io import write_animation
 
-        write_animation(model, animation, result, overwrite=force)
-    show(model, result, as_json)
+            write_animation(model, animation, result, overwrite=force)
+    finally:  # a full disk does not cost the answer
+        show(model, result, as_json)
     if stopped:
+        typer.echo("interrupted: what was found until then is above", err=True)
         raise typer.Exit(INTERRUPTED)
     return result
+
+
+def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
+    """Refuse what cannot be written, before the analysis and not after it."""
+    refuse_existing(kept.output, kept.force, file)
+    if kept.filed:
+        from limitblocks.reports.files import suffix
+
+        suffix(kept.filed)
+        refuse_existing(kept.filed, kept.force, file, option="--report")
+    if animation:
+        from limitblocks.io.formats.gltf.writer import animation_path
+
+        refuse_existing(animation_path(animation), kept.force, file, option="--animation")
 
 
 def questioned(file: Path) -> Model:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 from collections.abc import Iterator
@@ -59,10 +60,17 @@ def exit_code(error: LimitBlocksError) -> int:
 
 
 def refuse_existing(file: Path | None, force: bool, *read: Path, option: str = "--output") -> None:
-    """Refuse before the analysis, not after it; `read` are the files that the command reads."""
+    """Refuse a file that could not be written before the analysis; `read` are the files the command reads."""
     if file is None:
         return
     if any(file.resolve() == other.resolve() for other in read):
         raise LimitBlocksError(f"{file} is what the command reads; name another file with {option}")
-    if not force and file.exists():
+    if not os.path.isdir(file.parent):
+        raise LimitBlocksError(f"{option} {file}: there is no folder {file.parent}; make it first")
+    if os.path.isdir(file):
+        raise LimitBlocksError(f"{option} {file} is a folder; name a file")
+    device = os.path.exists(file) and not os.path.isfile(file)
+    if not device and not os.access(file.parent, os.W_OK | os.X_OK):
+        raise LimitBlocksError(f"{option} {file}: the folder {file.parent} may not be written to")
+    if not force and os.path.exists(file):
         raise LimitBlocksError(f"{file} exists; name another file with {option} or replace it with --force")

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -28,7 +28,6 @@ from limitblocks.errors import ModelError
 
 if TYPE_CHECKING:
     from limitblocks.geometry import Tolerances
-    from limitblocks.geometry.twisted import Twisted
     from limitblocks.io.imported import ImportedBlocks
     from limitblocks.joints import Joint, Materials
     from limitblocks.model import Model
@@ -47,8 +46,7 @@ Angle = Annotated[
     typer.Option(help="Angle between faces that counts as touching, rad [default: by the accuracy of FILE]."),
 ]
 Heal = Annotated[
-    bool,
-    typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal."),
+    bool, typer.Option("--heal", help="Mend the blocks within their accuracy first: limitblocks.heal.")
 ]
 SkipBad = Annotated[
     bool, typer.Option("--skip-bad", help="Leave out solids that are no blocks, and say which.")
@@ -82,12 +80,10 @@ def import_blocks(
 ) -> None:
     """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; `look` at FILE first."""
     with clean_errors():
-        from limitblocks.analysis.magnitudes import questions
         from limitblocks.io.blocks import read_blocks
         from limitblocks.io.formats.dxf.elevation import read_drawing
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics.loads import mass_proportional
-        from limitblocks.reports.words import together
 
         to = output or file.with_suffix(".json")
         refuse_existing(to, force, file)
@@ -96,14 +92,8 @@ def import_blocks(
         load = mass_proportional(live)
         weight = _unit_weight(unit_weight, table)
         if thickness is None:
-            imported = read_blocks(
-                file,
-                units=units,
-                unit_weight=weight,
-                up=up,
-                twisted=cast("Twisted", twisted),
-                skip_bad=skip_bad,
-            )
+            given: Any = {"up": up, "twisted": twisted}
+            imported = read_blocks(file, units=units, unit_weight=weight, skip_bad=skip_bad, **given)
         else:
             imported = read_drawing(
                 file, thickness=thickness, units=units, unit_weight=weight, skip_bad=skip_bad
@@ -124,13 +114,18 @@ def import_blocks(
             name=file.stem,
         )
         notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
-        for word, lines in (
-            ("note", notes),
-            ("warning", (*imported.guesses, *vain, *contacts.warnings, *questions(model))),
-        ):
-            for line in together(lines):
-                typer.echo(f"{word}: {line}", err=True)
+        _tell(model, notes, (*imported.guesses, *vain, *contacts.warnings))
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
+
+
+def _tell(model: Model, notes: Iterable[str], warnings: Iterable[str]) -> None:
+    """Print notes, warnings and what is asked about the model; those alike but for the block as one."""
+    from limitblocks.analysis.magnitudes import questions
+    from limitblocks.reports.words import together
+
+    for word, lines in (("note", notes), ("warning", (*warnings, *questions(model)))):
+        for line in together(lines):
+            typer.echo(f"{word}: {line}", err=True)
 
 
 def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:

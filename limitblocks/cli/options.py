@@ -44,8 +44,7 @@ ReportFile = Annotated[
     ),
 ]
 Filed = Annotated[
-    Path | None,
-    typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json."),
+    Path | None, typer.Option("--report", help="Write a report with this chapter: .pdf, .html, .md or .json.")
 ]
 Animation = Annotated[
     Path | None,

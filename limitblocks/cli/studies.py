@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -134,12 +136,21 @@ def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, fo
         words = [study.head(key).replace("_", " ") for key in rows[0]]
         heads = tuple(word[0].upper() + word[1:] for word in words)
         print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
-        print_warnings(f"row {k + 1}: {error}" for k, error in enumerate(errors) if error)
+        print_warnings(_grouped(errors))
         typer.echo(f"\n{study}")
     if INTERRUPTED in study.errors:
         raise typer.Exit(EXIT_INTERRUPTED)
     if all(study.errors) and not (study.load_factors == float("inf")).any():
         raise SolveError(f"no analysis gave a load factor: {study.errors[0]}")
+
+
+def _grouped(errors: list[str]) -> Iterator[str]:
+    """A line for the rows after one another that have the same error."""
+    for error, rows in groupby(enumerate(errors, 1), key=lambda row: row[1]):
+        numbers = [number for number, _ in rows]
+        which = f"rows {numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"row {numbers[0]}"
+        if error:
+            yield f"{which}: {error}"
 
 
 def _cell(value: Any) -> str:

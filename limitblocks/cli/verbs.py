@@ -8,7 +8,7 @@ import typer
 
 from limitblocks.choices import Method, Turning
 from limitblocks.cli import analyses
-from limitblocks.cli.answers import Kept, answer, show
+from limitblocks.cli.answers import NOTHING, Kept, answer, keeping, show
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import (
     Along,
@@ -17,12 +17,10 @@ from limitblocks.cli.options import (
     ClaimFile,
     Dilatancy,
     Exact,
-    Force,
     Mechanisms,
     ModelFile,
     OwnTolerance,
     Paths,
-    ResultFile,
     Seconds,
     Seed,
     Tolerance,
@@ -33,28 +31,27 @@ from limitblocks.cli.options import (
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
 
 
-def stability(
-    model: ModelFile, as_json: AsJson = False, output: ResultFile = None, force: Force = False
-) -> None:
+@keeping
+def stability(model: ModelFile, kept: Kept = NOTHING) -> None:
     """Say whether the structure stands under its dead loads alone; exit code 1 unless it does by itself."""
     with clean_errors():
-        found = answer(analyses.stability, model, Kept(as_json, output, force))
+        found = answer(analyses.stability, model, kept)
     if not found.stands:
         raise typer.Exit(1)
 
 
+@keeping
 def bounds(
     model: ModelFile,
-    as_json: AsJson = False,
     tolerance: Tolerance = BOUNDS_TOLERANCE,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the static and the kinematic bound on the associated load factor."""
     with clean_errors():
-        answer(analyses.bounds, model, Kept(as_json, output, force), tolerance=tolerance)
+        answer(analyses.bounds, model, kept, tolerance=tolerance)
 
 
+@keeping
 def nonassociated(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
@@ -62,34 +59,32 @@ def nonassociated(
     method: Way = Method.PATH,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     backward_error: BackwardLimit = None,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print a load factor for joints that slide without lifting, and its proof."""
     with clean_errors():
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         flow |= {"method": method, "backward_error": backward_error}
-        answer(analyses.nonassociated, model, Kept(as_json, output, force), **flow)
+        answer(analyses.nonassociated, model, kept, **flow)
 
 
+@keeping
 def path(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     tolerance: Tolerance = DEFAULT_TOLERANCE,
     along: Along = False,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print the steps from the permanent loads to collapse."""
     with clean_errors():
         flow: Any = {"dilatancy": dilatancy, "turning": turning, "tolerance": tolerance}
         snaps: Any = {"snaps": "along"} if along else {}
-        answer(analyses.path, model, Kept(as_json, output, force), **flow, **snaps)
+        answer(analyses.path, model, kept, **flow, **snaps)
 
 
+@keeping
 def load_factor_range(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
@@ -99,15 +94,13 @@ def load_factor_range(
     seed: Seed = 0,
     time_limit: Seconds = 120.0,
     exact: Exact = False,
-    as_json: AsJson = False,
-    output: ResultFile = None,
-    force: Force = False,
+    kept: Kept = NOTHING,
 ) -> None:
     """Print certified load factors of many ways, and how far they reach."""
     with clean_errors():
         settings: Any = {"dilatancy": dilatancy, "turning": turning, "paths": paths}
         settings |= {"mechanisms": mechanisms, "seed": seed, "time_limit": time_limit, "exact": exact}
-        answer(analyses.load_factor_range, model, Kept(as_json, output, force), **settings)
+        answer(analyses.load_factor_range, model, kept, **settings)
 
 
 def check(

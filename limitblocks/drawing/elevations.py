@@ -49,11 +49,7 @@ def elevations(model: Model) -> Sheet:
     below = _ABOVE + scale * up[0] + _BELOW
     middle = spare + _LEFT + scale * across[0] / 2
     beside = max(middle + scale * across[0] / 2 + _RIGHT + _LEFT, middle + _TITLE - scale * across[1] / 2)
-    corners = {
-        "xz": (spare + _LEFT, _ABOVE),
-        "yz": (beside, _ABOVE),
-        "xy": (spare + _LEFT, below + _ABOVE),
-    }
+    corners = {"xz": (spare + _LEFT, _ABOVE), "yz": (beside, _ABOVE), "xy": (spare + _LEFT, below + _ABOVE)}
     groups: list[Group] = []
     labels: list[Label] = []
     for view in (front, side, plan):

@@ -24,11 +24,7 @@ def tie_lines(model: Model) -> list[TieLine]:
     """Return the ties of a model that have a length; the first anchor of each is in block i."""
     ends = ends_of(model.blocks, model.interfaces).tolist()
     return [
-        TieLine(
-            k,
-            (i, j),
-            one.centroid + np.outer([-0.5, 0.5], one.joint.length * one.axes[2]),
-        )
+        TieLine(k, (i, j), one.centroid + np.outer([-0.5, 0.5], one.joint.length * one.axes[2]))
         for k, (one, (i, j)) in enumerate(zip(model.interfaces, ends, strict=True))
         if isinstance(one.joint, Tie) and one.joint.length > 0.0
     ]

@@ -13,6 +13,7 @@ from limitblocks.evidence.backward_error import BackwardError, backward_error, c
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
+from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.mechanism import find_mechanism
 from limitblocks.evidence.proof import proof_of
 from limitblocks.evidence.residuals import (
@@ -88,7 +89,13 @@ class Check(Result):
         return self.residuals.rows()
 
     def require(self) -> None:
-        """Raise CheckFailed, naming every residual above the tolerance, unless the claim is accepted."""
+        """Do nothing where the claim is accepted.
+
+        Raises
+        ------
+        CheckFailed
+            It is not; the message names every residual above the tolerance.
+        """
         failed = self.residuals.above(self.tolerance)
         if not self.accepted:
             asked = "" if self.limit is None else f"; {self.backward_error}, above {self.limit:g}"
@@ -168,6 +175,7 @@ def _checked(model: Model, claim: Claim, least: float | None, limit: float | Non
     entries = (*judged.entries, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
+    remarks += locked_tension(model, flow, state)
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 
@@ -227,19 +235,14 @@ def _stresses(problem: LimitProblem, claim: Claim) -> Array:
             )
         return np.asarray((B.T @ resultants) * problem.stress_units)
     x = claim.generalised_stresses / problem.stress_units
-    off = residual(
-        "resultants", np.abs(B @ x - resultants).reshape(-1, 6).max(axis=1), "", _sizes(B, x, resultants)
-    )
-    if not off.value <= TOLERANCE:
+    off, size = np.abs(B @ x - resultants), abs(B) @ np.abs(x) + np.abs(resultants)
+    off, size = (part.reshape(-1, 6).max(axis=1) for part in (off, size))  # of each interface
+    worst = residual("resultants", off, "", size)
+    if not worst.value <= TOLERANCE:
         raise ModelError(
-            f"generalised stresses and stress resultants differ by {off.value:.1e} of their size"
+            f"generalised stresses and stress resultants differ by {worst.value:.1e} of their size"
         )
     return np.asarray(claim.generalised_stresses)
-
-
-def _sizes(B: Any, x: Array, resultants: Array) -> Array:
-    """Size of the terms that make up the resultants of each interface, shape (m,)."""
-    return np.asarray((abs(B) @ np.abs(x) + np.abs(resultants)).reshape(-1, 6).max(axis=1))
 
 
 def _rates(model: Model, claim: Claim) -> Array | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.errors import few
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, State
 
@@ -19,9 +20,8 @@ def given_power(flow: Flow, state: State, tolerance: float) -> tuple[str, ...]:
     if not len(giving):
         return ()
     order = giving[np.argsort(power[giving])]
-    shown = ", ".join(f"{p.interfaces[k]} ({-power[k]:.1e})" for k in order[:SHOWN])
-    more = f" and {len(order) - SHOWN} more" if len(order) > SHOWN else ""
+    shown = few([f"{p.interfaces[k]} ({-power[k]:.1e})" for k in order], SHOWN)
     return (
-        f"interfaces give power instead of taking it up, over that of the live load: {shown}{more}; "
+        f"interfaces give power instead of taking it up, over that of the live load: {shown}; "
         "no joint can, so that this is no collapse",
     )

@@ -10,18 +10,17 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
-from limitblocks.geometry.ends import ends_of
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.model import Model, checked_model
 from limitblocks.problem import LimitProblem, Mode
 from limitblocks.shown import Tabular, many
 
-MOVING = 1e-3  # of the largest displacement rate: a relative motion below it counts as none
 LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
 
 
@@ -142,8 +141,8 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     loaded = np.linalg.norm(Q[:, :3], axis=1) > least_force
     N = np.where(-Q[:, 2] > least_force, Q[:, 2], np.nan)
     e = np.stack([-Q[:, 4], Q[:, 3]], axis=1) / N[:, None]
-    dq = _strain_rates(model, collapse.displacement_rates, axes, centroid)
-    least = MOVING * _largest(model, collapse.displacement_rates)
+    dq = relative_rates(model, collapse.displacement_rates)
+    least = MOVING * largest_rate(model, collapse.displacement_rates)
     modes = _active_modes(problem, collapse.flow_multipliers, least)
     states = _states(model.interfaces, dq, e, modes, loaded, least)
     return InterfaceStates(
@@ -173,25 +172,6 @@ def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     return collapse
 
 
-def _strain_rates(model: Model, rates: Array, axes: Array, centroid: Array) -> Array:
-    """Relative displacement rates v + w x r of block j to block i, local axes, shape (m, 6)."""
-    centres = np.stack([block.centroid for block in model.blocks])
-    i, j = ends_of(model.blocks, model.interfaces).T
-
-    def at(k: Indices) -> Array:
-        v, w = rates[k, :3], rates[k, 3:]
-        return np.stack([v + np.cross(w, centroid - centres[k]), w], axis=1)
-
-    return np.asarray(((at(j) - at(i)) @ axes.swapaxes(1, 2)).reshape(-1, 6))
-
-
-def _largest(model: Model, rates: Array) -> float:
-    """Largest displacement rate of the mechanism, rotations times the size of the block."""
-    sizes = np.array([block.size for block in model.blocks])
-    speed = np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)
-    return float(speed.max())
-
-
 def _active_modes(problem: LimitProblem, multipliers: Array, least: float) -> tuple[tuple[Mode, ...], ...]:
     active: list[dict[Mode, None]] = [{} for _ in problem.interfaces]
     moving, opened = np.abs(multipliers) > least, np.zeros(len(multipliers), dtype=bool)
@@ -212,8 +192,13 @@ def _with_largest(
 ) -> tuple[tuple[Mode, ...], ...]:
     """Modes; where none is and the corners are just seen to move, that of the largest multiplier."""
     rows = np.argsort(np.abs(multipliers), kind="stable")
-    largest = {problem.row_interface[row]: (problem.row_mode[row],) for row in rows if multipliers[row]}
-    return tuple(own or largest.get(k, ()) * (states[k] != "stick") for k, own in enumerate(modes))
+    rows = rows[multipliers[rows] != 0.0]
+    largest = np.full(len(modes), -1)
+    largest[problem.row_interface[rows]] = rows  # the last of each interface stays
+    return tuple(
+        own or ((problem.row_mode[row],) if row >= 0 and state != "stick" else ())
+        for own, row, state in zip(modes, largest.tolist(), states, strict=True)
+    )
 
 
 def _states(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import few
 from limitblocks.problem import Flow, State
 
 TURNED = 1e-3  # radians between the shear force and the slip: less is accuracy
@@ -34,10 +35,10 @@ def locked_shear(flow: Flow, state: State) -> tuple[str, ...]:
         return ()
     angle = _angle(rate[:, locked], force[:, locked])
     names = list(dict.fromkeys(p.interfaces[k] for k in p.stress_interface[a[locked]]))
-    shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     return (
-        f"polyhedral friction locks a shear force across the slip at {shown}, up to {angle:.0f} degrees off: "
-        "without dilatancy the load factor is one of an interval; round friction ('exact') has one",
+        f"polyhedral friction locks a shear force across the slip at {few(names, 3)}, up to {angle:.0f} "
+        "degrees off: without dilatancy the load factor is one of an interval; round friction ('exact') has "
+        "one",
     )
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from limitblocks.errors import few
 from limitblocks.evidence.check import Check
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.shown import Viewed
@@ -77,10 +78,9 @@ class RangeAnswer(Viewed):
     @property
     def mechanism(self) -> str:
         """What moves, in words."""
-        more = f" and {len(self.moving) - SHOWN} more" if len(self.moving) > SHOWN else ""
         word = "few blocks at low thrust, " if self.local else ""
         return (
-            f"{word}{', '.join(self.moving[:SHOWN])}{more}: {100 * self.share:.3g} % of the weight, "
+            f"{word}{few(self.moving, SHOWN)}: {100 * self.share:.3g} % of the weight, "
             f"{self.thrust:.2f} of the thrust of the permanent loads"
         )
 

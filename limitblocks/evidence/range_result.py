@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from limitblocks.errors import few
 from limitblocks.evidence.range_answer import SHOWN, Origin, RangeAnswer
 from limitblocks.problem import Turning
 from limitblocks.shown import Result
@@ -33,8 +34,7 @@ class Wedging:
     def __str__(self) -> str:
         if not self.wedged:
             return "no self-stress within yield: stresses under given loads are limited"
-        more = f" and {len(self.interfaces) - SHOWN} more" if len(self.interfaces) > SHOWN else ""
-        return f"self-stress within yield at {', '.join(self.interfaces[:SHOWN])}{more}: it can be wedged"
+        return f"self-stress within yield at {few(self.interfaces, SHOWN)}: it can be wedged"
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,18 +9,12 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import few
 from limitblocks.evidence.measure import Measure
-from limitblocks.evidence.residuals import (
-    Residual,
-    Residuals,
-    largest_of,
-    residual,
-    static_residuals,
-)
+from limitblocks.evidence.residuals import Residual, Residuals, largest_of, residual, static_residuals
 from limitblocks.problem import Flow, State
 from limitblocks.shown import Result
 
-SHOWN = 8  # names in a line
 TOLERANCE = 1e-6  # largest residual of stresses that arise, and of a mechanism
 
 
@@ -85,8 +79,7 @@ class Stability(Result):
         return self.residuals.rows()
 
     def __str__(self) -> str:
-        more = f" and {len(self.blocks) - SHOWN} more" if len(self.blocks) > SHOWN else ""
-        moving = f"; {', '.join(self.blocks[:SHOWN])}{more} would move" if self.blocks else ""
+        moving = f"; {few(self.blocks)} would move" if self.blocks else ""
         worst = self.residuals.worst
         return (
             f"{self.kind.value}{moving}; margin {self.margin:.3g}, worst residual {worst.value:.1e} "

@@ -87,6 +87,8 @@ class Block:
     ) -> Block:
         """Return the box of dimensions `size` (3,), m, along the global axes, with its centre `at` (3,), m.
 
+        `name` and `unit_weight`, N/m3, are those of the block; a support needs no weight.
+
         Raises
         ------
         GeometryError
@@ -109,6 +111,7 @@ class Block:
         """Return the prism of an outline (n, 2), m, `between` two places (2,) `along` an axis, m.
 
         The outline is in the other two axes in the order of the alphabet, "y": X and Z, turning either way.
+        `name` and `unit_weight`, N/m3, are those of the block; a support needs no weight.
 
         Raises
         ------
@@ -210,8 +213,7 @@ class Block:
         turn = given.numbers(self.name, "rotation", rotation, (3, 3))
         if np.abs(turn @ turn.T - np.eye(3)).max() > 1e-9 or np.linalg.det(turn) < 0.0:
             given.wrong(
-                self.name,
-                f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed",
+                self.name, f"rotation {turn.tolist()} is not proper; R R^T = I and det R = 1 are needed"
             )
         shift = given.numbers(self.name, "translation", translation, (3,))
         return replace(self, vertices=self.vertices @ turn.T + shift)

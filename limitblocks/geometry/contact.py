@@ -12,13 +12,7 @@ import shapely
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import polygon
-from limitblocks.geometry.accuracy import (
-    ANGLE,
-    GAP,
-    Accuracy,
-    block_length,
-    chosen,
-)
+from limitblocks.geometry.accuracy import ANGLE, GAP, Accuracy, block_length, chosen
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contacts import Contacts
 from limitblocks.geometry.faces import FaceTable, all_faces, opposed

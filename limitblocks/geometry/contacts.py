@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from limitblocks.errors import GeometryError
+from limitblocks.errors import GeometryError, few
 from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
 from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
 from limitblocks.geometry.interface import Interface
@@ -150,8 +150,7 @@ class Contacts(Shown):
     @staticmethod
     def _line(words: str, things: Sequence[object]) -> list[str]:
         """Return one line that names the first of what was found; none when nothing was."""
-        more = f" and {len(things) - _SHOWN} more" if len(things) > _SHOWN else ""
-        return [f"{words}: {', '.join(map(str, things[:_SHOWN]))}{more}"] if things else []
+        return [f"{words}: {few(things)}"] if things else []
 
     def to_dict(self) -> dict[str, Any]:
         """Return all as plain numbers, lists and text, the interfaces without their joint; SI units."""

@@ -60,6 +60,7 @@ class Healed:
     def contacts(self, joint: object) -> Contacts:
         """Return the contacts of the blocks, found with the tolerances of the blocks as they were.
 
+        `joint` is as for :func:`limitblocks.find_contacts`.
         What was mended within an accuracy has edges that lie apart by as much, so that strips between stones
         that meet at an edge are still none.
         """
@@ -124,15 +125,10 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
         shift += GAPS * size if block is not old else 0.0
         new = _rebuilt(block, there + centre) if shift <= _MOST * size else None
         shifts[old.name] = shift if new else 0.0
-        made.append(_as(old, new) if new else old)
+        made.append(new.labelled(**old.words) if new else old)
         if new is None:
             notes.append(f"block {old.name!r} is left as it was: its faces are not plane within {size:.2g} m")
     return Healed(tuple(made), MappingProxyType(shifts), _MOST * size, size, used, tuple(notes))
-
-
-def _as(old: Block, new: Block) -> Block:
-    """Return the new body with what was known of the old one."""
-    return new.labelled(**old.words)
 
 
 def _coarse(block: Block, tolerance: float) -> Block:

@@ -26,7 +26,7 @@ def _swept(polygons: Array) -> Array:
 
 
 def areas(polygons: Array) -> Array:
-    """Return signed areas (...,), m2; positive when counter-clockwise."""
+    """Return signed areas (...,), m2, of `polygons` (..., n, 2), m; positive when counter-clockwise."""
     return np.asarray(_swept(polygons - polygons[..., :1, :]).sum(axis=-1) / 2.0)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Sequence
 from fnmatch import fnmatchcase
 from fractions import Fraction
 
-from limitblocks.errors import ModelError, near
+from limitblocks.errors import ModelError, few, near
 from limitblocks.geometry.block import Block
 from limitblocks.shown import many
 
@@ -78,19 +78,14 @@ def listed(blocks: Sequence[Block]) -> str:
         counts = Counter(one for block in blocks for one in _said(block, word))
         counts.pop("", None)
         if counts:
-            some = [f"{name!r} ({number})" for name, number in counts.most_common(_SHOWN)]
-            parts.append(f"{word}s {_joined(some, len(counts))}")
-    names = [repr(block.name) for block in blocks[:_SHOWN]]
-    return "; ".join([*parts, f"blocks {_joined(names, len(blocks))}"])
+            some = [f"{name!r} ({number})" for name, number in counts.most_common()]
+            parts.append(f"{word}s {few(some, _SHOWN)}")
+    return "; ".join([*parts, f"blocks {few([repr(block.name) for block in blocks], _SHOWN)}"])
 
 
 def _said(block: Block, word: str) -> tuple[str, ...]:
     """Return the words of a kind that a block has."""
     return tuple(block.groups) if word == "group" else (getattr(block, word),)
-
-
-def _joined(shown: Sequence[str], number: int) -> str:
-    return ", ".join(shown) + (f" and {number - len(shown)} more" if number > len(shown) else "")
 
 
 def _matching(blocks: Sequence[Block], text: str) -> list[str]:

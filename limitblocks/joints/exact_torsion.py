@@ -121,11 +121,14 @@ class ExactTorsion(Queries):
         return stacked(groups, np.abs(polygons).max(axis=1), self.friction, self.friction > 0.0)
 
     def discretisation_error(self, interface: Interface) -> float:
-        """Gap of the (V1, V2, T) polytopes: inner >= exact / (1 + gap), outer <= exact (1 + gap)."""
+        """Gap of the (V1, V2, T) polytopes of an `interface`.
+
+        inner >= exact / (1 + gap), outer <= exact (1 + gap).
+        """
         return inner_polytope(interface.polygon, self.fineness).gap
 
     def bending_error(self, interface: Interface) -> float:
-        """Largest difference of torsion, over T0, between the outer and the inner planes under bending.
+        """Largest difference of torsion, over T0, between both planes of an `interface` under bending.
 
         Largest at a corner of the four quadrants of a rectangle; sampled on other polygons.
         """

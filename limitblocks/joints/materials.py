@@ -102,7 +102,7 @@ class Materials:
         return tuple(self._made(block, owner[block.name]) for block in blocks), tuple(warnings)
 
     def between(self, block_i: Block, block_j: Block) -> Joint | None:
-        """Return the joint between two blocks of these materials; None where neither has one.
+        """Return the joint between `block_i` and `block_j`, of these materials; None where neither has one.
 
         Raises
         ------

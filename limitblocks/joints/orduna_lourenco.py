@@ -73,8 +73,9 @@ class OrdunaLourenco(Queries):
     - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
       exact stress block for bending about one axis of a rectangle, and an approximation for other shapes and
       oblique bending: along the diagonal of a rectangle the moment is 1.28 times that of the stress block, a
-      triangle, at a tenth of A fcef, and up to 1.5 times at a half. Torsion and shear are not reduced by
-      crushing;
+      triangle, at a tenth of A fcef, and up to 1.5 times at a half; towards a corner of a triangle it is
+      1 + sqrt(-N / (A fcef)) times as large. Areas divided into convex pieces have the errors of each.
+      Torsion and shear are not reduced by crushing;
     - cohesion acts on the whole area whatever the eccentricity, which overestimates it once a joint opens.
 
     Parameters
@@ -136,7 +137,8 @@ class OrdunaLourenco(Queries):
             if self.compressive_strength is None
             else "Crushing reduces the moment that a joint carries, Eq. (39), not its shear or torsion; the "
             "equation is the exact stress block for bending about one axis of a rectangle; along its "
-            "diagonal the moment is overestimated by up to half, 28 % at a tenth of the crushing force."
+            "diagonal the moment is overestimated by up to half, 28 % at a tenth of the crushing force, and "
+            "on areas divided into convex pieces, as an L, by about as much."
         )
         cohesion = "Cohesion acts on the whole area whatever the eccentricity, which overestimates it."
         return (

@@ -133,11 +133,7 @@ class Queries:
         return self._active(question, Q, tolerance)
 
     def flow_directions(
-        self,
-        interface: Interface,
-        Q: Any,
-        dilatancy: float = 0.0,
-        turning: Turning | str = Turning.CENTROID,
+        self, interface: Interface, Q: Any, dilatancy: float = 0.0, turning: Turning | str = Turning.CENTROID
     ) -> Array:
         """Return the flow directions of all yield functions at Q, Tables 3, 5 and 6.
 

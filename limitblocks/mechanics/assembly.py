@@ -36,10 +36,7 @@ class _Group:
 
 
 def limit_problem(
-    free: Sequence[Block],
-    interfaces: Sequence[Interface],
-    dead: Array,
-    live: Array,
+    free: Sequence[Block], interfaces: Sequence[Interface], dead: Array, live: Array
 ) -> LimitProblem:
     """Assemble the limit problem of the blocks `free`; other blocks named by interfaces do not move.
 

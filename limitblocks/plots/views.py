@@ -55,13 +55,10 @@ def _plane(model: Model, flat: bool) -> str:
     return "xz" if out[1] else "yz" if out[0] else "xz" if flat else "3d"
 
 
-def _vertices(model: Model) -> Array:
-    return np.concatenate([block.vertices for block in model.blocks])
-
-
 def _size(model: Model, view: Array) -> tuple[float, float]:
     """Size of a figure, inches, whose shape is that of the structure."""
-    wide, high = np.ptp(_vertices(model) @ view[:2].T, axis=0)
+    corners = np.concatenate([block.vertices for block in model.blocks])
+    wide, high = np.ptp(corners @ view[:2].T, axis=0)
     most = room() - 0.6
     width = float(np.clip(0.7 * room() * wide / high, 0.7 * most, most))
     return width + 0.6, float(np.clip(width * high / wide, 1.2, room())) + 1.0

@@ -142,7 +142,13 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
 
 
 def design_model(model: Model, factors: PartialFactors) -> Model:
-    """Return the model with design loads and design strengths; see :func:`adequacy`."""
+    """Return the model with design loads and design strengths; see :func:`adequacy`.
+
+    Raises
+    ------
+    ModelError
+        If a joint has no strengths that the factors divide, or a tie or dowel has no gamma_S.
+    """
     made = {joint: _design(joint, factors) for joint in _joints(model)}
     interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]
     dead, live = factors.gamma_G * model.dead, factors.gamma_Q * model.live

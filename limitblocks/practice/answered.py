@@ -8,11 +8,11 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
-from limitblocks.errors import NoEquilibrium, NotConverged, SolveError
-from limitblocks.evidence.ending import Status
+from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.practice.displaced import Assembly
+from limitblocks.practice.kept import solved
 from limitblocks.practice.touching import across, pressed_in, touching
 
 
@@ -42,7 +42,7 @@ def answered(assembly: Assembly) -> tuple[Assembly, float, Model, Nonassociated,
 def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
     """The answer; where the dead loads alone fall, from the load factor of the least stresses."""
     try:
-        return 0.0, model, _solved(model)
+        return 0.0, model, solved(nonassociated, model)
     except NoEquilibrium:
         problem = model.problem
         least = NearestStresses(problem, problem.compliance)
@@ -51,14 +51,4 @@ def _answered(model: Model) -> tuple[float, Model, Nonassociated]:
             raise
         shift = -found[0] / problem.units.live
         held = replace(model, dead=model.dead + (-shift) * model.live)
-        return shift, held, _solved(held)
-
-
-def _solved(model: Model) -> Nonassociated:
-    """Its answer; where the user stops it there is none, and the curve ends."""
-    try:
-        return nonassociated(model)
-    except NotConverged as error:
-        if getattr(error.result, "status", None) is Status.INTERRUPTED:
-            raise KeyboardInterrupt from None
-        raise
+        return shift, held, solved(nonassociated, held)

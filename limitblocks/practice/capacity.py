@@ -27,6 +27,7 @@ from limitblocks.practice.advance import (
 from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.kept import gathered
 from limitblocks.practice.snapped import falls, snapped
 from limitblocks.practice.touching import pressed_in
 
@@ -87,18 +88,8 @@ def capacity_curve(
     refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
     first = nonassociated(model)
     point = _control(model, first, control)
-    points, ended = [], ""
-    try:
-        for one in _curve(model, first, point, steps, largest):
-            if isinstance(one, str):
-                ended = one
-                break
-            points.append(one)
-            if progress:
-                progress(one)
-    except KeyboardInterrupt:
-        points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
-        ended = f"interrupted beyond {points[-1].displacement:.6g} m"
+    points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)
+    points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
     zero = None if ended else points[-2 if points[-1].snapped else -1].displacement
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
 

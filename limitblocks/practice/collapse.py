@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -17,6 +18,7 @@ from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
+from limitblocks.practice.kept import gathered, solved
 from limitblocks.practice.settlement import Settlement, settlement, settling
 from limitblocks.practice.touching import across
 
@@ -83,22 +85,14 @@ def settlement_to_collapse(
     control = Control(support, place, unit)
 
     def found(there: Model) -> Settlement:
-        return replace(
-            settlement(there, support, unit.tolist(), without_dilatancy=without_dilatancy),
-            digest=model.digest,
-        )
+        answer = partial(settlement, there, support, unit.tolist(), without_dilatancy=without_dilatancy)
+        return replace(solved(answer), digest=model.digest)
 
     first = SettlementPoint(0.0, found(model), ())
-    points: list[SettlementPoint] = []
-    end: tuple[float | None, str] = (None, "")
-    for one in _way(assembly, control, first, found, (min(step, FIRST * size), step, accuracy, largest)):
-        if isinstance(one, tuple):
-            end = one
-            break
-        points.append(one)
-        if progress:
-            progress(one)
-    return SettlementCurve(tuple(points), *end)
+    lengths = min(step, FIRST * size), step, accuracy, largest
+    points, end = gathered(_way(assembly, control, first, found, lengths), SettlementPoint, progress)
+    falls, ended = (None, end) if isinstance(end, str) else end
+    return SettlementCurve(tuple(points or [first]), falls, ended)
 
 
 def _way(

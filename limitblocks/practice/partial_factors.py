@@ -54,7 +54,13 @@ class PartialFactors:
         return ("gamma_M", self.gamma_M) if self.gamma_phi is None else ("gamma_phi", self.gamma_phi)
 
     def of_strength(self, joint: Joint) -> tuple[str, float]:
-        """Name and value of the factor that divides the strengths of a joint."""
+        """Name and value of the factor that divides the strengths of a joint.
+
+        Raises
+        ------
+        ModelError
+            A tie or dowel without gamma_S.
+        """
         if not isinstance(joint, Tie | Dowel):
             return "gamma_M", self.gamma_M
         if self.gamma_S is None:

@@ -14,15 +14,7 @@ from limitblocks.errors import ModelError, SolveError
 from limitblocks.geometry import find_contacts
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.model import Model
-from limitblocks.practice.displaced import (
-    CLOSED,
-    Assembly,
-    Contact,
-    Truths,
-    contact,
-    moved,
-    placed,
-)
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, contact, moved, placed
 from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
 

@@ -126,6 +126,11 @@ class Rocking:
         """Return the period of free rocking, s: 4 / p acosh(1 / (1 - amplitude)), Housner's Eq. (4).
 
         `amplitude` is the largest rotation over alpha, 0 to less than 1. Of slender blocks, without losses.
+
+        Raises
+        ------
+        ModelError
+            If the amplitude is outside that.
         """
         if not 0.0 <= number(amplitude, "amplitude", "") < 1.0:
             raise ModelError(f"amplitude is {amplitude!r} of the slenderness, expected 0 to less than 1")

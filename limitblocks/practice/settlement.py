@@ -54,7 +54,7 @@ class Settling:
     unit: float
 
     def reaction(self, load_factor: float) -> float:
-        """Return the reaction against the direction at a load factor, N."""
+        """Return the reaction against the direction, N, at a `load_factor` of the settling model."""
         return self.held - load_factor * self.unit
 
     def to_dict(self) -> dict[str, Any]:
@@ -189,15 +189,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     """
     refuse_kind(model, Model, "model")
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
-    others = [name for name in model.supports if name != support]
-    if support not in model.supports:
-        kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
-        known = ", ".join(map(repr, model.supports))
-        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {known}")
-    if not others:
-        raise ModelError(
-            f"settlement: {support!r} is the only support; the whole structure would move with it"
-        )
+    others = _other_supports(model, support)
     block = next(block for block in model.blocks if block.name == support)
     model = fill_at_rest(model, support)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
@@ -227,3 +219,17 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     )
     on_support = (pulled + water + reaction).on([block])[0]
     return Settling(as_before(model, freed, support, on_support), support, read_only(d), held, weight)
+
+
+def _other_supports(model: Model, support: str) -> list[str]:
+    """Supports that stay; ModelError where `support` is none, or the only one."""
+    others = [name for name in model.supports if name != support]
+    if support not in model.supports:
+        kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
+        known = ", ".join(map(repr, model.supports))
+        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {known}")
+    if not others:
+        raise ModelError(
+            f"settlement: {support!r} is the only support; the whole structure would move with it"
+        )
+    return others

@@ -69,7 +69,7 @@ class Spectrum:
         return 4.0 * self.a_g / G + 1.6
 
     def acceleration(self, period: float, damping: float = 0.05) -> float:
-        """Return S_e(T), m/s2, Eq. [3.2.2]."""
+        """Return S_e(T), m/s2, Eq. [3.2.2], at a `period` T, s; `damping` as a ratio."""
         eta, T = damping_factor(damping), period
         plateau = self.a_g * self.S * eta * self.F0
         if self.T_B > T:
@@ -119,7 +119,13 @@ class FloorMode:
     def first(cls, period: float, storeys: int, height: float, damping: float = 0.05) -> FloorMode:
         """Return the first mode of a building of `storeys` of equal mass, linear over its height.
 
-        psi = z / H, `height`; gamma = 3 n / (2 n + 1), Eq. [C7.2.10].
+        psi = z / H, `height`, 0 to 1; gamma = 3 n / (2 n + 1), Eq. [C7.2.10]. `period` in s, `damping` as a
+        ratio.
+
+        Raises
+        ------
+        ModelError
+            If a number is out of range.
         """
         n = number(storeys, "storeys", "", least=1.0)
         if number(height, "height z / H", "", least=0.0) > 1.0:

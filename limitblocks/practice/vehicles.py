@@ -8,13 +8,12 @@ import numpy as np
 
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import top_force
+from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
-from limitblocks.mechanics.loads.tops import tops
+from limitblocks.mechanics.loads.tops import covered, tops
 from limitblocks.model import Model
 
 SUNK = 1e-6  # of the size of a block: how far a road may lie below it
-STRETCHES = 8  # of a dispersed axle: each a force on top of the block below it
 
 
 @dataclass(frozen=True)
@@ -64,8 +63,7 @@ class Deck:
         Z of the road, m.
     spread : float
         Horizontal over vertical of the dispersion through the fill along the deck: 0.5 of the usual 2:1 rule.
-        An axle acts on the length ``contact + 2 spread depth`` of the extrados, straight down, as eight equal
-        forces in the middles of its eighths: where a block ends up to a sixteenth counts for its neighbour.
+        An axle acts evenly on the length ``contact + 2 spread depth`` of the extrados, straight down.
     y : float
         Of the line, m. Across the deck the axle is taken to spread over the whole width.
 
@@ -108,15 +106,15 @@ def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) ->
 def _axle(model: Model, load: float, contact: float, deck: Deck, x: float) -> Load:
     """One axle; the parts of its length that lie beyond the structure go to the approaches."""
     free = model.free_blocks
-    owner, top = tops(free, np.array([(x, deck.y)]))
+    x_of = np.concatenate([block.vertices[:, 0] for block in free])
+    nearest = float(np.clip(x, x_of.min(), x_of.max()))  # beyond its end the fill is as deep as there
+    owner, top = tops(free, np.array([(nearest, deck.y)]))
     if owner[0] >= 0 and deck.level < float(top[0]) - SUNK * free[owner[0]].size:
         raise ModelError(
-            f"the road at {deck.level:g} m is below the structure, {top[0]:g} m high at x = {x:g} m"
+            f"the road at {deck.level:g} m is below the structure, {top[0]:g} m high at x = {nearest:g} m"
         )
     depth = max(deck.level - float(top[0]), 0.0) if owner[0] >= 0 else 0.0
     half = contact / 2.0 + deck.spread * depth
-    middles = x + half * (2.0 * (np.arange(STRETCHES) + 0.5) / STRETCHES - 1.0)
-    below, _ = tops(free, np.column_stack([middles, np.full(STRETCHES, deck.y)]))
-    share = (0.0, 0.0, -load / STRETCHES)
-    parts = [top_force(share, (float(m), deck.y)) for m, own in zip(middles, below, strict=True) if own >= 0]
-    return sum(parts, Load())
+    per_length = (0.0, 0.0, -load / (2.0 * half))
+    parts = covered(np.array([x - half, deck.y]), np.array([x + half, deck.y]), free)
+    return sum((line_load(per_length, a, b) for a, b in parts.tolist()), Load())

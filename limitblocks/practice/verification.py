@@ -102,14 +102,11 @@ def verification(
     checks = [Inequality("linear, SLV", a0, place.acceleration(demand) / q, "m/s2", SIMPLIFIED)]
     if damage_demand:
         found += steps("demand", given(damage_demand, "SLD"))
-        checks.append(
-            Inequality("linear, SLD", a0, place.acceleration(damage_demand), "m/s2", _equation(place))
-        )
+        needed = place.acceleration(damage_demand)
+        checks.append(Inequality("linear, SLD", a0, needed, "m/s2", _equation(place)))
     if curve:
-        scales = (
-            _per_control(model, scale * collapse.displacement_rates, curve, masses),
-            G / (e * confidence),
-        )
+        rates = scale * collapse.displacement_rates
+        scales = (_per_control(model, rates, curve, masses), G / (e * confidence))
         for state, spectrum, given_xi in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
             if spectrum:
                 found += steps("demand", given(spectrum, state)) if state != "SLV" else []

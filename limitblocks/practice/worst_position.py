@@ -19,6 +19,8 @@ from limitblocks.model import Model
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.shown import Result
 
+STOPPED = "interrupted: a position that was not tried may be worse"
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class WorstPosition(Result):
@@ -39,6 +41,8 @@ class WorstPosition(Result):
     deck : Deck
     digest : str
         SHA-256 of the model that was given.
+    complete : bool
+        False where the user interrupted it: a position that was not tried may be worse.
     """
 
     positions: Array
@@ -49,6 +53,7 @@ class WorstPosition(Result):
     vehicle: Vehicle
     deck: Deck
     digest: str
+    complete: bool = True
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each position, in their order along the deck."""
@@ -67,12 +72,17 @@ class WorstPosition(Result):
             "model": self.model.to_dict(),
             "vehicle": asdict(self.vehicle),
             "deck": asdict(self.deck),
+            "complete": self.complete,
         }
 
     def __str__(self) -> str:
+        acting = -float(self.model.live.on(self.model.free_blocks)[:, 2].sum())
+        total = sum(self.vehicle.axles)
+        beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
+        beyond = beyond * (acting < total * (1.0 - 1e-6))
         return (
             f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{self._as_read}"
+            f"{self.bounds.lower:.6g}{beyond}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
         )
 
 
@@ -89,7 +99,7 @@ def worst_position(
 
     Evenly spaced positions first, then a bounded search (Brent) between the neighbours of the worst. The load
     factor has kinks where an axle leaves a block: the search finds a local minimum, to a thousandth of the
-    way. Give more `positions` where several spans are about as bad.
+    way. Give more `positions` where several spans are about as bad. After Ctrl-C: the worst of those tried.
 
     Parameters
     ----------
@@ -125,17 +135,22 @@ def worst_position(
             progress(x, factor)
         return float(factor)
 
-    places = np.linspace(low, high, positions)
-    factors = np.array([at(float(x)) for x in places])
-    if not np.isfinite(factors).any():
-        raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
-    _search(at, places, factors)
-    worst = min((x for x, found in tried.items() if found), key=at)
-    found = tried[worst]
-    assert found  # one is finite
+    places, complete = np.linspace(low, high, positions), True
+    try:
+        factors = np.array([at(float(x)) for x in places])
+        if not np.isfinite(factors).any():
+            raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
+        _search(at, places, factors)
+    except KeyboardInterrupt:
+        if not any(tried.values()):
+            raise
+        complete = False
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
-    return WorstPosition(order, values, worst, *found, vehicle, deck, model.digest)
+    worst = float(order[values.argmin()])
+    found = tried[worst]
+    assert found  # one is finite
+    return WorstPosition(order, values, worst, *found, vehicle, deck, model.digest, complete)
 
 
 def _ends(

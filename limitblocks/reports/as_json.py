@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from limitblocks.reports.document import (
-    Document,
-    Figure,
-    Heading,
-    Headline,
-    Items,
-    Part,
-    Table,
-    Text,
-)
+from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table, Text
 
 FORMAT = "limitblocks report"
 REPORT_SCHEMA_VERSION = 2

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from limitblocks.errors import few
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.practice import CapacityCurve, CapacityPoint
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import cut, some
+from limitblocks.reports.words import cut
 
 
 def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
@@ -50,7 +51,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
 def _points(curve: CapacityCurve) -> Table:
     rows = [
         (f"{one.displacement:#.6g}", f"{_clean(one.load_factor):.6g}", _changes(one),
-         some(list(one.across)) or "none", f"{one.result.residuals.worst.value:.1e}")
+         few(one.across) or "none", f"{one.result.residuals.worst.value:.1e}")
         for one in curve.points
     ]  # fmt: skip
     heads = ("Displacement, m", "Load factor", "Contacts that change", "Presses across a gap", "Residual")
@@ -59,7 +60,7 @@ def _points(curve: CapacityCurve) -> Table:
 
 def _changes(point: CapacityPoint) -> str:
     taken = [f"{point.shift:.3g} of the live load taken from the dead loads"] if point.shift else []
-    return some([*point.changes, *taken]) or "none"
+    return few([*point.changes, *taken]) or "none"
 
 
 def _capacity_curve(curve: CapacityCurve) -> Curve | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
+from limitblocks.errors import few
 from limitblocks.evidence.check import Check
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability
@@ -11,7 +12,7 @@ from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.rows import SHOWN, backward, far, loose, number
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import cut, some
+from limitblocks.reports.words import cut
 
 
 def check_section(_model: Model, check: Check) -> Section:
@@ -80,7 +81,7 @@ def stability_section(_model: Model, answer: Stability) -> Section:
         values=(
             ("Answer", answer.kind.value.split(": ")[1], ""),
             ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
-            ("Blocks that move", some(list(answer.blocks), SHOWN) or "none", ""),
+            ("Blocks that move", few(answer.blocks, SHOWN) or "none", ""),
         ),
         checks=checks_of(answer.residuals, ARISEN),
         tolerance=ARISEN,

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from limitblocks.drawing.picture import mechanism_picture
+from limitblocks.errors import few
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.practice import SettlementCurve
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
-from limitblocks.reports.words import cut, kilonewtons, some
+from limitblocks.reports.words import cut, kilonewtons
 
 FOLLOWING = (
     "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
@@ -70,7 +71,7 @@ def _points(curve: SettlementCurve) -> Table:
     rows = [
         (f"{one.displacement:#.7g}", kilonewtons(one.found.lower), kilonewtons(one.found.upper),
          "" if one.found.nonassociated is None else kilonewtons(one.found.nonassociated),
-         some(list(one.changes)) or "none", some(list(one.across)) or "none")
+         few(one.changes) or "none", few(one.across) or "none")
         for one in curve.points
     ]  # fmt: skip
     heads = ("Settlement, m", "Mechanism", "Stress state", "Without dilatancy", "Contacts that change",

@@ -10,17 +10,10 @@ import numpy as np
 from limitblocks.analysis.diagnosis import diagnose
 from limitblocks.analysis.magnitudes import questions, weightless
 from limitblocks.drawing.elevations import dimensions, length
+from limitblocks.errors import few
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
-from limitblocks.reports.words import (
-    assumed,
-    counted,
-    joint_words,
-    load_words,
-    resultant_words,
-    some,
-    times,
-)
+from limitblocks.reports.words import assumed, counted, joint_words, load_words, resultant_words, times
 from limitblocks.shown import many
 
 
@@ -75,11 +68,11 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Materials", "; ".join(map(_made_of, known["materials"]))),
         ("Groups", times(known["groups"])),
         ("Colours", times(known["colours"])),
-        ("Left out of the file", some(known["left_out"])),
+        ("Left out of the file", few(known["left_out"])),
     ]
     return (
         ("Blocks", f"{known['blocks']}, of which {known['free_blocks']} free"),
-        ("Supports", some(known["supports"])),
+        ("Supports", few(known["supports"])),
         *(row for row in labels if row[1]),
         ("Size of the free blocks", overall),
         ("Height of the free blocks", f"{length(top - foot)}, from Z = {foot:.4g} m to {top:.4g} m"),
@@ -95,9 +88,9 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
             for row in known["unit_weights"]
         ),
         ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
-        ("Dead load", some(known["dead"]) or "none"),
+        ("Dead load", few(known["dead"]) or "none"),
         ("Its resultant", known["dead_resultant"]),
-        ("Live load", some(known["live"])),
+        ("Live load", few(known["live"])),
         ("Its resultant", f"{known['live_resultant']}, at load factor 1"),
     )
 
@@ -115,7 +108,7 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
         ("Blocks without weight", weightless(model)),
         ("Numbers that look like slips in their unit", questions(model)),
     )
-    return [[words, some([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
+    return [[words, few([*map(str, things)]) or "checked, nothing found"] for words, things in looked]
 
 
 def _joints(model: Model) -> Iterator[str]:

@@ -5,16 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from limitblocks.reports.document import (
-    Document,
-    Figure,
-    Heading,
-    Headline,
-    Items,
-    Part,
-    Table,
-    Text,
-)
+from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table, Text
 
 MARK = "<!-- limitblocks report -->"
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$&])")

@@ -10,6 +10,7 @@ from limitblocks.drawing.picture import mechanism_picture
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.practice import Repair, Settlement, WorstPosition
+from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
@@ -126,11 +127,12 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             (
                 "Axles on the structure",
                 kilonewtons(-float(acting[2])),
-                "at load factor one, at the worst position",
+                f"of {kilonewtons(sum(found.vehicle.axles))}, at load factor one, at the worst position",
             ),
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,
+        warnings=() if found.complete else (STOPPED,),
         curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,
     )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from math import isfinite, isnan
 
+from limitblocks.errors import few
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.comparison import NOT_CLAIMED
-from limitblocks.reports.words import some
 
 SHOWN = 4  # names in a cell
 KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
@@ -40,7 +40,7 @@ def number(load_factor: float) -> str:
 def backward(error: BackwardError) -> Row:
     """Return name, value and meaning of a backward error."""
     parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
-    where = some([f"{name} ({change:.1e})" for name, change in error.places], SHOWN)
+    where = few([f"{name} ({change:.1e})" for name, change in error.places], SHOWN)
     said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")
     return "Backward error", f"{error.value:.1e}", said
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import isfinite
 
+from limitblocks.errors import few
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.proof import Proof
@@ -15,7 +16,7 @@ from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import cut, some
+from limitblocks.reports.words import cut
 from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
@@ -124,7 +125,7 @@ def _steps(path: LoadPath) -> Table:
             str(k),
             f"{step.load_factor:#.6g}",
             *(f"{step.residuals.get(name, float('nan')):.1e}" for name in names),
-            some([f"{interface} {mode}" for interface, mode in step.active], SHOWN),
+            few([f"{interface} {mode}" for interface, mode in step.active], SHOWN),
         )
         for k, step in enumerate(path.steps)
     )

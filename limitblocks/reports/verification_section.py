@@ -7,11 +7,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from limitblocks.errors import few
 from limitblocks.model import Model
 from limitblocks.practice.verification_result import CLAIMED, STEPS, Quantity, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import rounded_down, some
+from limitblocks.reports.words import rounded_down
 
 GREEK = {"alpha": "α", "gamma": "γ", "delta": "δ", "zeta": "ζ", "xi": "ξ", "pi": "π", "psi": "ψ", "sum": "Σ"}
 CODE = "Circolare 7/2019, C8.7.1.2.1"
@@ -74,7 +75,7 @@ def verification_section(_model: Model, found: Verification) -> Section:
         parts=(
             _checks(found),
             *_steps(found.quantities),
-            Text(f"Blocks of the mechanism: {some(list(found.moving))}."),
+            Text(f"Blocks of the mechanism: {few(found.moving)}."),
             _masses(found),
         ),
     )

@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from decimal import ROUND_DOWN, Context, Decimal
+from decimal import ROUND_DOWN, ROUND_UP, Context, Decimal
 from inspect import getdoc
 from math import floor, log10
 from typing import Any
 
 import numpy as np
 
+from limitblocks.errors import few
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import AddedMass, MassProportional
 from limitblocks.mechanics.loads.forces import left_still
@@ -19,7 +20,6 @@ from limitblocks.mechanics.loads.load import along, triple
 from limitblocks.model import Model
 from limitblocks.units import gravity
 
-SHOWN = 8  # names in a line
 _OF_BLOCK = re.compile(r"block ('.*?'): (.*)")
 
 
@@ -73,23 +73,18 @@ def acceleration(model: Model) -> tuple[float, str] | None:
     return factor, f"{word} {along(direction)}"
 
 
-def as_acceleration(model: Model, load_factor: float) -> str:
+def as_acceleration(model: Model, load_factor: float, most: bool = False) -> str:
     """Return a load factor as an acceleration, as text; empty where the live load is none."""
     known = acceleration(model)
     if known is None:
         return ""
     size = known[0] * load_factor
-    return f"{known[1]} of {cut(size)} g = {cut(size * gravity)} m/s²"
+    return f"{known[1]} of {cut(size, most=most)} g = {cut(size * gravity, most=most)} m/s²"
 
 
 def counted(words: Iterable[str]) -> dict[str, int]:
     """Return how often each word occurs, the most frequent first."""
     return dict(Counter(words).most_common())
-
-
-def some(names: list[str], shown: int = SHOWN) -> str:
-    """Return the first of some names as text."""
-    return ", ".join(names[:shown]) + (f" and {len(names) - shown} more" if len(names) > shown else "")
 
 
 def together(notes: Iterable[str]) -> list[str]:
@@ -99,16 +94,14 @@ def together(notes: Iterable[str]) -> list[str]:
         name, said = found.groups() if (found := _OF_BLOCK.fullmatch(note)) else ("", note)
         blocks.setdefault(said, []).append(name)
     return [
-        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {some(names)}: {said}"
-        if names[0]
-        else said
+        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {few(names)}: {said}" if names[0] else said
         for said, names in blocks.items()
     ]
 
 
 def times(counts: dict[str, int]) -> str:
     """Return counted words as text."""
-    return some([f"{count} × {word}" for word, count in counts.items()])
+    return few([f"{count} × {word}" for word, count in counts.items()])
 
 
 def rounded_down(ratio: float) -> str:
@@ -118,10 +111,14 @@ def rounded_down(ratio: float) -> str:
     return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
 
 
-def cut(value: float, digits: int = 4) -> str:
-    """Return a load factor or displacement as text: the first of the seven digits of tables, never more."""
+def cut(value: float, digits: int = 4, most: bool = False) -> str:
+    """Return a load factor or displacement as text: the first of the seven digits of tables, never more.
+
+    What is the `most` that something can be is never less.
+    """
     first = Decimal(f"{value:.7g}")
-    return f"{float(Context(prec=digits, rounding=ROUND_DOWN).plus(first)):#.{digits}g}"
+    rounding = ROUND_UP if most else ROUND_DOWN
+    return f"{float(Context(prec=digits, rounding=rounding).plus(first)):#.{digits}g}"
 
 
 def kilonewtons(force: float) -> str:

@@ -1,12 +1,6 @@
 """Parametric structures, each a model ready to analyse. Lengths in m, unit weights in N/m3."""
 
-from limitblocks.structures.arches import (
-    arch,
-    arch_on_piers,
-    elliptical_arch,
-    pointed_arch,
-    segmental_arch,
-)
+from limitblocks.structures.arches import arch, elliptical_arch, pointed_arch, segmental_arch
 from limitblocks.structures.bond import Opening
 from limitblocks.structures.bridges import arch_bridge
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
@@ -30,7 +24,6 @@ __all__ = [
     "Piers",
     "arch",
     "arch_bridge",
-    "arch_on_piers",
     "barrel_vault",
     "block",
     "buttressed_wall",

@@ -11,14 +11,7 @@ from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
-from limitblocks.structures.build import (
-    HORIZONTAL,
-    UNIT_WEIGHT,
-    model_of,
-    prism,
-    refuse,
-    refuse_not_positive,
-)
+from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, model_of, prism, refuse, refuse_not_positive
 from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
 from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
 from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed
@@ -158,37 +151,6 @@ def elliptical_arch(
     """
     ring = elliptical(span, rise, thickness, voussoirs, stereotomy, facets)
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "elliptical arch")
-
-
-def arch_on_piers(
-    joint: Joint,
-    *,
-    radius: float,
-    thickness: float,
-    voussoirs: int,
-    pier_width: float,
-    pier_blocks: int,
-    block_height: float = 0.4,
-    depth: float = 1.0,
-    unit_weight: float = UNIT_WEIGHT,
-    direction: Sequence[float] = HORIZONTAL,
-) -> Model:
-    """Return a semicircular arch on two piers of single blocks: :func:`arch` with `piers`.
-
-    Parameters
-    ----------
-    pier_width : float
-        Along X, m; at least the thickness.
-    pier_blocks : int
-        Number of blocks in each pier.
-    block_height : float
-        Of the pier blocks, m.
-    joint, radius, thickness, voussoirs, depth, unit_weight, direction
-        As for :func:`arch`.
-    """
-    ring = circular(radius, thickness, voussoirs, np.pi)
-    piers = Piers(pier_width, pier_blocks, block_height)
-    return _arch(joint, ring, piers, None, depth, unit_weight, direction, "arch on piers")
 
 
 def _arch(

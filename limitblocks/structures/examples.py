@@ -9,13 +9,7 @@ import numpy as np
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.arches import (
-    arch,
-    arch_on_piers,
-    elliptical_arch,
-    pointed_arch,
-    segmental_arch,
-)
+from limitblocks.structures.arches import arch, elliptical_arch, pointed_arch, segmental_arch
 from limitblocks.structures.bridges import arch_bridge
 from limitblocks.structures.corners import buttressed_wall, corner, facade, tower
 from limitblocks.structures.cross_vaults import groin_vault, pavilion_vault
@@ -74,8 +68,8 @@ EXAMPLES: Mapping[str, Callable[[Joint], Model]] = MappingProxyType(
             piers=Piers(width=1.0, blocks=2),
             fill=Fill(height=0.3),
         ),
-        "arch_on_piers": lambda joint: arch_on_piers(
-            joint, radius=2.0, thickness=0.4, voussoirs=13, pier_width=0.9, pier_blocks=3
+        "arch, piers": lambda joint: arch(
+            joint, radius=2.0, thickness=0.4, voussoirs=13, piers=Piers(width=0.9, blocks=3)
         ),
         "arch_bridge": lambda joint: arch_bridge(
             joint, span=3.0, rise=0.8, thickness=0.4, voussoirs=9, spans=2, pier_width=0.9, rings=2

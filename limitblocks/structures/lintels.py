@@ -51,11 +51,7 @@ def portal(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(
-        span=span,
-        pier_width=pier_width,
-        block_height=block_height,
-        lintel_height=lintel_height,
-        depth=depth,
+        span=span, pier_width=pier_width, block_height=block_height, lintel_height=lintel_height, depth=depth
     )
     refuse([] if pier_blocks >= 1 else [f"pier blocks is {pier_blocks!r}, expected at least 1"])
     end, top, y = span + 2 * pier_width, pier_blocks * block_height, (-depth / 2, depth / 2)

@@ -57,8 +57,8 @@ class SampledStudy(Saved):
     def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
         """Return quantiles of the load factor over the independent samples that have one.
 
-        A row whose dead loads fall counts as load factor zero; other failures are left out. Between a load
-        factor and an unlimited one the lower counts.
+        One for each of `shares`, 0 to 1. A row whose dead loads fall counts as load factor zero; other
+        failures are left out. Between a load factor and an unlimited one the lower counts.
 
         Raises
         ------
@@ -67,8 +67,8 @@ class SampledStudy(Saved):
         """
         known = self._known()
         most = known[np.isfinite(known)].max(initial=0.0)
-        below, above = (np.quantile(known, shares, method=end) for end in ("lower", "higher"))
-        return np.where(np.isinf(above), below, np.quantile(np.minimum(known, most), shares))
+        unlimited = np.isinf(np.quantile(known, shares, method="lower"))
+        return np.where(unlimited, np.inf, np.quantile(np.minimum(known, most), shares))
 
     def probability_below(self, demand: float) -> float:
         """Return the share of independent samples whose load factor is below `demand`; falling ones are."""
@@ -112,7 +112,13 @@ class SampledStudy(Saved):
         ]
 
     def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the rows to a CSV file and return its path; LimitBlocksError if it exists."""
+        """Write the rows to a CSV file and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            It exists and `overwrite` is false, or it cannot be written.
+        """
         return write_rows(self.rows(), file, overwrite=overwrite)
 
     def to_dict(self) -> dict[str, Any]:

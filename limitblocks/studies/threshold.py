@@ -159,7 +159,8 @@ def maximum(
 ) -> Threshold:
     """Return the largest value of a parameter for which the loads stand, such as a height or a span.
 
-    As :func:`minimum`, but the structure of `low` stands and that of `high` falls.
+    As :func:`minimum`, with the same parameters and errors, but the structure of `low` stands and that of
+    `high` falls.
     """
     return _Search(maker, parameter, load_factor, progress).between(low, high, True, tolerance)
 

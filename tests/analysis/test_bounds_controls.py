@@ -156,13 +156,7 @@ def wrong(change):
 
 @pytest.mark.parametrize(
     "change",
-    [
-        lambda v: 1.01 * v,
-        lambda v: -v,
-        np.zeros_like,
-        lambda v: v * np.nan,
-        lambda v: v + 1e-3,
-    ],
+    [lambda v: 1.01 * v, lambda v: -v, np.zeros_like, lambda v: v * np.nan, lambda v: v + 1e-3],
     ids=["scaled", "negated", "zero", "nan", "shifted"],
 )
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=["OL", "PC"])

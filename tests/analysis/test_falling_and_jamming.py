@@ -30,9 +30,7 @@ def test_what_cannot_stand_falls_though_some_load_factor_balances_it(analysis, d
 def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
     model = arch(0.05, DOWN)
     nothing = lb.results.Claim(
-        -1.0,
-        [[0.0] * 6 for _ in model.interfaces],
-        generalised_stresses=[0.0] * model.problem.C.shape[0],
+        -1.0, [[0.0] * 6 for _ in model.interfaces], generalised_stresses=[0.0] * model.problem.C.shape[0]
     )
     check = lb.check_mcp(model, nothing)
     assert check.residuals["equilibrium"] <= 1e-15

@@ -8,7 +8,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished, least_norm
+from limitblocks.analysis.nonassociated import finished, frozen_flow, least_norm
 from limitblocks.analysis.nonassociated.fixed_point import nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
@@ -65,11 +65,33 @@ def test_frozen_friction_of_a_block_is_mu_times_its_weight(share):
 
 def test_frozen_rows_are_the_true_ones_at_their_state():
     model = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(MU))
-    flow, x = Flow(model.problem), np.random.default_rng(0).normal(size=model.problem.C.shape[0])
+    problem, flow = model.problem, Flow(model.problem)
+    x = lb.bounds(model).generalised_stresses / problem.stress_units
     at = frozen(flow, x)
-    true = model.problem.F @ x + model.problem.g
-    np.testing.assert_allclose(at.F @ x + at.g, true, atol=1e-12)
+    np.testing.assert_allclose(at.F @ x + at.g, problem.F @ x + problem.g, atol=1e-8)
     np.testing.assert_array_equal(at.F.toarray(), flow.matrix(x).toarray())
+    x = np.random.default_rng(0).normal(size=len(x))  # not within yield: the nearest that is
+    at = frozen(flow, x)
+    nearest = problem.cones.nearest(problem.F @ x + problem.g)
+    np.testing.assert_allclose(at.F @ x + at.g, nearest, atol=1e-12)
+
+
+def test_rounding_leaves_no_friction_limit_below_zero(monkeypatch):
+    """A stone b = 0.5, h = 1 tips at b/h; the contacts that lift carry a tension of 1e-9."""
+    stones = [
+        lb.Block.box("base", (3, 3, 0.2), (0, 0, -0.1)),
+        lb.Block.box("stone", (0.5, 1, 1), (0, 0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.8))
+    model = lb.Model(stones, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    found = lb.nonassociated(model)
+    assert found.load_factor == pytest.approx(0.5)
+    problem, none = model.problem, (np.zeros(6), np.zeros(len(model.problem.g)))
+    x = found.generalised_stresses / problem.stress_units
+    x = x + 1e-9 * (problem.resultants.toarray()[2] > 0.0) * (np.abs(x) < 1e-6)
+    assert (problem.F @ x + problem.g).min() < -1e-10
+    monkeypatch.setattr(frozen_flow, "pair_of_bounds", None)  # the first solve is enough
+    assert fixed_point_change(Flow(problem), State(0.5 * problem.units.live, x, *none)) <= 1e-8
 
 
 @pytest.mark.parametrize("kind", JOINTS)
@@ -124,8 +146,7 @@ def test_confirmation_is_an_option_and_only_of_answers():
 
 
 @pytest.mark.parametrize(
-    ("change", "remark"),
-    [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")],
+    ("change", "remark"), [(np.inf, "no solver confirms"), (1e-3, "load factor changes by 1.0e-03")]
 )
 def test_an_answer_that_is_not_confirmed_says_so(change, remark, monkeypatch):
     monkeypatch.setattr(finished, "fixed_point_change", lambda *_: change)

@@ -223,9 +223,7 @@ def test_turned_model_has_the_same_states():
     turned = lb.Model(blocks, straight.supports, interfaces, lb.self_weight(), live)
     one, other = lb.bounds(straight), lb.bounds(turned)
     same = dataclasses.replace(
-        one,
-        displacement_rates=one.displacement_rates @ np.kron(np.eye(2), turn.T),
-        digest=turned.digest,
+        one, displacement_rates=one.displacement_rates @ np.kron(np.eye(2), turn.T), digest=turned.digest
     )
     first, second = interface_states(straight, one), interface_states(turned, same)
     assert first.state == second.state

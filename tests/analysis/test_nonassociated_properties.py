@@ -84,14 +84,7 @@ def test_dilatancy_out_of_range_is_refused(reference, dilatancy, analysis):
 
 
 @pytest.mark.parametrize(
-    "change",
-    [
-        {"scale": 1e-3},
-        {"scale": 1e3},
-        {"unit_weight": 20.0},
-        {"unit_weight": 20e9},
-    ],
-    ids=str,
+    "change", [{"scale": 1e-3}, {"scale": 1e3}, {"unit_weight": 20.0}, {"unit_weight": 20e9}], ids=str
 )
 def test_units_change_nothing(kind, reference, change):
     """Up to rounding, which decides where in an interval of solutions the path is closed."""

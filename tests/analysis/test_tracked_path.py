@@ -27,7 +27,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.nonassociated.start import load_scale
-from limitblocks.analysis.polish import polish
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.problem import Flow, Turning
 
 # Ferris & Tin-Loi (2001), non-associated: the reference and another code; not unique, so 1 % about the two
@@ -122,6 +122,18 @@ def test_means_of_the_small_barrier_come_before_increments(monkeypatch):
     assert "small barrier" not in lb.nonassociated(model, means=means).how
 
 
+def test_an_end_below_a_tenth_of_the_tolerance_is_not_polished(monkeypatch):
+    flow, *given = start(structures.block(lb.PointContact(0.4), width=1.0, height=1.0))
+    end = track(flow, *given)[0]
+    end = replace(end, u=end.u * (1.0 + 3e-10))  # of the work of the live load
+    left = defect(flow, end)
+    assert left > 1e-10
+    monkeypatch.setattr(ways, "polished", None)  # not asked for
+    assert ways._polished(flow, end, "path", 11.0 * left) == (end, "path")
+    with pytest.raises(TypeError):
+        ways._polished(flow, end, "path", 9.0 * left)
+
+
 def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypatch):
     monkeypatch.setattr(
         "limitblocks.analysis.in_plane.mirror_of", lambda problem: None
@@ -146,8 +158,7 @@ def test_pivots_close_what_rounds_leave_open(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("name", "direction", "means"),
-    [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3)],
+    ("name", "direction", "means"), [("buttressed_wall", (0, 1, 0), 2), ("tower", (1, 1, 0), 3)]
 )
 def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, means):
     model = pushed(name, lb.OrdunaLourenco(0.7), direction)
@@ -198,10 +209,12 @@ def test_an_interrupted_path_leaves_its_best_state():
 
 
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
-@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
-def test_the_derivative_is_that_of_the_equations(joint, rule):
+@pytest.mark.parametrize(("joint", "size"), [(lb.OrdunaLourenco(0.6), 6), (lb.PointContact(0.6), 3)])
+def test_the_derivative_is_that_of_the_equations(joint, size, rule):
+    """Rows couple the stresses of an interface, or the three of a point, which are eliminated in blocks."""
     flow, x0, weights = start(structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)), **rule)
     path = path_from(flow, x0, weights, Barrier(), 0)
+    assert path.layout.coupled == size
     z, _ = centred(path)
     random = np.random.default_rng(0)
     q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))

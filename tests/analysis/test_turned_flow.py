@@ -8,12 +8,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
 from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING, follow
-from limitblocks.analysis.nonassociated.start import (
-    bracket,
-    load_scale,
-    own_units,
-    start_stresses,
-)
+from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import polish
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.problem import Flow, Turning

@@ -101,10 +101,7 @@ WRONG = {
     "support": (("--supports", "bas"), "'bas' is neither a block nor a layer; did you mean 'base'?"),
     "units": (("--supports", "base", "--units", "km"), "'km'"),
     "joint": (("--supports", "base", "--joint", "Glue"), "'--joint': 'Glue' is no joint"),
-    "slip": (
-        ("--supports", "base", "--slip", "round"),
-        "'round' is not one of 'exact'",
-    ),
+    "slip": (("--supports", "base", "--slip", "round"), "'round' is not one of 'exact'"),
     "slip of points": (
         ("--supports", "base", "--joint", "point-contact", "--slip", "paper"),
         "--slip is 'paper', but",

@@ -125,10 +125,7 @@ WRONG = {
         '"layer:PIERS"',
         "materials.granite.blocks: expected a list [...], not 'layer:PIERS'",
     ),
-    '["layer:BASE"]': (
-        '["layer:BASS"]',
-        "no material of the table; among them layers 'BASE' (1)",
-    ),
+    '["layer:BASE"]': ('["layer:BASS"]', "no material of the table; among them layers 'BASE' (1)"),
     "friction = 0.6}": ("friction = -0.6}", "materials.limestone: friction is -0.6"),
 }
 

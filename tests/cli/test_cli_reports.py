@@ -71,3 +71,13 @@ def test_report_of_saved_results_analyses_nothing(file, result, tmp_path, monkey
     refused = run("report", other, saved, "-o", page, "--force")
     assert (refused.exit_code, asked) == (2, [])
     assert "belongs to model" in refused.stderr
+
+
+@pytest.mark.usefixtures("solver")
+@pytest.mark.parametrize("verb", ["stability", "bounds", "nonassociated", "path"])
+def test_verbs_report_their_own_answer(verb, file, tmp_path):
+    page = tmp_path / "answer.md"
+    done = run(verb, file, "--json", "--report", page)
+    assert done.exit_code == 0, done.stderr
+    assert lb.read(file).digest in page.read_text(encoding="utf-8")
+    assert run(verb, file, "--report", page).exit_code == 2  # it is there already

@@ -41,9 +41,7 @@ def _empty_folder(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "given",
-    [("0,1,0",), ("0", "1", "0"), ("0 1 0",), ("0, 1, 0",), ("0.", "1e0", "-0")],
-    ids="|".join,
+    "given", [("0,1,0",), ("0", "1", "0"), ("0 1 0",), ("0, 1, 0",), ("0.", "1e0", "-0")], ids="|".join
 )
 @pytest.mark.parametrize("option", ["--live", "--direction"])
 def test_a_vector_with_commas_or_blanks(option, given):

@@ -15,11 +15,7 @@ from limitblocks.problem import ASSOCIATED
 MU, A, W, STRENGTH = 0.25, 1.0, 80e3, 100e3  # half side m, N, Pa
 TORSION = A * (np.sqrt(2.0) + np.log1p(np.sqrt(2.0))) / 3.0  # of a square under uniform pressure, over mu W
 RESTING, SLIDING = (0.0, 0.0, -1.0, 0.0, 0.0, 0.0), (MU, 0.0, -1.0, 0.0, MU * A / 2, 0.0)
-PLANES, CONES, POINTS = (
-    lb.OrdunaLourenco(MU, slip="paper"),
-    lb.OrdunaLourenco(MU),
-    lb.PointContact(MU),
-)
+PLANES, CONES, POINTS = (lb.OrdunaLourenco(MU, slip="paper"), lb.OrdunaLourenco(MU), lb.PointContact(MU))
 CRUSHING = lb.OrdunaLourenco(MU, compressive_strength=STRENGTH)
 
 

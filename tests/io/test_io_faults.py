@@ -183,10 +183,7 @@ TEXTS = {
     "infinity by size": (json.dumps(GOOD).replace("24000.0", "1e999").encode(), ["blocks[3].unit_weight"]),
     "digits": (json.dumps(GOOD).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
     "duplicate key": (b'{"schema_version": 1, "name": "a", "name": "b"}', ["'name' appears twice"]),
-    "encoding": (
-        json.dumps(GOOD).replace("Portal", "Säule").encode("latin-1"),
-        ["UTF-8"],
-    ),
+    "encoding": (json.dumps(GOOD).replace("Portal", "Säule").encode("latin-1"), ["UTF-8"]),
     "UTF-16": (json.dumps(GOOD).encode("utf-16"), ["UTF-8"]),
     "lone surrogate": (json.dumps(GOOD).replace("Portal", "\\ud800").encode(), ["not JSON"]),
     "nested lists": (b"[" * 100_000, ["nests too deeply"]),

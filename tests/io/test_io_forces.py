@@ -34,9 +34,7 @@ def out_of_balance(acting):
             force += sign * np.array(vector)
             moment += sign * (np.cross(np.subtract(point, block.centroid), vector) + turning)
         worst = max(
-            worst,
-            np.abs(force).max() / block.weight,
-            np.abs(moment).max() / (block.weight * block.size),
+            worst, np.abs(force).max() / block.weight, np.abs(moment).max() / (block.weight * block.size)
         )
     return worst
 

@@ -204,10 +204,7 @@ FAULTS = {
     "future": (MINIMAL | {"schema_version": 2}, ["schema_version: expected 1, not 2"]),
     "kind": (MINIMAL | {"analysis": "modal"}, ["analysis: expected 'nonassociated'", "'modal'"]),
     "kind of kind": (MINIMAL | {"analysis": [1]}, ["analysis: expected 'nonassociated'"]),
-    "stability": (
-        {"analysis": "stability"},
-        ["no load factor", "result of bounds, nonassociated or path"],
-    ),
+    "stability": ({"analysis": "stability"}, ["no load factor", "result of bounds, nonassociated or path"]),
     "bounds without a lower one": ({"analysis": "bounds", "upper": 1.0}, ["lower: is missing"]),
     "turning": (MINIMAL | {"turning": "table 5"}, ["turning: expected 'centroid' or 'centre of pressure'"]),
     "check": ({"analysis": "check"}, ["holds a check"]),

@@ -16,10 +16,7 @@ GROUND = [[-2.0, -0.2], [2.0, -0.2], [2.0, 0.0], [-2.0, 0.0]]
 SI = {
     "schema_version": 1,
     "blocks": [
-        {
-            "name": "ground",
-            "prism": {"outline": GROUND, "between": [-0.5, 0.5]},
-        },
+        {"name": "ground", "prism": {"outline": GROUND, "between": [-0.5, 0.5]}},
         {"name": "left", "box": {"size": [0.5, 1.0, 2.2], "at": [-1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "right", "box": {"size": [0.5, 1.0, 2.2], "at": [1.0, 0.0, 1.1]}, "unit_weight": 20e3},
         {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.4]}, "unit_weight": 24e3},

@@ -108,6 +108,56 @@ def test_block_rocking_with_crushing(b, h, share, friction):
     assert bounds.upper == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.parametrize("share", [0.02, 0.1])
+def test_crushing_towards_a_corner_of_a_triangle(share):
+    """Eq. (39): e = (2/3) h (1 - n); the stress block, a triangle at the corner: (2/3) h (1 - sqrt(n))."""
+    h, half = 0.9, 0.4
+    joint = lb.OrdunaLourenco(MU, compressive_strength=1.0 / (share * half * h))
+    interface = lb.joints.interface([(2 * h / 3, 0.0), (-h / 3, half), (-h / 3, -half)], joint)
+    found = joint.strength(interface, (0, 0, 0, 0, 1, 0), (0, 0, -1.0, 0, 0, 0))
+    block = 2 / 3 * h * (1 - np.sqrt(share))
+    assert found / block == pytest.approx(1 + np.sqrt(share), rel=1e-6)
+    assert f"{np.sqrt(share):.0%} at {share:.0%}".replace("%", " %") in DOCS
+
+
+def prism(outline, height):
+    """A stone with a foot of any outline on the ground."""
+    n, around = len(outline), range(len(outline))
+    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in around]
+    vertices = [(*at, z) for z in (0.0, height) for at in outline]
+    foot = lb.Block("foot", vertices, [tuple(around)[::-1], tuple(range(n, 2 * n)), *sides], unit_weight=20e3)
+    return [lb.Block.box("ground", (20.0, 20.0, 1.0), (0.0, 0.0, -0.5)), foot]
+
+
+def pushed(blocks, joint, direction):
+    contacts = lb.find_interfaces(blocks, joint)
+    return lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional((*direction, 0.0)))
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1, 1 / 3])
+def test_crushing_of_an_L_is_the_sum_of_its_pieces(share):
+    """Along x + y: 4/3 (1 - n); two triangles of stress at the far corners, 4/3 - (2/3) sqrt(3 n)."""
+    height = 6.0
+    joint = lb.OrdunaLourenco(2.0, compressive_strength=20e3 * height / share)
+    blocks = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)], height)
+    found = lb.bounds(pushed(blocks, joint, (np.sqrt(0.5), np.sqrt(0.5)))).lower
+    lever = np.sqrt(2.0) * height / 2
+    assert found == pytest.approx(4 / 3 * (1 - share) / lever, rel=1e-6)
+    over = found * lever / (4 / 3 - 2 / 3 * np.sqrt(3 * share)) - 1
+    assert over == pytest.approx((1 - share) / (1 - np.sqrt(3 * share) / 2) - 1, rel=1e-5)
+    assert f"{over:.0%} at {share:.0%}".replace("%", " %") in DOCS or over == pytest.approx(1 / 3, rel=1e-5)
+
+
+def test_torsion_of_a_T_beside_the_piece_that_carries_it_is_safe():
+    """It tips over the edge from (3, 1) to (2, 3) at y = 1.1, where its centroid is: x = 2.95."""
+    joint = lb.OrdunaLourenco(0.8)
+    blocks = prism([(0, 0), (3, 0), (3, 1), (2, 1), (2, 3), (1, 3), (1, 1), (0, 1)], 6.0)
+    tips = 1.45 / 3.0
+    assert lb.bounds(pushed(blocks, lb.PointContact(0.8), (1.0, 0.0))).upper == pytest.approx(tips, rel=1e-6)
+    assert round(1 - lb.bounds(pushed(blocks, joint, (1.0, 0.0))).upper / tips, 2) == 0.07
+    assert "bar, by 7 %" in DOCS
+
+
 def test_column_too_heavy_for_its_joint_falls():
     joint = lb.OrdunaLourenco(0.6, compressive_strength=0.99 * 20e3)
     with pytest.raises(lb.errors.NoEquilibrium):

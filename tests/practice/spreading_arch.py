@@ -22,9 +22,7 @@ def half_ring(voussoirs, thickness):
         x, z = np.array([inner[k], outer[k], outer[k + 1], inner[k + 1]]).T
         twice = x * np.roll(z, -1) - np.roll(x, -1) * z
         areas.append(abs(twice.sum()) / 2)
-        centres.append(
-            [((a + np.roll(a, -1)) * twice).sum() / (3 * twice.sum()) for a in (x, z)],
-        )
+        centres.append([((a + np.roll(a, -1)) * twice).sum() / (3 * twice.sum()) for a in (x, z)])
     return inner, outer, np.array(areas), np.array(centres)
 
 

@@ -1,6 +1,5 @@
 """Capacity curves: closed forms at finite displacement, what moves with the blocks, negative controls."""
 
-import importlib
 from dataclasses import replace
 
 import numpy as np
@@ -9,21 +8,8 @@ from few_blocks import sliding_block, toe_corner
 from scipy.optimize import brentq
 
 import limitblocks as lb
-from limitblocks.arrays import read_only
-from limitblocks.evidence.ending import Status
-from limitblocks.loads import added_mass, pressure
-from limitblocks.practice import (
-    CapacityPoint,
-    Control,
-    PartialFactors,
-    adequacy,
-    answered,
-    capacity,
-    capacity_curve,
-    reinforced,
-    tie,
-)
-from limitblocks.practice.displaced import assembly_of
+from limitblocks.loads import added_mass
+from limitblocks.practice import PartialFactors, adequacy, answered, capacity_curve, reinforced, tie
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -78,16 +64,6 @@ def test_block_that_slides_off_its_base_tips_over_the_edge():
         assert np.ptp(own.polygon[:, 0]) * np.ptp(own.polygon[:, 1]) == pytest.approx(1 - point.displacement)
     first = curve.points[int(slid.sum())]
     assert first.load_factor == pytest.approx((0.5 - first.displacement) / (h / 2), rel=1e-6)
-
-
-def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
-    """From one corner of a square to the other, a way longer than its side: it slides for ever."""
-    stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
-    found = lb.find_interfaces(stones, lb.PointContact(0.1))
-    push = lb.mass_proportional((0.5**0.5, 0.5**0.5, 0))
-    curve = capacity_curve(lb.Model(stones, ["base"], found, lb.self_weight(), push), steps=2)
-    assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
-    assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
 
 
 def test_mass_and_tie_move_with_the_block():
@@ -150,56 +126,6 @@ def test_a_facade_of_37_blocks(joint, push):
     assert curve.points[1].changes
 
 
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"steps": 1}, "steps is 1, expected a whole number of at least 2"),
-        ({"largest": 0.0}, "largest is 0.0, expected a displacement > 0"),
-        ({"control": ("stone", (0, 0, 0))}, "'stone' is not a block"),
-        ({"control": ("base", (0, 0, 0))}, "block 'base' does not move"),
-    ],
-)
-def test_misuse(settings, words):
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    with pytest.raises(lb.ModelError, match=words):
-        capacity_curve(model, **settings)
-
-
-def test_load_that_stays_behind():
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    loaded = lb.Model(
-        model.blocks, model.supports, model.interfaces, model.dead,
-        model.live + pressure("block 1", 100.0, facing=(1, 0, 0)),
-    )  # fmt: skip
-    with pytest.raises(lb.ModelError, match="does not move with the blocks"):
-        capacity_curve(loaded)
-
-
-def test_blocks_that_meet_stop_the_curve():
-    """A block rocks towards a wall 5 cm away: its upper corner is there at asin(.05 / h)."""
-    stones = [
-        lb.Block.box("base", (3, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
-        lb.Block.box("wall", (0.3, 1, 2.0), (B / 2 + 0.05 + 0.15, 0, 1.0)),
-    ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
-    assert curve.zero is None
-    assert curve.ended.startswith("blocks meet at 0.05")
-    assert curve.displacements[-1] == pytest.approx(0.05, abs=1e-4)
-    assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
-
-
-def test_a_contact_that_closes_at_once_is_not_called_blocks_that_meet(monkeypatch):
-    monkeypatch.setattr("limitblocks.practice.capacity.advanced", lambda *step: None)
-    curve = capacity_curve(lb.structures.block(JOINTS[0], width=B, height=H))
-    assert len(curve.points) == 1
-    assert curve.zero is None
-    assert str(curve).startswith("capacity curve of 1 point from")
-    assert curve.ended == "a contact closes at once, in the first step, and stops the mechanism"
-
-
 def test_a_tie_that_yields_on_the_way_to_zero():
     """The load factor falls ever faster, and the secant steps beyond its zero: few points all the same."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)
@@ -219,14 +145,6 @@ def test_a_tie_that_yields_on_the_way_to_zero():
     assert curve.zero == pytest.approx(H * np.sin(turn), rel=1e-7)
 
 
-def test_a_curve_that_rises_goes_on_by_longer_steps():
-    model = lb.structures.block(JOINTS[0], width=B, height=H)
-    result = lb.nonassociated(model)
-    before, point = (CapacityPoint(d, a, 0.0, model, result, ()) for d, a in ((0.0, 0.2), (0.001, 0.21)))
-    control = Control("block 1", toe_corner(model), read_only(np.array([1.0, 0, 0])))
-    assert capacity._next_step(assembly_of(model), control, (before, point), 20) == pytest.approx(0.01)
-
-
 @pytest.mark.parametrize("uphill", [True, False])
 def test_dead_loads_that_fall_are_held_by_some_of_the_live_load(uphill):
     """A block on a slope beta steeper than friction: pushed up tan(beta + phi), down -tan(beta - phi)."""
@@ -242,66 +160,6 @@ def test_dead_loads_that_fall_are_held_by_some_of_the_live_load(uphill):
     assert lb.check_mcp(held, result).passed
     expected = np.tan(slope + np.arctan(friction)) if uphill else -np.tan(slope - np.arctan(friction))
     assert result.load_factor - shift == pytest.approx(expected, rel=1e-8)
-
-
-def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
-    """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
-    there = assembly_of(sliding_block())
-
-    def advanced_to(assembly, control, point, step, scale):
-        at = point.displacement + step
-        return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
-
-    monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0)
-    assert 0.15 <= found.displacement < 0.3
-
-
-@pytest.mark.parametrize("lost", [1e-6, 1e-3])
-def test_a_curve_whose_end_is_not_solved_ends_on_the_safe_side_of_its_zero(monkeypatch, lost):
-    """Nothing is solved below 1e-6 of the first load factor, as on a tower: zero within 1e-6 of the size.
-
-    Lost at 1e-3 it is too far from its zero, and has none.
-    """
-    model, whole = lb.structures.block(JOINTS[0], width=B, height=H), capacity.answered
-
-    def answered_above(assembly):
-        if (found := whole(assembly))[3].load_factor - found[1] < lost * B / H:
-            raise lb.SolveError("lost")
-        return found
-
-    monkeypatch.setattr(capacity, "answered", answered_above)
-    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
-    exact = H * np.sin(np.arctan(B / H))
-    if lost > 1e-6:
-        assert curve.zero is None
-        assert "no checked answer beyond" in curve.ended
-    else:
-        assert exact - 1e-6 * assembly_of(model).size <= curve.zero < exact
-
-
-@pytest.mark.parametrize("within", [False, True])
-def test_an_interrupted_curve_keeps_its_points(monkeypatch, within):
-    """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""
-    model, solve, calls = lb.structures.block(JOINTS[0], width=B, height=H), lb.nonassociated, []
-
-    def stopped(model):
-        calls.append(model)
-        if len(calls) < 2:
-            return solve(model)
-        if not within:
-            raise KeyboardInterrupt
-        state = replace(solve(model), status=Status.INTERRUPTED)
-        raise lb.errors.NotConverged("interrupted", state)
-
-    monkeypatch.setattr(importlib.import_module("limitblocks.practice.answered"), "nonassociated", stopped)
-    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
-    assert len(calls) == 2
-    assert len(curve.points) == 2
-    assert curve.zero is None
-    assert curve.ended == f"interrupted beyond {curve.points[1].displacement:.6g} m"
 
 
 @pytest.mark.parametrize(("away", "gamma"), [(1.0, 1.0), (9.0, 1.0), (9.0, 1.2)])
@@ -330,29 +188,6 @@ def test_prestress_stays_on_the_line_of_its_tie(away, gamma):
         + gamma * block.weight * (toe - middle)[:, 0]
     )
     assert curve.load_factors == pytest.approx(held / (block.weight * (middle - toe)[:, 2]), abs=1e-9)
-
-
-def test_curve_ends_where_the_control_point_turns_back():
-    """A stone rocks; a point .5 m beyond its edge and .05 m above goes on by hypot(.5, .05) - .5 at most."""
-    stones = [
-        lb.Block.box("ground", (2, 1, 1), (0, 0, -0.5)),
-        lb.Block.box("stone", (3, 1, 2), (0, 0, 1), 20e3),
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    curve = capacity_curve(model, control=("stone", (1.5, 0, 0.05)), steps=20)
-    most, leans = np.hypot(0.5, 0.05), np.arctan2(0.05, 0.5)
-    assert curve.zero is None
-    assert "control point of block 'stone' moves along the live load no more" in curve.ended
-    assert curve.points[-1].displacement <= most - 0.5 + 1e-9
-    for one in curve.points:
-        x, z = next(b for b in one.model.blocks if b.name == "stone").centroid[[0, 2]] - [1, 0]
-        turned = np.arctan2(z, x) - np.arctan2(1, -1)
-        assert one.load_factor == pytest.approx(np.tan(np.pi / 4 + turned), abs=1e-9)
-        assert one.displacement == pytest.approx(most * np.cos(leans + turned) - 0.5, abs=1e-9)
-        assert turned < 1e-12  # never back
-    turns = [one.model.blocks[1].centroid[0] for one in curve.points]
-    assert np.all(np.diff(turns) > 0)
 
 
 @pytest.mark.parametrize("upside_down", [False, True])

@@ -1,11 +1,15 @@
 """A support that settles until the structure falls: closed forms of three-hinged arches, misuse."""
 
+import importlib
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 from spreading_arch import first_hinge, fourth_hinge, half_ring, three_hinged
 
 import limitblocks as lb
+from limitblocks.evidence.ending import Status
 from limitblocks.loads import pressure
 from limitblocks.practice import settlement_to_collapse
 
@@ -197,3 +201,26 @@ def test_support_that_is_a_free_block_and_load_that_stays_behind():
     loaded = lb.Model(ring.blocks, ring.supports, ring.interfaces, wind, ring.live)
     with pytest.raises(lb.ModelError, match="does not move with the blocks; a settlement until collapse"):
         settlement_to_collapse(loaded, "right support", SPREAD)
+
+
+@pytest.mark.parametrize("within", [False, True])
+def test_an_interrupted_settlement_keeps_its_points(monkeypatch, within):
+    """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""
+    ring, _ = arch(8, 0.2)
+    found = importlib.import_module("limitblocks.practice.collapse")
+    solve, state, calls = found.settlement, lb.nonassociated(ring), []
+
+    def stopped(*given, **options):
+        calls.append(given)
+        if len(calls) < 3:
+            return solve(*given, **options)
+        if not within:
+            raise KeyboardInterrupt
+        raise lb.errors.NotConverged("interrupted", replace(state, status=Status.INTERRUPTED))
+
+    monkeypatch.setattr(found, "settlement", stopped)
+    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.1)
+    assert len(calls) == 3
+    assert len(curve.points) == 2
+    assert curve.falls is None
+    assert curve.ended == f"interrupted beyond {curve.points[1].displacement:.6g} m"

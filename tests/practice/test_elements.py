@@ -7,7 +7,7 @@ from facades import ARM, FLOOR, OWN, H, T, facade
 import limitblocks as lb
 from limitblocks.analysis.scales import frictional
 from limitblocks.evidence.spanning_tree import spanning_tree
-from limitblocks.joints import Tie
+from limitblocks.joints import Guide, Tie
 from limitblocks.practice import dowel, reinforced, strip, tie
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -44,6 +44,7 @@ def test_tie_of_a_facade(joint):
     assert states.state[1] == "yield"
     assert states.utilisation[1] == pytest.approx(1.0)
     assert result.stress_resultants[1] == pytest.approx([0, 0, 8e3, 0, 0, 0], abs=1e-3)
+    assert not any("is locked in" in remark for remark in result.remarks)  # it yields: its force is known
 
 
 def test_strength_of_the_section_governs_where_it_is_less():
@@ -90,6 +91,37 @@ def test_strip_across_the_base_is_a_force_at_the_edge():
     assert lb.bounds(held).upper == pytest.approx(rocking(6e3, T), rel=1e-8)
     assert result.load_factor == pytest.approx(rocking(6e3, T), rel=1e-8)  # debonds at its cap
     assert lb.interface_states(held, result).state == ("hinge", "yield")
+
+
+@every_joint
+def test_tension_that_a_slide_locks_in_a_strip_is_named(joint):
+    """Across a joint that slides without dilatancy a strip may pull by any 0 <= F <= c: mu (1 + F/W) each."""
+    model = lb.structures.block(joint, width=1.0, height=0.5)
+    weight = model.free_blocks[0].weight
+    held = reinforced(
+        model, strip(model.interfaces[0], model.interfaces[0].centroid, width=0.1, capacity=weight / 4)
+    )
+    result = lb.nonassociated(held)
+    F = result.stress_resultants[1, 2]
+    assert 0.0 < F < weight / 4
+    assert result.load_factor == pytest.approx(0.6 * (1 + F / weight), rel=1e-8) != pytest.approx(0.6)
+    check = lb.check_mcp(held, result)
+    assert check.passed
+    for found in (result, check):
+        assert f"a force of up to {F:.4g} N is locked in strip base|block 1" in found.remarks[-1]
+
+
+def test_what_stretches_or_carries_nothing_locks_nothing():
+    """A strip that yields as its wall hinges; a level tie that a sliding block slackens."""
+    model = facade()
+    held = reinforced(model, strip(model.interfaces[0], (-T / 2, 0, 0), width=0.1, capacity=6e3))
+    stone = lb.structures.block(lb.PointContact(0.3), width=1.0, height=0.5)
+    ahead = tie("block 1", (0.5, 0, 0.1), "base", (4.0, 0, 0.1), area=1e-4, strength=1e8)
+    for one in (held, reinforced(stone, ahead)):
+        result = lb.nonassociated(one)
+        assert not [
+            said for said in (*result.remarks, *lb.check_mcp(one, result).remarks) if "locked" in said
+        ]
 
 
 def test_dowel_adds_shear():
@@ -183,3 +215,11 @@ def test_misuse(make, words):
     with pytest.raises(lb.ModelError, match=words) as caught:
         make()
     assert "\n" not in str(caught.value)
+
+
+def test_a_guide_holds_forces_by_its_area_and_moments_by_that_times_its_root():
+    """2 m x 3 m and 7 Pa: 42 N, 42 sqrt(6) N m, of either sign; V1 alone is free."""
+    rows = Guide(7.0).yield_rows(np.array([[(-1, -1.5), (1, -1.5), (1, 1.5), (-1, 1.5)]], dtype=float))
+    most = 42.0 * np.array([1.0, 1.0, *[np.sqrt(6.0)] * 3])
+    assert rows.g[0] == pytest.approx(np.concatenate([most, most]))
+    assert (np.abs(rows.F[0] @ rows.resultants[0].T) == np.vstack([np.eye(6)[1:]] * 2)).all()

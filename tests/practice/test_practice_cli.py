@@ -114,15 +114,7 @@ def test_verify_files_a_report(block, tmp_path):
     assert done.exit_code == 1, done.output
     said = " ".join(page.extract_text() for page in pypdf.PdfReader(tmp_path / "filed.pdf").pages)
     said = " ".join(said.split())
-    for word in (
-        "M*",
-        "e*",
-        "a0*",
-        "a_g S / q",
-        "0.987 ",
-        "NOT satisfied",
-        "not against the Gazzetta",
-    ):
+    for word in ("M*", "e*", "a0*", "a_g S / q", "0.987 ", "NOT satisfied", "not against the Gazzetta"):
         assert word in said, word
     assert f"{0.2 * 9.81 / 1.35:.4g} m/s²" in said
     assert run("verify", block, *site, "--report", tmp_path / "filed.doc").exit_code == 2

@@ -193,6 +193,42 @@ def test_the_search_finds_the_worst_position_between_the_first_ones():
     assert np.isinf(found.load_factors[np.argmax(found.positions)])
 
 
+@pytest.mark.parametrize("at", [3.85, 3.95, 4.0, 4.1])
+@pytest.mark.parametrize("depth", [0.0, 0.3])
+def test_the_part_of_an_axle_beyond_the_blocks_does_nothing(at, depth):
+    """The overhang tips about x = 3 under what is left of an even load, at the middle of what is left."""
+    model, half = beam(), 0.15 + 0.5 * depth
+    axle = vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5 + depth), at)
+    left = min(4.0 - (at - half), 2 * half)
+    moment = 10e3 * left / (2 * half) * (at - half + left / 2 - 3.0)
+    assert lb.bounds(replace(model, live=axle)).upper == pytest.approx(40e3 / moment, rel=1e-9)
+
+
+def test_a_printed_envelope_says_what_stands_beside_the_blocks():
+    found = worst_position(beam(), Vehicle((10e3, 5e3), (0.0, 2.0)), Deck(level=0.5), (3.5, 3.9), positions=3)
+    assert "10 of 15 kN of axles stand on the blocks" in str(found)
+    assert "axles" not in str(worst_position(beam(), Vehicle((10e3,)), Deck(0.5), (3.5, 3.8), positions=3))
+
+
+def test_an_interrupted_search_keeps_the_positions_tried():
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2); the first two of four positions are done."""
+    places = []
+
+    def second(x, _factor):
+        places.append(x)
+        if len(places) == 2:
+            raise KeyboardInterrupt
+
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 3.8), positions=4, progress=second)
+    assert found.positions == pytest.approx([3.2, 3.4])
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / 0.4, rel=1e-6)
+    assert not found.complete
+    assert not found.to_dict()["complete"]
+    assert "may be worse" in str(found)
+    assert "may be worse" in lb.report(model, found).text
+
+
 def test_vehicle_of_two_axles_and_dispersion():
     """Forces and moments of two axles; through a fill each acts on contact + 2 spread depth, evenly."""
     model, deck = beam(), Deck(level=1.5, spread=0.5)
@@ -200,8 +236,8 @@ def test_vehicle_of_two_axles_and_dispersion():
     total = load.on(model.free_blocks)[0]
     assert total[:3] == pytest.approx([0, 0, -30e3])
     assert total[4] == pytest.approx(10e3 * (1.5 - 2.0) + 20e3 * (2.7 - 2.0))
-    places = [term.at[0] for _, term in load.terms[:8]]
-    assert np.ptp(places) == pytest.approx((0.2 + 2 * 0.5 * 1.0) * 7 / 8)
+    (_, first), _ = load.terms
+    assert np.ptp([first.start[0], first.end[0]]) == pytest.approx(0.2 + 2 * 0.5 * 1.0)
 
 
 def test_axle_on_the_approach_puts_nothing_on_the_bridge():
@@ -217,10 +253,7 @@ def test_passive_fill_holds_a_block_that_moves_into_it_only():
     outline = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
     points = np.concatenate([np.insert(outline, 1, y, axis=1) for y in (-0.5, 0.5)])
     faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
-    stones = [
-        lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)),
-        lb.Block("wedge", points, faces, 20e3),
-    ]
+    stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
     found = lb.find_interfaces(stones, lb.PointContact(0.2))
     held = 2.0 * 1e3 * (1.5 - 0.5) * 1.0 * 1.0
     for sign, more in ((1.0, held / 10e3), (-1.0, 0.0)):
@@ -228,6 +261,8 @@ def test_passive_fill_holds_a_block_that_moves_into_it_only():
         fill = passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)
         result = lb.nonassociated(reinforced(model, *fill))
         assert result.load_factor == pytest.approx(0.2 + more, rel=1e-6)
+    # the integral of (1.5 - z) z over that of 1.5 - z, 0 < z < 1, is the height of the resultant
+    assert fill[0].interface.joint.strength == pytest.approx(2.0 * 1e3 * (1.5 - 5 / 12))
 
 
 def test_eurocode_and_housner():

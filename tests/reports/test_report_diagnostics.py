@@ -19,10 +19,7 @@ SEEN = {
 
 
 def model_with(name, at):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)),
-        lb.Block.box("left", UNIT, (0, 0, 0.5), 1e3),
-    ]
+    blocks = [lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)), lb.Block.box("left", UNIT, (0, 0, 0.5), 1e3)]
     interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
     blocks.append(lb.Block.box(name, UNIT, at))
     live = lb.mass_proportional((1, 0, 0))

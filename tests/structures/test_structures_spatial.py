@@ -40,16 +40,8 @@ def test_portal():
 
 def test_arch_on_piers():
     radius, thickness, n, courses, width, height, depth = 1.5, 0.5, 9, 2, 1.2, 0.4, 0.6
-    model = structures.arch_on_piers(
-        JOINT,
-        radius=radius,
-        thickness=thickness,
-        voussoirs=n,
-        pier_width=width,
-        pier_blocks=courses,
-        block_height=height,
-        depth=depth,
-    )
+    piers = structures.Piers(width, courses, height)
+    model = structures.arch(JOINT, radius=radius, thickness=thickness, voussoirs=n, piers=piers, depth=depth)
     assert counts(model) == (n + 2 * courses, n + 1 + 2 * courses)
     outer, inner = radius + thickness / 2, radius - thickness / 2
     ring = n * np.sin(np.pi / n) / 2 * (outer**2 - inner**2)
@@ -149,8 +141,8 @@ def test_eccentric_lintel_is_governed_by_twist():
     [
         ("portal", {"span": -1.0}, "span is -1.0"),
         ("portal", {"pier_blocks": 0}, "pier blocks is 0"),
-        ("arch_on_piers", {"pier_width": 0.3}, "at least the thickness"),
-        ("arch_on_piers", {"pier_blocks": 0}, "pier blocks is 0"),
+        ("arch", {"piers": (0.3, 2)}, "at least the thickness"),
+        ("arch", {"piers": (0.9, 0)}, "pier blocks is 0"),
         ("corner", {"length": 2.5}, "length 2.5 m is not a multiple of 0.4"),
         ("corner", {"return_length": 0.4}, "no room for the corner"),
         ("barrel_vault", {"stones": 0}, "stones is 0"),
@@ -168,9 +160,7 @@ def test_eccentric_lintel_is_governed_by_twist():
 def test_impossible_dimensions_are_refused(build, change, message):
     given = {
         "portal": {"span": 1.6, "pier_width": 0.6, "pier_blocks": 2},
-        "arch_on_piers": {
-            "radius": 1.5, "thickness": 0.4, "voussoirs": 7, "pier_width": 0.9, "pier_blocks": 2,
-        },
+        "arch": {"radius": 1.5, "thickness": 0.4, "voussoirs": 7},
         "corner": {"length": 2.4, "return_length": 2.4, "courses": 2},
         "barrel_vault": {"radius": 1.5, "thickness": 0.4, "length": 1.8, "courses": 5, "stones": 2},
     }  # fmt: skip

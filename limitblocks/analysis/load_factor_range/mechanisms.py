@@ -42,13 +42,13 @@ class Mechanisms:
 
     def beyond(self, mechanism: tuple[Array, Array] | None, sense: float) -> State | None:
         """Return a certified solution of lower (sense 1) or higher (-1) load factor, from a mechanism."""
-        state: State | None = None
+        p, state = self.flow.problem, None
         for k in range(ROUNDS):
             state = self._round(mechanism, sense, WORTH**k) if mechanism else None
             if state is None:
                 return None
             mechanism = state.u, state.y
-            if self._gap(state) < CLOSED:
+            if (p.F @ state.x + p.g) @ state.y < CLOSED:
                 break
         # away from the end: interior points find what is strictly complementary, which the polish needs
         state = self._round(mechanism, 0.0, 1.0) if mechanism else None
@@ -63,10 +63,6 @@ class Mechanisms:
         p = self.flow.problem
         kinematic = self._mechanism(p.F @ static[1] + p.g, np.zeros(0, dtype=int))
         return State(*static, *kinematic) if kinematic else None
-
-    def _gap(self, state: State) -> float:
-        p = self.flow.problem
-        return float((p.F @ state.x + p.g) @ state.y)
 
     def _drawn(self) -> tuple[Array, Array] | None:
         """A mechanism in which a random chain of neighbours moves, of random least multipliers."""

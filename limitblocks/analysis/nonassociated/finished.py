@@ -16,6 +16,7 @@ from limitblocks.evidence.backward_error import settled, within
 from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
+from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
@@ -77,6 +78,7 @@ def finished(
             *off_load_path(how if status is Status.CONVERGED else ""),
             *given_power(flow, state, tolerance),
             *locked_shear(flow, state),
+            *locked_tension(model, flow, state),
             *unconfirmed(change),
         ),
         tolerance=tolerance,

@@ -43,9 +43,12 @@ from limitblocks.problem.plane import Planar
 
 
 def frozen(flow: Flow, x: Array) -> LimitProblem:
-    """Return the limit problem of the frozen rows: normal to the flow at x, and true at x."""
+    """Return the limit problem of the frozen rows: normal to the flow at x, and true at x.
+
+    What rounding leaves outside K is put back: a friction limit below zero is one that nothing meets.
+    """
     p, G = flow.problem, flow.matrix(x)
-    return replace(p, F=G, G=G, g=read_only(p.g + (p.F - G) @ x))
+    return replace(p, F=G, G=G, g=read_only(p.cones.nearest(p.F @ x + p.g) - G @ x))
 
 
 def fixed_point_change(flow: Flow, state: State, plane: Planar | None = None) -> float:

@@ -18,9 +18,8 @@ from limitblocks.problem import LimitProblem
 # Polishing solves the equations of the active rows: after 50 to 225 steps if at all, to rounding.
 OSQP = {"eps_abs": 1e-5, "eps_rel": 1e-5, "max_iter": 500, "polishing": True, "verbose": False}
 CLARABEL = FIXED | {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-10}
-ACCURATE = (
-    1e-7  # largest violation of the conditions of a minimum that is believed; rough ones are off by 1e-5
-)
+# Largest violation of the conditions of a minimum that is believed; rough ones are off by 1e-5.
+ACCURATE = 1e-7
 
 
 def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:

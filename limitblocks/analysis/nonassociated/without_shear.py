@@ -1,4 +1,4 @@
-"""The lower end of the bracket: the load factor of stresses without shear, by one linear program.
+"""The lower end of the bracket: the load factor of stresses without shear, by one convex program.
 
 No solution lies below the load factor of a stress state within yield that no sliding feels (Drucker 1954);
 docs/nonassociated.md, "The bracket", has the proof.
@@ -7,17 +7,21 @@ docs/nonassociated.md, "The bracket", has the proof.
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
-import cvxpy as cp
 import numpy as np
+from scipy import sparse
 
-from limitblocks.analysis.programs import Program, Solution, Solver, in_cone, solved, solvers
-from limitblocks.arrays import Indices
+from limitblocks.analysis.direct import FIXED, solution
+from limitblocks.analysis.programs import DIRECT, Conic
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import TOLERANCE, Residuals, static_residuals
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import Cones, LimitProblem
 
 FALLS = "without friction the dead loads do not stand, and nothing is known below"
 UNSOLVED = "the load factor without friction was not to be had"
+TIGHT = {"tol_infeas_abs": 1e-10, "tol_infeas_rel": 1e-10}  # of proofs that nothing meets a program
+CERTIFIED = 1e-7  # largest violation of a mechanism of the dead loads, over their power, that proves a fall
 
 
 def load_factor_without_shear(p: LimitProblem, limited: bool) -> tuple[float, str]:
@@ -40,15 +44,25 @@ def load_factor_without_shear(p: LimitProblem, limited: bool) -> tuple[float, st
 
 def _best(p: LimitProblem, most: float | None) -> tuple[float, str]:
     """Largest load factor, at most `most`, of stresses within the tolerance, or NaN and why there is none."""
-    for solver in solvers(bool(p.cones.second_order)):
-        found = _solved(p, most, solver)
-        if "infeasible" in found.status:
-            return np.nan, FALLS
-        load_factor, x = float(found.values[0]), np.zeros(p.C.shape[0])
-        x[_unsheared(p)] = found.values[1]
-        if Residuals(static_residuals(p, load_factor, x)).worst.value <= TOLERANCE:
-            return load_factor, ""
-    return np.nan, UNSOLVED
+    kept = _unsheared(p)
+    program = _program(p, kept, most)
+    try:
+        found = solution(program, DIRECT.settings | FIXED | TIGHT)
+    except (ValueError, ArithmeticError):
+        return np.nan, UNSOLVED
+    if _nothing_meets(program, np.array(found.z)):
+        return np.nan, FALLS
+    load_factor, x = found.x[0], np.zeros(p.C.shape[0])
+    x[kept] = found.x[1:]
+    good = Residuals(static_residuals(p, load_factor, x)).worst.value <= TOLERANCE
+    return (load_factor, "") if good else (np.nan, UNSOLVED)
+
+
+def _nothing_meets(program: Conic, z: Array) -> bool:
+    """Whether z proves that no stresses do (Farkas): A^T z = 0 and z in K, but b . z < 0."""
+    gained, cones = -program.b @ z, program.cones
+    outside = -cones.margin(z[len(z) - cones.height :]).min()
+    return bool(gained > 0.0 and max(abs(program.A.T @ z).max(), outside) <= CERTIFIED * gained)
 
 
 def _unsheared(p: LimitProblem) -> Indices:
@@ -57,17 +71,15 @@ def _unsheared(p: LimitProblem) -> Indices:
     return np.flatnonzero(abs(p.G)[turned[p.cones.member]].sum(axis=0) == 0.0)
 
 
-def _solved(p: LimitProblem, most: float | None, solver: Solver) -> Solution:
-    """Load factor and stresses of the program."""
-    kept = _unsheared(p)
-    C, F = p.C[kept], p.F[:, kept]
-    load_factor, x = cp.Variable(), cp.Variable(len(kept))
-    rows, cones = F @ x + p.g, p.cones
+def _program(p: LimitProblem, kept: Indices, most: float | None) -> Conic:
+    """The program of the load factor and the stresses that are kept."""
+    F, g, cones = p.F[:, kept], p.g, p.cones
     tails = np.setdiff1d(np.arange(cones.height), cones.heads)
-    straight = not (F[tails].nnz or p.g[tails].any())  # all cones are left without a tail
-    inside = [rows[cones.heads] >= 0] if straight else in_cone(rows, cones)
-    capped = [] if most is None else [load_factor <= most]
-    balance = C.T @ x == p.dead + load_factor * p.live
-    return solved(
-        Program(cp.Problem(cp.Maximize(load_factor), [balance, *inside, *capped]), (load_factor, x)), solver
-    )
+    if not (F[tails].nnz or g[tails].any()):  # all cones are left without a tail
+        F, g, cones = F[cones.heads], g[cones.heads], Cones(cones.degree)
+    capped = [] if most is None else [most]
+    first = sparse.csr_array(np.ones((len(capped), 1)))
+    blocks: list[list[Any]] = [[-p.live[:, None], p.C[kept].T], [first, None], [None, -F]]
+    A = sparse.csc_array(sparse.block_array(blocks))
+    cones = replace(cones, linear=cones.linear + len(capped))
+    return Conic(-np.eye(1, A.shape[1])[0], A, np.concatenate([p.dead, capped, g]), cones)

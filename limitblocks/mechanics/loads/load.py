@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, few
 from limitblocks.geometry import Block
 
 Vector = tuple[float, float, float]
@@ -117,10 +117,9 @@ def triple(values: Sequence[float], size: float = 1.0) -> str:
     return f"({', '.join(f'{value / size + 0.0:.4g}' for value in values)})"
 
 
-def some(names: Sequence[str], most: int = 8) -> str:
+def some(names: Sequence[str]) -> str:
     """Return the first of some names of blocks as text."""
-    more = f" and {len(names) - most} more" if len(names) > most else ""
-    return f"block{'s' * (len(names) > 1)} {', '.join(map(repr, names[:most]))}{more}"
+    return f"block{'s' * (len(names) > 1)} {few([*map(repr, names)])}"
 
 
 def position(name: str, blocks: Sequence[Block]) -> int:

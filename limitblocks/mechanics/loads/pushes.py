@@ -71,7 +71,7 @@ class Tilting:
 
     @staticmethod
     def angle(load_factor: float) -> float:
-        """Return the angle of the plane (rad) at which a structure of this load factor collapses."""
+        """Return the angle of the plane (rad) at which a structure of this `load_factor` collapses."""
         return float(np.arctan(load_factor))
 
     def at(self, angle: float) -> Load:

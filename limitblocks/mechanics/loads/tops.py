@@ -118,6 +118,15 @@ def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
     return np.where(np.isfinite(highest), best, -1), highest
 
 
+def covered(start: Array, end: Array, blocks: Sequence[Block]) -> Array:
+    """Return the parts of a line in plan, from `start` to `end` (2,), with a block below, m; (k, 2, 2)."""
+    s = _crossings(start, end - start, blocks)
+    owner, _ = tops(blocks, start + np.outer((s[1:] + s[:-1]) / 2.0, end - start))
+    change = np.diff(np.concatenate([[False], owner >= 0, [False]]).astype(int))
+    ends = np.stack([s[change == 1], s[change == -1]], axis=1)
+    return np.asarray(start + ends[..., None] * (end - start))
+
+
 def _upward(blocks: Sequence[Block]) -> tuple[Array, Indices, Array]:
     """Triangles (t, 3, 3) of faces that look up, the first of each block, the sizes of their blocks."""
     points, sides = [block.vertices for block in blocks], [block.triangles for block in blocks]

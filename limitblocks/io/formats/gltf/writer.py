@@ -72,10 +72,7 @@ def animation_path(file: str | Path) -> Path:
 
 
 def encoded(
-    blocks: Sequence[Block],
-    layers: Mapping[str, str],
-    supports: Container[str],
-    states: Array | None = None,
+    blocks: Sequence[Block], layers: Mapping[str, str], supports: Container[str], states: Array | None = None
 ) -> bytes:
     """Return the GLB file of blocks, with an animation through the displacements `states` (k, n, 6)."""
     trimesh, gltf = package("trimesh", "GLB"), package("trimesh.exchange.gltf", "GLB")

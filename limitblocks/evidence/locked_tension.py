@@ -1,0 +1,40 @@
+"""Ties that a mechanism neither stretches nor shortens: no equation says what they carry."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from limitblocks.errors import few
+from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates
+from limitblocks.joints import Tie
+from limitblocks.model import Model
+from limitblocks.problem import Flow, State
+
+CARRIED = 1e-6  # of the unit of force of an interface: a tension below it is none
+
+
+def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
+    """Return a remark for ties, strips and fill that carry a force across which their ends only move.
+
+    Without dilatancy a strip over a joint that slides presses the joint together by any tension from zero to
+    its strength, and friction grows with it: none of the equations says which.
+    """
+    problem = flow.problem
+    tied = np.array([isinstance(one.joint, Tie) for one in model.interfaces])
+    if flow.associated or not tied.any():
+        return ()
+    rates = np.zeros((len(model.blocks), 6))
+    free = {block.name for block in model.free_blocks}
+    rates[[block.name in free for block in model.blocks]] = problem.in_si(state).u.reshape(-1, 6)
+    dq, least = relative_rates(model, rates), MOVING * largest_rate(model, rates)
+    N = (problem.resultants @ state.x)[2::6]
+    across = np.hypot(dq[:, 0], dq[:, 1])
+    locked = tied & (N > CARRIED) & (across > least) & (np.abs(dq[:, 2]) <= MOVING * across)
+    if not locked.any():
+        return ()
+    names = [problem.interfaces[k] for k in np.flatnonzero(locked)]
+    most = float((N * problem.units.interface_force)[locked].max())
+    return (
+        f"a force of up to {most:.4g} N is locked in {few(names, 3)}, whose ends move across it alone: it "
+        "may be any from zero to the strength, and the load factor with it; load_factor_range says how far",
+    )

@@ -1,0 +1,47 @@
+"""Ways of many answers that the user may stop: what was found by then is kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol, TypeVar
+
+from limitblocks.errors import NotConverged
+from limitblocks.evidence.ending import Status
+
+
+class Placed(Protocol):
+    """A point of a way."""
+
+    @property
+    def displacement(self) -> float:
+        """How far it is along the way, m."""
+
+
+P = TypeVar("P", bound=Placed)
+A = TypeVar("A")
+
+
+def solved(analysis: Callable[..., A], *given: Any) -> A:
+    """An answer; where the user stops it there is none, and no shorter step is a way out."""
+    try:
+        return analysis(*given)
+    except NotConverged as error:
+        if getattr(error.result, "status", None) is Status.INTERRUPTED:
+            raise KeyboardInterrupt from None
+        raise
+
+
+def gathered(way: Iterator[Any], kind: type[P], progress: Callable[[P], None] | None) -> tuple[list[P], Any]:
+    """The points of a way and what it ends with: None at its own end, a sentence where the user stops it."""
+    points: list[P] = []
+    try:
+        for one in way:
+            if not isinstance(one, kind):
+                return points, one
+            points.append(one)
+            if progress:
+                progress(one)
+    except KeyboardInterrupt:
+        at = points[-1].displacement if points else 0.0
+        return points, f"interrupted beyond {at:.6g} m"
+    return points, None

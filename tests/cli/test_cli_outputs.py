@@ -1,0 +1,41 @@
+"""Where results go: what cannot be written is refused before the analysis, and costs no answer after it."""
+
+import errno
+import os
+
+import pytest
+from portal_by_hand import run
+
+
+def _asked_in_vain(*_arguments, **_settings):
+    raise AssertionError("analysed before the output was refused")
+
+
+@pytest.mark.parametrize("option", ["--output", "--report"])
+def test_a_file_that_cannot_be_written_is_refused_before_the_analysis(
+    solver, file, tmp_path, monkeypatch, option
+):
+    solver(_asked_in_vain)
+    nowhere, folder = tmp_path / "none" / "r.html", tmp_path / "made.html"
+    folder.mkdir()
+    for path, said in ((nowhere, "there is no folder"), (folder, "is a folder; name a file")):
+        done = run("nonassociated", file, option, path, "--force")
+        assert done.exit_code == 2
+        assert f"{option} {path}" in done.stderr
+        assert said in done.stderr
+    monkeypatch.setattr(os, "access", lambda _path, mode: mode == os.R_OK)
+    done = run("nonassociated", file, option, tmp_path / "r.html")
+    assert (done.exit_code, "may not be written to" in done.stderr) == (2, True)
+
+
+@pytest.mark.usefixtures("solver")
+def test_a_full_disk_does_not_cost_the_answer(file, tmp_path, monkeypatch):
+    def full(_descriptor):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", full)
+    done = run("nonassociated", file, "--dilatancy", 0.2, "--output", tmp_path / "r.json")
+    assert done.exit_code == 2
+    assert "cannot write" in done.stderr
+    assert "0.2000" in done.stdout
+    assert not list(tmp_path.glob(".*"))
