@@ -44,6 +44,7 @@ def test_tie_of_a_facade(joint):
     assert states.state[1] == "yield"
     assert states.utilisation[1] == pytest.approx(1.0)
     assert result.stress_resultants[1] == pytest.approx([0, 0, 8e3, 0, 0, 0], abs=1e-3)
+    assert not any("is locked in" in remark for remark in result.remarks)  # it yields: its force is known
 
 
 def test_strength_of_the_section_governs_where_it_is_less():
