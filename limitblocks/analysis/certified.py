@@ -30,7 +30,7 @@ MORE = 2.0
 LEAST = 1e-15
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
-SPARE = 3e-10  # of the load factor
+SPARE = 3e-10  # of the load factor: about what it costs to open all joints alike
 POLISHED = 1e-12  # residual of a state that no further polish betters
 
 
