@@ -62,6 +62,7 @@ def picture(folder):
 
     plt.style.use("limitblocks.plots.paper")
     figure = plt.figure(figsize=(7, 6.7))
+    figure.get_layout_engine().set(wspace=0.12)
     torsion_shear(figure.add_subplot(2, 2, 1))
     torsion_bending(figure.add_subplot(2, 2, 2))
     shear_surface(figure.add_subplot(2, 2, 3, projection="3d"))

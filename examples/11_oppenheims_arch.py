@@ -39,7 +39,7 @@ def picture(folder, arch, bounds):
     import matplotlib.pyplot as plt
 
     plt.style.use("limitblocks.plots.paper")
-    figure, axes = plt.subplots(1, 2, figsize=(7, 2.5))
+    figure, axes = plt.subplots(1, 2, figsize=(7, 2.8))
     lb.plots.thrust_line(arch, bounds, ax=axes[0])
     axes[0].set_title("Line of thrust")
     lb.plots.mechanism(arch, bounds, ax=axes[1])

@@ -55,6 +55,7 @@ def picture(folder, found, limit):
     second, third = figure.add_subplot(1, 3, 2), figure.add_subplot(1, 3, 3)
     figure.get_layout_engine().set(wspace=0.1)
     lb.plots.structure(lunes(0.15, 13, angle=0.6), ax=first, live=False)
+    first.set_yticks([0.0])
     first.set_zlabel("")
     first.set_title("Two lunes (thicker, wider)")
     model = lunes(found[-1] * 1.001, COUNTS[-1])  # just standing

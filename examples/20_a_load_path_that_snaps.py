@@ -119,7 +119,7 @@ def picture(file, model, path):
     figure, axes = plt.subplots(1, 3, figsize=(7, 3), width_ratios=(0.8, 1, 1))
     lb.plots.mechanism(model, path.collapse, ax=axes[0])
     axes[0].set_title("the plug leaves its seat")
-    lb.plots.load_path(path, model, block="jack", component="Z", ax=axes[1])
+    lb.plots.load_path(model, path, block="jack", component="Z", ax=axes[1])
     length, _, load_factor = path.trace.T
     axes[2].plot(length, load_factor, ".-", color="#0072B2", linewidth=1)
     for one, mark in ((path.snaps[0].before, "v"), (path.snaps[0].after, "^")):

@@ -17,6 +17,7 @@ import numpy as np
 from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.ends import floating
+from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
@@ -76,7 +77,7 @@ class Model(Viewed):
             supports = set(self.supports)
             loose = (i for i in self.interfaces if not {i.block_i, i.block_j} <= supports)
             object.__setattr__(self, "interfaces", tuple(loose))
-            problems = _floating_problems(self) + _load_problems(self)
+            problems = interface_faults(self.interfaces) or _floating_problems(self) + _load_problems(self)
         if problems:
             raise ModelError(*problems)
 

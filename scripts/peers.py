@@ -11,7 +11,6 @@ from rich.table import Table
 import limitblocks as lb
 from limitblocks.analysis import direct, forms, programs
 from limitblocks.analysis.scales import scaled
-from limitblocks.problem import Cones
 
 ALONE = {"form": "", "solver": "", "iterations": "", "raw": float("nan"), "status": "bounds alone"}
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
@@ -62,18 +61,10 @@ def candidates(problem, chosen):
     for form, build in (("static", programs.static_program), ("kinematic", programs.kinematic_program)):
         if form in chosen:
             program = build(p)
-            yield form, program, compiled(program.problem)
+            yield form, program, programs.compiled(program.problem)
     rates = forms.without_multipliers(p) if "rates" in chosen else None
     if rates is not None:
-        yield "rates", None, rates.limit()
-
-
-def compiled(problem):
-    """The matrices of a cvxpy problem as Clarabel takes them."""
-    data, _, _ = problem.get_problem_data(cp.CLARABEL)
-    return programs.Conic(
-        data["c"], data["A"], data["b"], Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
-    )
+        yield "rates", None, programs.compiled(rates.limit().problem)
 
 
 def bare(program, settings):

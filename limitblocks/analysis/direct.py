@@ -1,4 +1,4 @@
-"""The program of the load factor in one form, solved by Clarabel itself."""
+"""The program of the load factor in one form: compiled by cvxpy, solved by Clarabel itself."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.forms import Rates, Stresses
-from limitblocks.analysis.programs import Conic, Solver
+from limitblocks.analysis.programs import Conic, Solver, compiled
 from limitblocks.arrays import Array
 from limitblocks.problem import State
 
@@ -33,7 +33,7 @@ class Programs:
 
     def _solved(self, solver: Solver) -> tuple[Array, Array]:
         """Variables and duals, NaN where there is no solution."""
-        program = self.form.limit()
+        program = compiled(self.form.limit().problem)
         try:
             found = solution(program, {**self.form.equations, **solver.settings, **FIXED})
         except (ValueError, ArithmeticError) as error:

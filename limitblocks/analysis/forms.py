@@ -10,12 +10,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
+import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.programs import Conic
+from limitblocks.analysis.programs import Program, map_in_cone
 from limitblocks.analysis.scales import Scaled
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import Cones, State, in_units
@@ -40,18 +41,19 @@ class Stresses:
         added = 1e-8 if square else 1e-14
         return {"static_regularization_constant": added, "iterative_refinement_enable": self.refined}
 
-    def limit(self) -> Conic:
-        """Largest load factor in equilibrium within the yield set. Variables: load factor and x."""
+    def limit(self) -> Program:
+        """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
         p = self.problem
-        c = -np.eye(1, 1 + p.C.shape[0])[0]
-        live = sparse.csr_array(np.append(p.live, np.zeros(len(p.g)))[:, None])
-        A = sparse.hstack([live, sparse.vstack([-p.C.T, -p.F])], format="csc")
-        return Conic(c, _without_zeros(A), np.append(-p.dead, p.g), p.cones)
+        v = cp.Variable(1 + p.C.shape[0])
+        live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
+        balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
+        inside = map_in_cone(sparse.csr_array(sparse.hstack([nothing, p.F])), v, p.cones, p.g)
+        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
         n = len(self.problem.dead)
-        return State(float(v[0]), v[1:], w[:n], w[n:])
+        return State(float(v[0]), v[1:], -w[:n], w[n:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,11 +89,11 @@ class Rates:
         cones = self.problem.cones
         return Cones(cones.linear - len(self.dropped), cones.second_order)
 
-    def limit(self) -> Conic:
+    def limit(self) -> Program:
         """Least load factor over all mechanisms. Variable: u."""
-        p = self.problem
-        A = sparse.vstack([sparse.csr_array(p.live[None]), -self.B], format="csc")
-        return Conic(-p.dead, _without_zeros(A), np.eye(1, A.shape[0])[0], self.cones)
+        p, u = self.problem, cp.Variable(self.B.shape[1])
+        constraints = [p.live @ u == 1, *map_in_cone(self.B, u, self.cones)]
+        return Program(cp.Problem(cp.Minimize(-p.dead @ u), constraints), (u,))
 
     def limit_state(self, u: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
@@ -151,10 +153,10 @@ def without_multipliers(problem: Scaled) -> Rates | None:
     return Rates(problem, kept, np.flatnonzero(implied), head[implied])
 
 
-def _without_zeros(matrix: Any) -> Any:
-    matrix = matrix.copy()
-    matrix.eliminate_zeros()
-    return matrix
+def _without_zeros(rows: sparse.csr_array) -> sparse.csr_array:
+    rows = sparse.csr_array(rows, copy=True)
+    rows.eliminate_zeros()
+    return rows
 
 
 def _only(rows: sparse.csr_array) -> Array:

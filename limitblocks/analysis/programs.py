@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 
 import cvxpy as cp
 import numpy as np
+from cvxpy.reductions import ConeMatrixStuffing
 from scipy import sparse
 
 from limitblocks.analysis.scales import Scaled
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Cones, LimitProblem, State
 
@@ -95,6 +96,23 @@ class Conic:
     W: Array | None = None
 
 
+def compiled(problem: cp.Problem) -> Conic:
+    """Return the matrices of affine constraints and a cost to minimise as Clarabel takes them.
+
+    What `get_problem_data` returns, without what parameters would need: in half the time.
+    """
+    stuffed, _ = ConeMatrixStuffing().apply(problem)
+    zero, n = stuffed.cone_dims.zero, stuffed.x.size
+    K = Cones.of_sizes(stuffed.cone_dims.nonneg, stuffed.cone_dims.soc)
+    tails_last = [np.append(rows[:, 0], rows[:, 1:]) for rows in K.groups]  # as cvxpy has them
+    row = np.concatenate([np.arange(zero), *(zero + part for part in (np.arange(K.linear), *tails_last))])
+    stuffed.A.eliminate_zeros()
+    column, k = np.divmod(stuffed.A.indices, len(row))  # A has the columns of (A, b) below each other
+    data = np.where(k < zero, 1.0, -1.0) * stuffed.A.data
+    both = sparse.coo_array((data, (row[k], column)), shape=(len(row), n + 1)).tocsc()
+    return Conic(stuffed.q.toarray()[:n, 0], both[:, :n], -both[:, [n]].toarray()[:, 0], K)
+
+
 def static_program(problem: Scaled) -> Program:
     """Largest load factor in equilibrium within the yield set, Eqs (56)-(57). Variables: load factor, x.
 
@@ -144,6 +162,21 @@ def in_cone(rows: cp.Expression, cones: Cones) -> list[cp.Constraint]:
         count, size = places.shape
         stack = cp.reshape(rows[places[0, 0] : places[-1, -1] + 1], (size, count), order="F")
         constraints.append(cp.SOC(stack[0], stack[1:], axis=0))
+    return constraints
+
+
+def map_in_cone(
+    A: sparse.csr_array, v: cp.Variable, cones: Cones, b: Array | None = None
+) -> list[cp.Constraint]:
+    """`A v + b` in K, b zero if left out: cvxpy compiles rows taken from numbers a third faster."""
+
+    def taken(rows: slice | Indices) -> cp.Expression:
+        return A[rows] @ v if b is None else A[rows] @ v + b[rows]
+
+    constraints: list[cp.Constraint] = [taken(slice(cones.linear)) >= 0] if cones.linear else []
+    for places in cones.groups:
+        head, *rest = places.T
+        constraints.append(cp.SOC(taken(head), cp.vstack([taken(rows) for rows in rest])))
     return constraints
 
 

@@ -13,7 +13,7 @@ from io import TextIOWrapper
 
 import typer
 
-from limitblocks.cli import bridges, design, documents, practice, verbs
+from limitblocks.cli import bridges, documents, practice, verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.later import Later
@@ -73,7 +73,7 @@ app.command("range")(verbs.load_factor_range)
 app.command(cls=Command)(practice.settle)
 app.command(cls=Command)(practice.capacity)
 app.command()(practice.verify)
-app.command()(design.adequacy)
+app.command()(practice.adequacy)
 app.command()(bridges.vehicle)
 app.command()(bridges.backfill)
 app.command()(verbs.check)

@@ -10,6 +10,7 @@ import typer
 
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import AsJson, BlocksFile, Thickness, TwistedFaces, Units, Up
+from limitblocks.errors import few
 
 if TYPE_CHECKING:
     from limitblocks.geometry.twisted import Twisted
@@ -69,7 +70,7 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
     ]
     if seen.marked_supports:
         rows.append(
-            ("Supports", f"{len(seen.marked_supports)} as the file says: {_some(seen.marked_supports)}")
+            ("Supports", f"{len(seen.marked_supports)} as the file says: {few(seen.marked_supports)}")
         )
     rows += [("Likely supports", str(one)) for one in seen.likely_supports]
     return rows
@@ -110,7 +111,3 @@ def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, th
 
 def _times(counts: dict[str, int]) -> str:
     return ", ".join(f"{word} × {count}" for word, count in counts.items()) or "none"
-
-
-def _some(names: tuple[str, ...]) -> str:
-    return ", ".join(names[:8]) + (" ..." if len(names) > 8 else "")

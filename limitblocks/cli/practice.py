@@ -1,4 +1,4 @@
-"""Commands of practice: settlement of a support, capacity curve, verification."""
+"""Commands of practice: settlement of a support, capacity curve, verification, partial factors."""
 
 from __future__ import annotations
 
@@ -50,6 +50,18 @@ Modes = Annotated[
 ElasticPeriod = Annotated[
     float, typer.Option(help="T_0 of an element free to vibrate, such as a parapet, s; 0 if it is not.")
 ]
+Dead = Annotated[float, typer.Option("--gamma-g", help="Multiplies the dead loads.", show_default=False)]
+Live = Annotated[float, typer.Option("--gamma-q", help="Multiplies the live loads.", show_default=False)]
+Strength = Annotated[
+    float, typer.Option("--gamma-m", help="Divides strengths and cohesion of the joints.", show_default=False)
+]
+Friction = Annotated[
+    float | None, typer.Option("--gamma-phi", help="Divides the friction coefficient [default: gamma-m].")
+]
+Ties = Annotated[
+    float | None, typer.Option("--gamma-s", help="Divides the strength of ties and dowels, if there are any.")
+]
+Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
 
 
 @keeping
@@ -134,6 +146,28 @@ def verify(
 
         found = answer(solve, model, kept, beside)
     if not all(one.satisfied for one in found.checks) or found.left_out:
+        raise typer.Exit(1)
+
+
+@keeping
+def adequacy(
+    model: ModelFile,
+    dead: Dead,
+    live: Live,
+    strength: Strength,
+    friction: Friction = None,
+    ties: Ties = None,
+    associated: Associated = False,
+    kept: Kept = NOTHING,
+) -> None:
+    """Print the load factor with partial factors on loads and strengths; exit code 1 below one."""
+    with clean_errors():
+        from limitblocks.practice import PartialFactors
+
+        settings: Any = {"factors": PartialFactors(dead, live, strength, friction, ties)}
+        settings |= {"without_dilatancy": not associated}
+        found = answer(analyses.adequacy, model, kept, **settings)
+    if not found.satisfied:
         raise typer.Exit(1)
 
 

@@ -192,8 +192,13 @@ def _with_largest(
 ) -> tuple[tuple[Mode, ...], ...]:
     """Modes; where none is and the corners are just seen to move, that of the largest multiplier."""
     rows = np.argsort(np.abs(multipliers), kind="stable")
-    largest = {problem.row_interface[row]: (problem.row_mode[row],) for row in rows if multipliers[row]}
-    return tuple(own or largest.get(k, ()) * (states[k] != "stick") for k, own in enumerate(modes))
+    rows = rows[multipliers[rows] != 0.0]
+    largest = np.full(len(modes), -1)
+    largest[problem.row_interface[rows]] = rows  # the last of each interface stays
+    return tuple(
+        own or ((problem.row_mode[row],) if row >= 0 and state != "stick" else ())
+        for own, row, state in zip(modes, largest.tolist(), states, strict=True)
+    )
 
 
 def _states(

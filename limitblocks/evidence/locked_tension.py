@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.errors import few
 from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates
 from limitblocks.joints import Tie
 from limitblocks.model import Model
@@ -32,9 +33,8 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     if not locked.any():
         return ()
     names = [problem.interfaces[k] for k in np.flatnonzero(locked)]
-    shown = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
     most = float((N * problem.units.interface_force)[locked].max())
     return (
-        f"a force of up to {most:.4g} N is locked in {shown}, whose ends move across it alone: it may be any "
-        "from zero to the strength, and the load factor with it; load_factor_range says how far",
+        f"a force of up to {most:.4g} N is locked in {few(names, 3)}, whose ends move across it alone: it "
+        "may be any from zero to the strength, and the load factor with it; load_factor_range says how far",
     )

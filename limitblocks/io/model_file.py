@@ -14,8 +14,8 @@ import numpy as np
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_contacts
+from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.io import faults, strict_json
-from limitblocks.io.interfaces import interface_fault
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
 from limitblocks.io.open_joints import tied
 from limitblocks.io.registry import TERMS
@@ -185,7 +185,6 @@ def _interface(document: InterfaceDocument, joints: dict[str, Joint | None]) -> 
         read_only(document.polygon),
         joints.get(document.joint),
     )
-    fault = interface_fault(interface)
-    if fault:
-        raise ModelError(f"interface {interface.name}: {fault}")
+    if said := interface_faults([interface]):
+        raise ModelError(*said)
     return interface

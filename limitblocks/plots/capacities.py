@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from limitblocks.errors import refuse_kind
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.plots.style import BLUE, PALE, VERMILION, curve_axes, plain
 
@@ -25,7 +26,15 @@ def capacity(curve: CapacityCurve, ax: Any = None) -> Any:
         Of :func:`limitblocks.practice.capacity_curve`.
     ax : Axes, optional
         Where to draw.
+
+    Raises
+    ------
+    ModelError
+        If it is no capacity curve.
     """
+    from limitblocks.practice import CapacityCurve
+
+    refuse_kind(curve, CapacityCurve, "curve")
     ax = curve_axes(ax)
     x, loads = curve.displacements, curve.load_factors
     across = np.array([bool(point.across) for point in curve.points])
@@ -54,7 +63,15 @@ def settlement(curve: SettlementCurve, ax: Any = None) -> Any:
         Of :func:`limitblocks.practice.settlement_to_collapse`.
     ax : Axes, optional
         Where to draw.
+
+    Raises
+    ------
+    ModelError
+        If it is not the way of a support that settles.
     """
+    from limitblocks.practice import SettlementCurve
+
+    refuse_kind(curve, SettlementCurve, "curve")
     ax = curve_axes(ax)
     x, across = curve.displacements, np.array([bool(point.across) for point in curve.points])
     for name, color, dash in (("lower", BLUE, "-"), ("upper", PALE, "--")):

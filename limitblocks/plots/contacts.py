@@ -197,7 +197,8 @@ def interface_states(
             drawn.polygons(these, label=label, **style, **alpha)
         draw_ties(drawn, tied, colors=colour, linewidths=max(width, 1.4), label="" if these else label)
     hinges = interfaces.centre_of_pressure[["hinge" in state for state in interfaces.state]]
-    drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4)
+    if len(hinges):
+        drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4, label="thrust at a hinge")
     drawn.legend()
     return drawn.ax
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.errors import LimitBlocksError, ModelError, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
@@ -33,6 +33,7 @@ KINDS = {
     "after snap": "^",
     "polish": "*",
 }
+WORDS = {"polish": "collapse"}  # of a legend, where the kind of a step is a word of ours
 FLOOR = 1e-16  # residuals below it are drawn at it: the logarithm of zero
 
 
@@ -80,7 +81,7 @@ def convergence(result: Nonassociated | LoadPath, ax: Any = None) -> Any:
 
 
 def load_path(
-    path: LoadPath, model: Model, block: str | None = None, component: str | None = None, ax: Any = None
+    model: Model, path: LoadPath, block: str | None = None, component: str | None = None, ax: Any = None
 ) -> Any:
     """Draw the load factor against a displacement of one block, from the permanent loads to collapse.
 
@@ -88,10 +89,10 @@ def load_path(
 
     Parameters
     ----------
-    path : LoadPath
-        Its steps.
     model : Model
-        The structure it belongs to.
+        The structure.
+    path : LoadPath
+        Of this model.
     block : str, optional
         Name of the block; the one that moves most unless given.
     component : {"X", "Y", "Z", "rX", "rY", "rZ"}, optional
@@ -104,6 +105,8 @@ def load_path(
     LimitBlocksError
         If the path belongs to another model, or the block or the component is unknown.
     """
+    refuse_kind(model, Model, "model")
+    refuse_kind(path, LoadPath, "path")
     if path.collapse.digest != model.digest:
         raise LimitBlocksError("this LoadPath belongs to another model; give the model it is a result of")
     names = [one.name for one in model.blocks]
@@ -129,7 +132,14 @@ def load_path(
         these = [step.kind == kind for step in path.steps]
         size = 11.0 if kind == "polish" else 4.5
         style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
-        ax.plot(x[these], loads[these], KINDS.get(kind, "o"), label=kind, linestyle="none", **style)
+        ax.plot(
+            x[these],
+            loads[these],
+            KINDS.get(kind, "o"),
+            label=WORDS.get(kind, kind),
+            linestyle="none",
+            **style,
+        )
     word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
     ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
     ax.set_ylabel("load factor (–)")

@@ -10,6 +10,7 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Block
+from limitblocks.geometry.patches import common_areas
 from limitblocks.geometry.pieces import convex_pieces
 from limitblocks.geometry.polygon import centroids, longest_side
 from limitblocks.practice.displaced import CLOSED, Contact, placed
@@ -39,8 +40,9 @@ def trimmed(own: Contact, blocks: Sequence[Block], size: float) -> list[Contact]
     if (shapely.distance(corners, shared) <= OFF * size).all():
         return [own]
     area = own.interface.centroid + own.interface.polygon @ own.interface.axes[:2]
-    left = shapely.intersection(shapely.Polygon(area @ seen[:2].T), shared)
-    parts = np.array([part for part in shapely.get_parts(left) if part.area > (OFF * size) ** 2])
+    whole, least = shapely.Polygon(area @ seen[:2].T), np.array([(OFF * size) ** 2])
+    (left,) = common_areas(np.array([whole]), np.array([shared]), least, OFF * size)
+    parts = np.array([part for part in shapely.get_parts(left) if part.area > least[0]])
     pieces, _ = convex_pieces(parts, np.tile([1.0, 0.0], (len(parts), 1)), np.zeros(len(parts)), OFF * size)
     return [_on(own, blocks, np.array(piece.normalize().exterior.coords)[:0:-1]) for piece in pieces]
 

@@ -56,14 +56,14 @@ class Answer:
         """The load factor as text."""
         if self.load_factor is None:
             return "none"
-        return f"{'' if self.certified else '≤ '}{cut(self.load_factor)}"
+        return cut(self.load_factor) if self.certified else f"≤ {cut(self.load_factor, most=True)}"
 
     def quantity(self, model: Model) -> str:
         """What the number is, in words."""
         if self.load_factor is None:
             return "no load factor to design with"
         kind = f"load factor α to design with, {'certified' if self.certified else 'upper estimate'}"
-        said = as_acceleration(model, self.load_factor)
+        said = as_acceleration(model, self.load_factor, most=not self.certified)
         return f"{kind}, {self.source}" + (f": {said}" if said else "")
 
 
@@ -96,7 +96,8 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
         return None
     ratio = found.load_factor / demand
     word = "load factor" if found.certified else "upper estimate of the load factor"
-    said = f"the {word} {cut(found.load_factor)} is {rounded_down(ratio)} times the demand {demand:.4g}"
+    number = cut(found.load_factor, most=not found.certified)
+    said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.4g}"
     if ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:

@@ -32,6 +32,7 @@ from limitblocks.reports.scene import in_scene, scene
 from limitblocks.reports.section import Section
 from limitblocks.reports.sections import drawn, section
 from limitblocks.reports.terminal import text
+from limitblocks.shown import many
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +133,8 @@ class Report:
         return text(self.document)
 
     def __repr__(self) -> str:
-        return f"<report {self.title!r}: {len(self.results)} results; save it as .html, .pdf, .md or .json>"
+        of = many(len(self.results), "result")
+        return f"<report {self.title!r}: {of}; save it as .html, .pdf, .md or .json>"
 
     def __str__(self) -> str:
         found = answer(self.sections)

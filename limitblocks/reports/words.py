@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from decimal import ROUND_DOWN, Context, Decimal
+from decimal import ROUND_DOWN, ROUND_UP, Context, Decimal
 from inspect import getdoc
 from math import floor, log10
 from typing import Any
@@ -73,13 +73,13 @@ def acceleration(model: Model) -> tuple[float, str] | None:
     return factor, f"{word} {along(direction)}"
 
 
-def as_acceleration(model: Model, load_factor: float) -> str:
+def as_acceleration(model: Model, load_factor: float, most: bool = False) -> str:
     """Return a load factor as an acceleration, as text; empty where the live load is none."""
     known = acceleration(model)
     if known is None:
         return ""
     size = known[0] * load_factor
-    return f"{known[1]} of {cut(size)} g = {cut(size * gravity)} m/s²"
+    return f"{known[1]} of {cut(size, most=most)} g = {cut(size * gravity, most=most)} m/s²"
 
 
 def counted(words: Iterable[str]) -> dict[str, int]:
@@ -111,10 +111,14 @@ def rounded_down(ratio: float) -> str:
     return f"{floor(ratio * scale * (1 + 1e-12)) / scale:.{max(digits, 0)}f}"
 
 
-def cut(value: float, digits: int = 4) -> str:
-    """Return a load factor or displacement as text: the first of the seven digits of tables, never more."""
+def cut(value: float, digits: int = 4, most: bool = False) -> str:
+    """Return a load factor or displacement as text: the first of the seven digits of tables, never more.
+
+    What is the `most` that something can be is never less.
+    """
     first = Decimal(f"{value:.7g}")
-    return f"{float(Context(prec=digits, rounding=ROUND_DOWN).plus(first)):#.{digits}g}"
+    rounding = ROUND_UP if most else ROUND_DOWN
+    return f"{float(Context(prec=digits, rounding=rounding).plus(first)):#.{digits}g}"
 
 
 def kilonewtons(force: float) -> str:

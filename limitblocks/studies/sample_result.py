@@ -67,8 +67,8 @@ class SampledStudy(Saved):
         """
         known = self._known()
         most = known[np.isfinite(known)].max(initial=0.0)
-        below, above = (np.quantile(known, shares, method=end) for end in ("lower", "higher"))
-        return np.where(np.isinf(above), below, np.quantile(np.minimum(known, most), shares))
+        unlimited = np.isinf(np.quantile(known, shares, method="lower"))
+        return np.where(unlimited, np.inf, np.quantile(np.minimum(known, most), shares))
 
     def probability_below(self, demand: float) -> float:
         """Return the share of independent samples whose load factor is below `demand`; falling ones are."""

@@ -12,9 +12,9 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import certified, repair, splitting
 from limitblocks.analysis.direct import Programs
-from limitblocks.analysis.forms import Stresses, form_of
+from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
-from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
+from limitblocks.analysis.programs import DIRECT, PLANAR, compiled, solved, static_program
 from limitblocks.analysis.scales import scaled
 from limitblocks.problem import Cones
 
@@ -40,9 +40,9 @@ def test_a_form_has_the_answer_of_the_static_program(joint):
 
 @pytest.mark.parametrize("joint", [*JOINTS, lb.OrdunaLourenco(0.6, compressive_strength=2e6, cohesion=1e3)])
 def test_matrices_are_those_that_cvxpy_hands_over_to_clarabel(joint):
-    p = scaled(wall(joint).problem)
-    data, _, _ = static_program(p).problem.get_problem_data(cp.CLARABEL)
-    here = Stresses(p).limit()
+    program = static_program(scaled(wall(joint).problem)).problem
+    data, _, _ = program.get_problem_data(cp.CLARABEL)
+    here = compiled(program)
     assert here.cones == Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
     assert abs(here.A - data["A"]).max() == 0.0
     assert here.A.nnz == data["A"].nnz

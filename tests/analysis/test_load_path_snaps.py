@@ -100,7 +100,7 @@ def test_along_a_snap_the_jack_goes_back(snapped):
 def test_its_curve_and_its_report_show_the_snap(snapped):
     pytest.importorskip("matplotlib")
     how, model, path = snapped
-    ax = lb.plots.load_path(path, model, block="jack", component="Z")
+    ax = lb.plots.load_path(model, path, block="jack", component="Z")
     labels = {text.get_text() for text in ax.get_legend().get_texts()}
     assert {"before snap", "after snap"} <= labels
     assert ("unstable" in labels) == (how == "along")

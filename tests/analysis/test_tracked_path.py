@@ -209,10 +209,12 @@ def test_an_interrupted_path_leaves_its_best_state():
 
 
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)
-@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
-def test_the_derivative_is_that_of_the_equations(joint, rule):
+@pytest.mark.parametrize(("joint", "size"), [(lb.OrdunaLourenco(0.6), 6), (lb.PointContact(0.6), 3)])
+def test_the_derivative_is_that_of_the_equations(joint, size, rule):
+    """Rows couple the stresses of an interface, or the three of a point, which are eliminated in blocks."""
     flow, x0, weights = start(structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)), **rule)
     path = path_from(flow, x0, weights, Barrier(), 0)
+    assert path.layout.coupled == size
     z, _ = centred(path)
     random = np.random.default_rng(0)
     q = residuals(path, z.moved(1.0, direction(random, z, 1e-3)))

@@ -11,6 +11,7 @@ import limitblocks as lb
 from limitblocks.evidence import backward_error as module
 from limitblocks.evidence.backward_error import backward_error
 from limitblocks.evidence.given_state import Given
+from limitblocks.evidence.limits import Limits
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, turning_of
 
@@ -315,6 +316,19 @@ def test_what_is_near_is_accepted_only_where_asked_for(monkeypatch):
     assert "exact for a model within 0.01" in str(check)
     with pytest.raises(lb.errors.CheckFailed, match=r"above 1e-09"):
         lb.check_mcp(model, found, backward_error=1e-9).require()
+
+
+def test_strength_that_a_centric_force_needs_to_crush_and_to_crack():
+    """Eq. (39) between fcef and ft: (A ft - N) / (A (fcef + ft)) of the strength is in use, both counted."""
+    fc, ft, side = 2e5, 3e4, 0.5
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=fc, tensile_strength=ft)
+    problem = lb.structures.block(joint, width=side, height=1.0, depth=side).problem
+    weight, area = 20e3 * side**2, side**2
+    x = problem.resultants.T @ (np.array([0, 0, -weight, 0, 0, 0]) / problem.units.resultants)
+    crushing = [problem.row_mode[k] == "crush" for k in problem.cones.heads]
+    change = Limits(problem).changes(x)[crushing]
+    assert len(change) == 4
+    assert change == pytest.approx((area * ft + weight) / (area * (fc + ft)) - 1.0)
 
 
 @pytest.mark.parametrize("limit", [0.0, -1e-4, np.nan, "1e-4"])

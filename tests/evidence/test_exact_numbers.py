@@ -10,6 +10,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.evidence.proof import _upper
 from limitblocks.evidence.reach import Kinematic, Reach, Static, _in_cones
+from limitblocks.evidence.rounding import scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import State
 
@@ -114,3 +115,10 @@ def test_the_upper_bound_is_at_least_the_exact_ratio(problem, across):
         power = sum(most) - sum(a * b for a, b in zip(dead, rates, strict=True))
         work = sum(a * b for a, b in zip(live, rates, strict=True))
         assert found == np.inf or (work > 0 and Fraction(found) >= power / work)
+
+
+@pytest.mark.parametrize("n", [1, 10, 1000])
+def test_rounding_of_a_scalar_product_is_bounded_in_any_order_of_the_sum(n):
+    """Higham (2002), Eq. (3.5): n u / (1 - n u) times the sum of the sizes of the products."""
+    u, (a, b) = 2.0**-53, np.random.default_rng(n).normal(size=(2, n))
+    assert scalar_product(a, b)[1] >= n * u / (1 - n * u) * (np.abs(a) @ np.abs(b))

@@ -7,6 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import mcp_residuals, residual, worth_of_violations
 from limitblocks.problem import Flow, State
 
@@ -88,3 +89,14 @@ def test_units_of_a_state_that_ran_away_do_not_warn():
     far = problem.measured(np.full(len(problem.blocks), 2.0**700))
     assert np.isinf(far.compliance).all()
     assert np.isfinite(far.C.data).all()
+
+
+@pytest.mark.parametrize("weights", [(1e3, 64e3), (64e3, 1e3)])
+def test_an_interface_is_pressed_by_what_is_tied_to_it_and_not_by_a_stone_beside(weights):
+    stones = [lb.Block.box(f"{x}", (1, 1, 1), (x, 0, 0.5), w) for x, w in zip((-2, 2), weights, strict=True)]
+    blocks = [lb.Block.box("ground", (6, 1, 1), (0, 0, -0.5)), *stones]
+    found = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    problem = lb.Model(blocks, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0))).problem
+    at_rest = State(0.0, *(np.zeros(size) for size in (problem.C.shape[0], 12, len(problem.g))))
+    pressed = Measure(problem, at_rest).pressed * problem.units.interface_force
+    assert pressed == pytest.approx(weights)

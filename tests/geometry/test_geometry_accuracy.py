@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.geometry import polygon
+from limitblocks.geometry import accuracy, polygon
 
 JOINT = lb.OrdunaLourenco(0.6)
 UNIT = (1.0, 1.0, 1.0)
@@ -103,6 +103,20 @@ def test_strips_are_findings(width):
     (strip,) = wide.strips or wide.slivers
     assert strip.width == pytest.approx(width, rel=5e-3)
     assert wide.isolated == ("low", "high")
+
+
+def test_an_angle_is_never_chosen_larger_than_faces_were_looked_at():
+    """What counts as touching stays far below the 45 degrees that may be asked for."""
+    assert accuracy.chosen(None, None, None, accuracy.Accuracy(1e-3, 0.5)).angle == accuracy._TURN < np.pi / 8
+
+
+@pytest.mark.parametrize("share", [0.45, 0.55])
+def test_a_sheet_that_is_covered_by_more_than_a_half_stands(share):
+    """A sheet 4 mm thick whose lower edge is on the stone by `share` of its length."""
+    blocks = [box("stone", UNIT, (0, 0, 0)), box("sheet", (1.0, 0.004, 1.0), (1.0 - share, 0, 1))]
+    found = lb.find_contacts(blocks, None, width=0.01)
+    assert len(found.interfaces) == (share > 0.5)
+    assert len(found.strips) == (share < 0.5)
 
 
 def test_narrow_faces_that_are_covered_are_no_strips():

@@ -22,7 +22,7 @@ DRAWN = {
     "thrust": lambda: plots.thrust_line(arch(), bounds(arch)),
     "findings": lambda: plots.findings(corner()),
     "convergence": lambda: plots.convergence(lb.nonassociated(rocking())),
-    "path": lambda: plots.load_path(path(), rocking()),
+    "path": lambda: plots.load_path(rocking(), path()),
     "bracket": lambda: plots.bracket(bounds(rocking), path()),
     "polar": lambda: plots.polar(ANGLES, 1.0 + 0.2 * np.cos(ANGLES)),
     "interaction": lambda: plots.interaction(lb.OrdunaLourenco(0.6), SQUARE, "V1", "T", exact=True),

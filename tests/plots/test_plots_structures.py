@@ -132,7 +132,8 @@ def test_legend_counts_the_interfaces_of_each_state(make):
     ax = lb.plots.interface_states(make(), bounds(make))
     counted = Counter(interface_states(make(), bounds(make)).state)
     labels = {text.get_text() for text in ax.get_legend().get_texts()}
-    assert labels == {f"{state} ({count})" for state, count in counted.items()}
+    dots = {"thrust at a hinge"} if any("hinge" in state for state in counted) else set()
+    assert labels == {f"{state} ({count})" for state, count in counted.items()} | dots
 
 
 def test_thrust_line_of_a_symmetric_arch_is_symmetric_and_inside():

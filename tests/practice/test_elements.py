@@ -7,7 +7,7 @@ from facades import ARM, FLOOR, OWN, H, T, facade
 import limitblocks as lb
 from limitblocks.analysis.scales import frictional
 from limitblocks.evidence.spanning_tree import spanning_tree
-from limitblocks.joints import Tie
+from limitblocks.joints import Guide, Tie
 from limitblocks.practice import dowel, reinforced, strip, tie
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
@@ -44,6 +44,7 @@ def test_tie_of_a_facade(joint):
     assert states.state[1] == "yield"
     assert states.utilisation[1] == pytest.approx(1.0)
     assert result.stress_resultants[1] == pytest.approx([0, 0, 8e3, 0, 0, 0], abs=1e-3)
+    assert not any("is locked in" in remark for remark in result.remarks)  # it yields: its force is known
 
 
 def test_strength_of_the_section_governs_where_it_is_less():
@@ -214,3 +215,11 @@ def test_misuse(make, words):
     with pytest.raises(lb.ModelError, match=words) as caught:
         make()
     assert "\n" not in str(caught.value)
+
+
+def test_a_guide_holds_forces_by_its_area_and_moments_by_that_times_its_root():
+    """2 m x 3 m and 7 Pa: 42 N, 42 sqrt(6) N m, of either sign; V1 alone is free."""
+    rows = Guide(7.0).yield_rows(np.array([[(-1, -1.5), (1, -1.5), (1, 1.5), (-1, 1.5)]], dtype=float))
+    most = 42.0 * np.array([1.0, 1.0, *[np.sqrt(6.0)] * 3])
+    assert rows.g[0] == pytest.approx(np.concatenate([most, most]))
+    assert (np.abs(rows.F[0] @ rows.resultants[0].T) == np.vstack([np.eye(6)[1:]] * 2)).all()

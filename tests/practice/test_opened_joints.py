@@ -5,7 +5,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.geometry.accuracy import GAP
-from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.displaced import _screw_shift, assembly_of, moved
 from limitblocks.practice.resting import face_at
 from limitblocks.practice.touching import across, pressed_in
 from limitblocks.practice.trimmed import trimmed
@@ -73,3 +73,13 @@ def test_what_presses_no_more_than_an_answer_is_accurate_does_not_press():
     Q = np.zeros((3, 6))
     Q[:, 2] = -1.0, -1e-8, -1e-5
     assert [own.pressed for own in pressed_in(arch, [0, 1, 2], Q).contacts] == [True, False, True]
+
+
+@pytest.mark.parametrize("angle", [1e-6, 5e-5, 2e-4, 1.0])
+def test_a_screw_turns_and_shifts_a_point_at_any_angle(angle):
+    """About Z at 2 m from the axis: 2 sin t across, -2 (1 - cos t) towards it, and the pitch along."""
+    arm, pitch = np.array([2.0, 0.0, 0.0]), 0.3
+    velocity = np.cross([0.0, 0.0, angle], arm)
+    (shift,) = _screw_shift(np.array([[*velocity[:2], pitch, 0.0, 0.0, angle]]))
+    # 1 - cos t without cancellation
+    assert shift == pytest.approx([-4.0 * np.sin(angle / 2) ** 2, 2.0 * np.sin(angle), pitch], rel=1e-7)

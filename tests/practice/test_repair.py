@@ -261,6 +261,8 @@ def test_passive_fill_holds_a_block_that_moves_into_it_only():
         fill = passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)
         result = lb.nonassociated(reinforced(model, *fill))
         assert result.load_factor == pytest.approx(0.2 + more, rel=1e-6)
+    # the integral of (1.5 - z) z over that of 1.5 - z, 0 < z < 1, is the height of the resultant
+    assert fill[0].interface.joint.strength == pytest.approx(2.0 * 1e3 * (1.5 - 5 / 12))
 
 
 def test_eurocode_and_housner():

@@ -45,6 +45,7 @@ def test_lintel_follows_a_support_that_sinks(joint):
     assert found.lower <= least * (1 + 1e-9)
     assert found.upper >= least * (1 - 1e-9)
     assert found.upper - found.lower <= 1e-6 * weight
+    assert found.lower == found.settling.reaction(found.bounds.upper) < found.upper
     assert found.nonassociated == pytest.approx(least, rel=1e-8)
     assert lb.check_mcp(found.settling.model, found.result).passed
 

@@ -8,6 +8,7 @@ from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
 
 import limitblocks as lb
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
+from limitblocks.practice.displacement_check import _least_at
 from limitblocks.practice.spectra import Place
 
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
@@ -115,6 +116,13 @@ def test_acceleration_on_the_capacity_curve(facade, answer, curve):
     assert found["xi_SLV"] == 0.05
 
 
+def test_a_curve_that_snaps_back_counts_with_its_least_load_factor(curve):
+    """Straight from 1 to .5 over .4 m, back to .8 at .2 m, to 0 at 1 m: at .3 m .625, .65 and .7."""
+    way = ((0.0, 1.0), (0.4, 0.5), (0.2, 0.8), (1.0, 0.0))
+    points = tuple(replace(curve.points[0], displacement=d, load_factor=a) for d, a in way)
+    assert _least_at(replace(curve, points=points), 0.3) == pytest.approx(0.625)
+
+
 def test_ground_acceleration_of_the_displacement_check(facade, answer, curve):
     """At the ground acceleration that is told, the demand is the displacement at the limit state."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve)
@@ -172,6 +180,14 @@ def test_spectrum_is_continuous_and_has_its_branches():
     assert SITE.acceleration(1.0) == pytest.approx(SITE.a_g * SITE.S * SITE.F0 * SITE.T_C)
     assert SITE.displacement(6.0) == pytest.approx(SITE.displacement(8.0))
     assert pytest.approx(2.6) == SITE.T_D
+
+
+@pytest.mark.parametrize("damping", [0.02, 0.05, 0.20])
+def test_ground_itself_is_not_damped(damping):
+    """Eq. [3.2.2] is a_g S at T = 0 whatever eta, and straight from there to a_g S eta F0 at T_B."""
+    start, plateau = SITE.a_g * SITE.S, SITE.a_g * SITE.S * SITE.F0 * np.sqrt(10 / (5 + 100 * damping))
+    assert SITE.acceleration(0.0, damping) == pytest.approx(start)
+    assert SITE.acceleration(0.25 * SITE.T_B, damping) == pytest.approx(0.75 * start + 0.25 * plateau)
 
 
 def test_floor_spectrum():

@@ -129,14 +129,17 @@ def test_what_is_not_certified_is_an_upper_estimate_and_says_so(house, results):
     assert (found.load_factor, found.certified) == (bounds.lower, False)
     made = lb.report(house, stalled, bounds)
     assert "real friction dilates less than associated flow assumes" in made.markdown
-    assert f"≤ {down(bounds.lower)}" in made.html
+    assert f"≤ {-float(down(-bounds.lower)):.4f}" in made.html
     assert answer(lb.report(house, stalled, stands).sections).load_factor is None
     assert "no load factor to design with" in lb.report(house, stands).html
 
 
 def test_large_numbers_are_never_rounded_up(capsys):
     """A block slides at its friction coefficient: .47789 is no .4779, nor 4.6866 m/s² 4.687; .5 stays .5."""
-    for friction, said, pushed in ((0.47789, "0.4778", "4.686"), (0.5, "0.5000", "4.903")):
+    for friction, said, pushed, most in (
+        (0.47789, "0.4778", "4.686", "0.4779 g = 4.687"),
+        (0.5, "0.5000", "4.903", "0.5000 g = 4.904"),
+    ):
         stone = [
             lb.Block.box("ground", (3, 1, 1), (0, 0, -0.5)),
             lb.Block.box("stone", (2, 1, 1), (0, 0, 0.5), 2e4),
@@ -148,6 +151,10 @@ def test_large_numbers_are_never_rounded_up(capsys):
         assert made.to_dict()["chapters"][0]["parts"][0]["headline"]["number"] == said
         assert f"{said} g = {pushed} m/s²" in " ".join(made.text.split())
         assert f"the load factor {said} is" in made.text
+        upper = " ".join(lb.report(model, lb.bounds(model), demand=2 * friction).text.split())
+        assert f"≤ {most[:6]} load factor" in upper  # what nothing exceeds is not said to be less
+        assert f"{most} m/s²" in upper
+        assert f"upper estimate of the load factor {most[:6]} is" in upper
         terminal.print_result(model, solved)
         assert capsys.readouterr().out.split()[0] == said
 

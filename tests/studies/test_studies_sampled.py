@@ -99,6 +99,7 @@ def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
     found = lb.study(block, {"friction": (0.2, 0.6)}, 5, sampler="random")
     assert found.quantiles([0.0, 0.125, 0.5, 0.6]) == pytest.approx([0.1, 0.15, 0.3, 0.3])
     assert np.isinf(found.quantiles([0.75, 0.9, 1.0])).all()
+    assert found.probability_below(0.2) == pytest.approx(1 / 5)  # below: .1, not .2 itself
 
 
 def test_a_study_without_an_answer_prints():

@@ -77,6 +77,28 @@ class Layout:
         return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
 
     @cached_property
+    def coupled(self) -> int:
+        """Number of stresses in turn that rows couple: 3 where all are those of contact points, else k."""
+        k, cones = int(self.stresses.shape[1]), self.problem.cones
+        if not self.flow.constant:
+            return k
+        acts = (self.yield_rows != 0.0) | (
+            self.rows(self.flow.matrix(np.zeros(len(self.stress_place)))) != 0.0
+        )
+        first, last = np.full(cones.degree, k), np.zeros(cones.degree, dtype=int)
+        row, place = np.nonzero(acts)
+        np.minimum.at(first, cones.member[row], place)
+        np.maximum.at(last, cones.member[row], place)
+        sizes = (size for size in range(1, k) if k % size == 0 and (last // size <= first // size).all())
+        return next(sizes, k)
+
+    def uncoupled(self, parts: Array) -> Array:
+        """Return the diagonal blocks of parts (m, k, k) that rows couple, not copied, (b, m, size, size)."""
+        size, k = self.coupled, parts.shape[1]
+        each = parts.reshape(len(parts), k // size, size, k // size, size)
+        return np.asarray(np.einsum("mbibj->bmij", each))
+
+    @cached_property
     def _owned_rows(self) -> tuple[Indices, Indices]:
         return owned(self.problem.row_interface, self.interfaces)
 

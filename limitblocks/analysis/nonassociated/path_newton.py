@@ -27,15 +27,15 @@ class Newton:
         self.fall = slope(p.cones, z.s, z.y)
         self.slopes = layout.by_interface(self.fall(layout.yield_rows))
         H = layout.padding + layout.potential_parts(z.x) @ self.slopes
-        diagonal = np.arange(H.shape[1])
         self.elastic = path.rho(z.theta) * path.elastic
-        H[:, diagonal, diagonal] += layout.per_interface(self.elastic)
+        np.einsum("mii->mi", H)[:] += layout.per_interface(self.elastic)
         self.turning = None if path.flow.constant else path.flow.derivative(z.x, z.y)
         if self.turning is not None:
             t = self.turning.tocoo()
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
-        self.stiffness, self.flexibility = H, np.linalg.inv(H)
+        self.stiffness, self.flexibility = layout.uncoupled(H), np.zeros_like(H)
+        layout.uncoupled(self.flexibility)[:] = np.linalg.inv(self.stiffness)
         C = layout.compatibility
         self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
 
