@@ -1,9 +1,10 @@
 """From the end of a path that winds to a solution, by rounds of the two convex programs of the fixed point.
 
 The mechanism of least gap y . (F x + g) for the stresses x, then the stresses nearest to x that leave no
-gap: the gap falls from round to round, by a factor that is a third or less where the rows that yield are
-known, and near one where they are not. So the factor tells whether to go on. Complementary pivots close what
-is left near a solution.
+gap: the gap falls from round to round, by a factor that stands still where the rows that yield are known,
+and is near one where they are not. So the next round starts from stresses extrapolated from the last ones
+(Anderson 1965, Journal of the ACM 12, with one round of memory), and the factor tells whether to go on.
+Complementary pivots close what is left near a solution.
 """
 
 from __future__ import annotations
@@ -13,11 +14,14 @@ import numpy as np
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, frozen_mechanism
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect
+from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 
-ROUNDS = 30
-AHEAD = 10  # rounds: where the gap would take more at its last factor they are given up
+FALLS = 0.3  # a round: where the gap falls less, on average since the first, rounds are given up
+EPSILON = float(np.finfo(float).eps)
 NEAR = 1e-5  # residual where pivots are tried: from 1e-4 on they change nothing
+
+Round = tuple[Array, Array]  # stresses after a round, and what it changed
 
 
 def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float) -> tuple[State, int]:
@@ -35,22 +39,41 @@ def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float)
         Residual of Eqs (54)-(59) at which the rounds end.
     """
     best, least = start, defect(flow, start)
-    problem, x, last = flow.problem, start.x, np.inf
-    for k in range(1, ROUNDS + 1):
+    x, allowed, last, k = start.x, np.inf, None, 0
+    while True:
+        k += 1
         mechanism = frozen_mechanism(flow, x)
         found = nearest.find(x, mechanism[1]) if mechanism else None
         if mechanism is None or found is None:
             return best, k
-        x = found[1]
-        state = State(found[0], x, *mechanism)
+        state = State(*found, *mechanism)
+        round_ = found[1], found[1] - x
+        gap = abs(float((flow.problem.F @ state.x + flow.problem.g) @ state.y))
         worst = defect(flow, state)
         if tolerance < worst <= NEAR:
             state = pivoted(flow, state)
             worst = defect(flow, state)
         if worst < least:
             best, least = state, worst
-        gap = float((problem.F @ x + problem.g) @ mechanism[1])
-        if least <= tolerance or gap * min(gap / last, 1.0) ** AHEAD > tolerance:
+        allowed = gap if k == 1 else FALLS * allowed
+        if least <= tolerance or gap > max(allowed, tolerance) or allowed < EPSILON:
             return best, k
-        last = gap
-    return best, ROUNDS
+        x, last = ahead(round_, last, flow.problem.compliance), round_
+
+
+def ahead(now: Round, last: Round | None, weights: Array) -> Array:
+    """Return the stresses where the rounds would stand still, were they linear on the line of the last two.
+
+    Parameters
+    ----------
+    now, last : tuple of Array, shape (s,) each
+        Stresses after a round, and what it changed; dimensionless.
+    weights : Array, shape (s,)
+        Compliance, which measures changes.
+    """
+    x, change = now
+    if last is None:
+        return x
+    turn = weights * (change - last[1])
+    size = float(turn @ (change - last[1]))
+    return x - (float(turn @ change) / size if size else 0.0) * (x - last[0])

@@ -34,12 +34,15 @@ SETTINGS = {
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
-    """Rates and multipliers (u, y) of the flow frozen at x with the least gap y . (F x + g)."""
+    """Rates and multipliers (u, y) of the flow frozen at x with the least gap y . (F x + g).
+
+    Beyond yield the slack counts as that of the nearest admissible one, or the gap would have no minimum.
+    """
     problem = flow.problem
     u, y = cp.Variable(problem.C.shape[1]), cp.Variable(len(problem.g))
     compatible = problem.C @ u + flow.matrix(x).T @ y == 0
     constraints = [compatible, problem.live @ u == 1, *in_cone(y, problem.cones)]
-    values = _minimised((problem.F @ x + problem.g) @ y, constraints, u, y)
+    values = _minimised(problem.cones.nearest(problem.F @ x + problem.g) @ y, constraints, u, y)
     return None if values is None else (values[0], values[1])
 
 
