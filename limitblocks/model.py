@@ -168,8 +168,11 @@ class Model(Viewed):
         Raises
         ------
         LimitBlocksError
-            If the file exists and `overwrite` is false, or it cannot be written.
+            If the file exists and `overwrite` is false, it cannot be written, or by its suffix
+            :func:`limitblocks.read` would not read it.
         """
+        if Path(file).suffix.lower() not in ("", ".json"):
+            raise ModelError(f"{file}: a model file ends in .json; files.write_blocks writes other formats")
         return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
