@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
-from weakref import WeakValueDictionary
+from weakref import WeakSet
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from limitblocks.written import tagged, write
 SCHEMA_VERSION = 1
 _WORDS = ("layer", "material", "groups", "colour")
 # results keep the hash of their model, not the model: copies in other processes and saved ones stay small
-_MODELS: WeakValueDictionary[str, Model] = WeakValueDictionary()
+_MODELS: WeakSet[Model] = WeakSet()  # whose digest was asked for; equal ones may come and go
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -116,7 +116,7 @@ class Model(Viewed):
         arrays += [part for i in interfaces for part in (i.centroid, i.axes, i.polygon)]
         sha.update(np.concatenate(arrays, axis=None).astype("<f8").tobytes())
         found = sha.hexdigest()
-        _MODELS[found] = self
+        _MODELS.add(self)
         return found
 
     @property
@@ -168,8 +168,11 @@ class Model(Viewed):
         Raises
         ------
         LimitBlocksError
-            If the file exists and `overwrite` is false, or it cannot be written.
+            If the file exists and `overwrite` is false, it cannot be written, or by its suffix
+            :func:`limitblocks.read` would not read it.
         """
+        if Path(file).suffix.lower() not in ("", ".json"):
+            raise ModelError(f"{file}: a model file ends in .json; files.write_blocks writes other formats")
         return write(Path(file), json.dumps(self.to_dict(), indent=1), overwrite)
 
     def __str__(self) -> str:
@@ -196,7 +199,7 @@ def model_of(result: Any, model: Model | None = None) -> Model | None:
     digest = str(getattr(result, "digest", ""))
     if model is not None and digest and digest != model.digest:
         raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
-    return model if model is not None else _MODELS.get(digest)
+    return model if model is not None else next((one for one in _MODELS if one.digest == digest), None)
 
 
 def _name_problems(model: Model) -> list[str]:

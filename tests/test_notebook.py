@@ -1,6 +1,7 @@
 """What models and results show of themselves, in a line, in a notebook and in a real kernel."""
 
 import builtins
+import gc
 import html
 import importlib
 import re
@@ -99,6 +100,16 @@ def test_view_is_a_frame_that_needs_no_network(name):
     assert "default-src 'none'" in page
     assert not re.search(r"(src|href)\s*=\s*[\"'](https?:)?//", page)
     assert ('value="mechanism"' in page) == (name != "model")
+
+
+@pytest.mark.parametrize("kept", [0, 1])
+def test_result_finds_its_model_when_an_equal_one_is_gone(kept):
+    models = [lb.structures.block(lb.PointContact(0.41), width=0.5, height=1.0) for _ in range(2)]
+    found = lb.bounds(models[0])
+    assert models[0].digest == models[1].digest
+    models[1 - kept] = None
+    gc.collect()
+    assert len(found.to_frame()) == 1
 
 
 def test_result_without_its_model_asks_for_it():

@@ -149,3 +149,13 @@ def test_half_a_character_is_one_line(tmp_path):
     ):
         written.write(tmp_path / "a", "stone \ud800", False)
     assert os.listdir(tmp_path) == []
+
+
+def test_a_model_is_saved_under_a_name_that_is_read_again(tmp_path):
+    model = lb.structures.block(lb.PointContact(0.4), width=0.5, height=1.0)
+    for name in ("model.obj", "model.txt", "wall 1.5"):
+        with pytest.raises(lb.ModelError, match=r"ends in \.json; files\.write_blocks"):
+            model.save(tmp_path / name)
+    assert not list(tmp_path.iterdir())
+    for name in ("model", "model.json", "model.JSON"):
+        assert lb.read(model.save(tmp_path / name)).digest == model.digest

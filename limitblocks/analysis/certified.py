@@ -19,6 +19,7 @@ from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array
 from limitblocks.evidence.proof import Proof, Prover, own_units
 from limitblocks.evidence.reach import Reach
+from limitblocks.evidence.rounding import EPS
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 from limitblocks.problem.plane import Planar
 
@@ -29,6 +30,7 @@ MORE = 2.0
 LEAST = 1e-15
 RESERVE = 2.0  # times the room that the proof needs here, for machines that sum in another order
 NEEDED = 1.5 * RESERVE  # times what the state itself needs: the inner one has errors, too
+SPARE = 3e-10  # of the load factor: about what it costs to open all joints alike
 POLISHED = 1e-12  # residual of a state that no further polish betters
 
 
@@ -90,7 +92,8 @@ class _Mixture:
         """Both sides proven with the least part of strict states; as they were where none does."""
         x, y = self.repair.balanced(state.load_factor, state.x), self.repair.following(state.u, state.y)
         reach = self.prover.kinematic.reach(state.u, y)
-        static, (kinematic, v, z) = self._static_part(state.load_factor, x), self._opened(reach)
+        static = self._static_part(state.load_factor, x)
+        kinematic, v, z = self._opened(reach, self._spare(state.load_factor, x))
         for _ in range(ROUNDS):
             a, u = state.load_factor, state.u
             mixed = State(a, state.x, u, state.y)
@@ -126,10 +129,19 @@ class _Mixture:
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
         return float(parts.max(initial=0.0))
 
-    def _opened(self, reach: Reach) -> tuple[float, Array, Array]:
+    def _spare(self, load_factor: float, x: Array) -> float:
+        """Opening of every joint, the like of which is found in few rounds, that costs next to no width.
+
+        By virtual work multipliers z cost (F x + g).z beyond the load factor, x being the stresses.
+        """
+        cost = float((self.own.F @ x + self.own.g)[self.own.cones.heads].sum())
+        size = max(abs(load_factor), EPS)
+        return SPARE * (size / cost if cost > size else 1.0)
+
+    def _opened(self, reach: Reach, spare: float) -> tuple[float, Array, Array]:
         """Part, rates and multipliers of a mechanism that opens every joint by what its multipliers lack.
 
-        The part is infinite where there is no such mechanism.
+        It opens none by less than `spare`. The part is infinite where there is no such mechanism.
         """
         p, lack = self.own, _lack(reach)
         most = float(lack.max(initial=0.0))
@@ -137,7 +149,7 @@ class _Mixture:
             return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         if not self.opened:
             amount = np.zeros(p.F.shape[0])
-            amount[p.cones.heads] = lack / most if most > 0.0 else 1.0
+            amount[p.cones.heads] = np.maximum(lack, spare)
             self.opened.append(self.repair.opened(amount))
         u, y = self.opened[0]
         room = p.cones.margin(y)

@@ -25,7 +25,7 @@ ROUNDS = 200
 ROOM = 0.1  # that stresses are asked for at first, in the units of the rows
 LESS = 0.9  # times the room each round: there may be little
 SHARE = 0.5  # of the room asked for that is enough
-RELAXED = 1.7  # of 0 to 2: a third fewer rounds than with 1
+RELAXED = 1.7  # of 0 to 2: about a third fewer rounds than with 1, docs/solvers.md
 
 
 @dataclass(frozen=True, eq=False)

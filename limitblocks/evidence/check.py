@@ -89,13 +89,7 @@ class Check(Result):
         return self.residuals.rows()
 
     def require(self) -> None:
-        """Do nothing where the claim is accepted.
-
-        Raises
-        ------
-        CheckFailed
-            It is not; the message names every residual above the tolerance.
-        """
+        """Raise CheckFailed, naming every residual above the tolerance, unless the claim is accepted."""
         failed = self.residuals.above(self.tolerance)
         if not self.accepted:
             asked = "" if self.limit is None else f"; {self.backward_error}, above {self.limit:g}"

@@ -83,18 +83,10 @@ def corner(
 
     Parameters
     ----------
-    joint : Joint
-        Joint of all interfaces, the base included.
     length, return_length : float
         Outer dimensions along X and Y, m; multiples of half the block length.
-    courses : int
-        Number of courses.
-    block_length, block_height : float
-        Dimensions of a block, m; the walls are block_length / 2 thick.
-    unit_weight : float
-        N/m3.
-    direction : sequence of float
-        Direction of the live load, which is the weight.
+    joint, courses, block_length, block_height, unit_weight, direction
+        As for :func:`facade`; the default direction is X.
     """
     refuse_wall(courses, block_length, length=length, return_length=return_length, block_height=block_height)
     t = block_length / 2
@@ -124,21 +116,13 @@ def tower(
 
     Parameters
     ----------
-    joint : Joint
-        Joint of all interfaces, the base included.
     length, width : float
         Outer dimensions along X and Y, m; multiples of half the block length.
-    courses : int
-        Number of courses.
-    block_length, block_height : float
-        Dimensions of a block, m; the walls are block_length / 2 thick.
     openings : mapping of str to sequence of Opening
         For "front" (y = 0), "back", "left" (x = 0) and "right": (left, sill, width, height), m, as for
         :func:`wall`, from the corner with the smaller x or y.
-    unit_weight : float
-        N/m3.
-    direction : sequence of float
-        Direction of the live load, which is the weight.
+    joint, courses, block_length, block_height, unit_weight, direction
+        As for :func:`facade`; the default direction is X.
     """
     refuse_wall(courses, block_length, length=length, width=width, block_height=block_height)
     t = block_length / 2

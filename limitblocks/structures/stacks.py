@@ -95,18 +95,14 @@ def overhang(
 
     Parameters
     ----------
-    joint : Joint
-        Joint of all interfaces.
     count : int
         Number of blocks above the table.
     length, height, depth : float
         Dimensions of one block along X, Z and Y, m.
     fraction : float
         Part of the largest possible overhang.
-    unit_weight : float
-        N/m3.
-    direction : sequence of float
-        Direction of the live load, which is the weight.
+    joint, unit_weight, direction
+        As for :func:`column`.
     """
     _refuse_stack(count, length, height, depth)
     steps = fraction * length / (2 * np.arange(count, 0, -1))

@@ -10,7 +10,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis import certified, repair
+from limitblocks.analysis import certified, repair, splitting
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
@@ -130,6 +130,27 @@ def test_one_mechanism_opens_the_joints_of_both_proofs(joint, monkeypatch):
     _, proof = certified.certified(model.problem, state, dead, close=0.0, patience=1)  # two proofs
     assert proof.complete
     assert len(asked) == 1
+
+
+@pytest.mark.parametrize(
+    ("module", "name", "without"), [(splitting, "RELAXED", 1.0), (certified, "SPARE", 1e-30)]
+)
+def test_rounds_of_the_splitting_that_a_constant_saves(module, name, without, monkeypatch):
+    calls, nearest = [], splitting.Splitting._nearest
+
+    def counted(self, rows, loads):
+        calls.append(rows)
+        return nearest(self, rows, loads)
+
+    def rounds():
+        calls.clear()
+        assert lb.bounds(wall(lb.PointContact(0.6), 12.0, 20)).proof.width <= certified.CLOSE
+        return len(calls)
+
+    monkeypatch.setattr(splitting.Splitting, "_nearest", counted)
+    saving = rounds()
+    monkeypatch.setattr(module, name, without)
+    assert rounds() > 1.1 * saving
 
 
 def test_friction_of_next_to_nothing_overflows_without_a_warning():
