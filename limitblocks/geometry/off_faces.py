@@ -25,9 +25,10 @@ def off_faces(blocks: Sequence[Block], interfaces: Sequence[Interface], used: To
     distance, angle = _nearest(blocks, some, ends.ravel(), gap, used.angle)
     distance = np.maximum(distance, _outside(blocks, some, ends))
     off = np.flatnonzero((distance > gap) | (angle > used.angle))
+    of = ends.ravel().tolist()
     return tuple(
         f"{some[k // 2].name} is {millimetres(distance[k])} and {angle[k]:.2g} rad off the faces of "
-        f"{blocks[ends.flat[k]].name!r}"
+        f"{blocks[of[k]].name!r}"
         for k in off.tolist()
     )
 
