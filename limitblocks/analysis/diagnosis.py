@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
+from limitblocks.errors import few
 from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, Through, find_contacts
+from limitblocks.geometry.accuracy import Accuracy, chosen
+from limitblocks.geometry.off_faces import off_faces
 from limitblocks.model import Model, checked_model
 
 _Pair = TypeVar("_Pair", Interface, NearMiss, Overlap, Sliver, Through)
@@ -24,14 +27,18 @@ class Diagnosis(Contacts):
     overlaps : tuple of Overlap
     isolated : tuple of str
         Blocks that touch no other and have no interface.
+    off_faces : tuple of str
+        Interfaces that lie on no face of a block of theirs beyond the tolerances, with distance and angle.
     """
+
+    off_faces: tuple[str, ...] = ()
 
     @property
     def warnings(self) -> list[str]:
         """A line for each kind of thing found, and for each overlap."""
         pairs = dict.fromkeys(one.name for one in self.interfaces)
         missing = self._line("no interface between blocks that touch", tuple(pairs))
-        return missing + super().warnings
+        return missing + off_words(self.off_faces) + super().warnings
 
     def __str__(self) -> str:
         return f"beside the interfaces of the model: {super().__str__()}"
@@ -82,4 +89,19 @@ def diagnose(
         tolerances=contacts.tolerances,
         length=contacts.length,
         chosen=contacts.chosen,
+        off_faces=off_faces(model.blocks, model.interfaces, contacts.tolerances),
     )
+
+
+def astray(model: Model) -> list[str]:
+    """Return the line that names interfaces of `model` off the faces of its blocks; none where none are."""
+    found = off_faces(model.blocks, model.interfaces, model.tolerances or chosen(None, None, None))
+    if found and model.tolerances is None:  # of inaccurate blocks they may be as near as can be told
+        used = chosen(None, None, None, Accuracy.shown(model.blocks))
+        found = off_faces(model.blocks, model.interfaces, used)
+    return off_words(found)
+
+
+def off_words(found: tuple[str, ...]) -> list[str]:
+    """Return the line that says which interfaces are off the faces; none where none are."""
+    return [f"interfaces off the faces of their blocks: {few(found)}"] if found else []

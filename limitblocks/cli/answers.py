@@ -113,12 +113,13 @@ def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
 
 
 def questioned(file: Path) -> Model:
-    """Return the model in a file, and ask on stderr about numbers that are hardly meant."""
+    """Return the model in a file, and ask on stderr about what is hardly meant."""
+    from limitblocks.analysis.diagnosis import astray
     from limitblocks.analysis.magnitudes import questions
     from limitblocks.io import read
 
     model = read(file)
-    for question in questions(model):
+    for question in (*astray(model), *questions(model)):
         typer.echo(f"warning: {question}", err=True)
     return model
 

@@ -99,6 +99,7 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
     """Return what was looked for and what was found, "none" where nothing was."""
     looked = (
         ("Blocks that touch without an interface between them", [i.name for i in diagnosis.interfaces]),
+        ("Interfaces off the faces of their blocks", diagnosis.off_faces),
         ("Faces that nearly touch", diagnosis.near_misses),
         ("Blocks that overlap", diagnosis.overlaps),
         ("Blocks without any interface", diagnosis.isolated),

@@ -1,12 +1,15 @@
 """What contact detection reports beside the interfaces, and real walls: noise, units, far from the origin."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from bodies import moved, triangulated
+from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
+from limitblocks.analysis.diagnosis import astray
 from limitblocks.geometry import Block, find_contacts, find_interfaces, polygon
 
 box = Block.box
@@ -213,3 +216,24 @@ def test_a_pair_of_blocks_that_nearly_touches_is_named_once():
     (line,) = [line for line in contacts.warnings if "nearly touch" in line]
     assert line.count("corner|stone") == 1
     assert "1 m2) and 1 more face" in line
+
+
+@pytest.mark.parametrize(
+    ("shift", "turn", "said"),
+    [
+        ((0, 0, 0), 0.0, ""),
+        ((0, 0, 5e-4), 5e-4, ""),  # within gap and angle
+        ((0, 0, 0.25), 0.0, "2.5e+02 mm and 0 rad off the faces of 'ground'"),
+        ((0, 0, 0), 0.2, "99 mm and 0.2 rad off the faces of 'left'"),
+        ((3, 0, 0), 0.0, "3 m and 0 rad off the faces of 'left'"),
+    ],
+)
+def test_interface_off_the_faces_of_its_blocks_is_warned_of(shift, turn, said):
+    on, other, beside = find_interfaces(BLOCKS, lb.PointContact(0.6))
+    axes = on.axes @ Rotation.from_rotvec([0, turn, 0]).as_matrix()
+    moved = replace(on, centroid=on.centroid + shift, axes=axes)
+    model = model_of(BLOCKS, [moved, other, beside])
+    lines = " ".join(lb.diagnose(model).warnings)
+    assert said in lines
+    assert bool(said) == bool(lines)
+    assert bool(said) == bool(astray(model))
