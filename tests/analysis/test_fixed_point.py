@@ -90,7 +90,7 @@ def test_rounding_leaves_no_friction_limit_below_zero(monkeypatch):
     x = found.generalised_stresses / problem.stress_units
     x = x + 1e-9 * (problem.resultants.toarray()[2] > 0.0) * (np.abs(x) < 1e-6)
     assert (problem.F @ x + problem.g).min() < -1e-10
-    monkeypatch.setattr(frozen_flow, "pair_of_bounds", None)  # the first solve is enough
+    monkeypatch.setattr(frozen_flow, "pairs_of_bounds", None)  # the first solve is enough
     assert fixed_point_change(Flow(problem), State(0.5 * problem.units.live, x, *none)) <= 1e-8
 
 

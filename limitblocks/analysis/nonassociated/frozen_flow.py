@@ -29,7 +29,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.bounds import Pair, pair_of_bounds
+from limitblocks.analysis.bounds import Pair, pairs_of_bounds
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import Stresses
 from limitblocks.analysis.limit_state import limit_state
@@ -80,7 +80,7 @@ def _round(flow: Flow, x: Array, plane: Planar | None) -> Pair:
     found = limit_state(Programs(Stresses(scaled(at), refined=False)), plane)
     if found is not None and (pair := Pair(whole, *found)).residuals.worst.value <= OF_BOUNDS:
         return pair
-    return pair_of_bounds(whole, x, OF_BOUNDS)
+    return next(pairs_of_bounds(whole, x, OF_BOUNDS))
 
 
 def unconfirmed(change: float | None) -> tuple[str, ...]:
