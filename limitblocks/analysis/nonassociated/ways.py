@@ -178,7 +178,7 @@ def _large_ways(
 def _large_planar_ways(
     flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
 ) -> Iterator[tuple[State, str]]:
-    """Ends of the paths for large models in a plane; rounds take off the compliance left, 1e-8 of the flow."""
+    """Ends of the paths for large models in a plane; rounds take off the compliance left, 1e-8 of flow."""
     for one in LARGE_PLANAR_MEANS:
         end = _tracked(flow, x0, scale, one, record)
         yield end
