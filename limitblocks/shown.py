@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import Any
 
 
-def many(number: int, word: str) -> str:
-    """Return "1 block" or "2 blocks"."""
-    return f"{number} {word}{'s' * (number != 1)}"
+def many(number: int, word: str, words: str = "") -> str:
+    """Return "1 block" or "2 blocks"; `words` where the plural takes more than an s."""
+    return f"{number} {word if number == 1 else words or word + 's'}"
 
 
 class Shown:

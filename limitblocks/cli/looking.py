@@ -11,6 +11,7 @@ import typer
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import AsJson, BlocksFile, Thickness, TwistedFaces, Units, Up
 from limitblocks.errors import few
+from limitblocks.shown import many
 
 if TYPE_CHECKING:
     from limitblocks.geometry.twisted import Twisted
@@ -54,7 +55,7 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
     low, high = seen.bounding_box
     volumes = sorted(block.volume for block in seen.blocks)
     spread = f"{volumes[0]:.3g} to {volumes[-1]:.3g}, median {volumes[len(volumes) // 2]:.3g} m³"
-    bad = f", and {len(seen.faults)} faults" if seen.faults else ""
+    bad = f", and {many(len(seen.faults), 'fault')}" if seen.faults else ""
     rows = [
         ("Blocks", f"{len(seen.blocks)}{bad}"),
         ("Layers", _times(seen.layers)),

@@ -41,7 +41,11 @@ class PathStep(Shown):
     kind: str
 
     def __str__(self) -> str:
-        begins = f", {len(self.active)} modes begin to flow" if self.active else ""
+        begins = (
+            f", {many(len(self.active), 'mode')} {'begins' if len(self.active) == 1 else 'begin'} to flow"
+            if self.active
+            else ""
+        )
         return f"{self.kind}: load factor {self.load_factor:.6g}{begins}"
 
 

@@ -22,7 +22,7 @@ _WORDS = ("unit_weight", "layer", "material", "groups", "colour")
 _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Block:
     """Rigid polyhedron with planar faces; it may be non-convex, with holes through it and cavities inside.
 
@@ -131,6 +131,9 @@ class Block:
         faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
         vertices = np.insert(np.tile(points, (2, 1)), AXES.index(along), np.repeat([low, high], n), axis=1)
         return cls(name, vertices, faces, unit_weight)
+
+    def __repr__(self) -> str:
+        return f"<block {self.name!r}: size {self.size:.4g} m, volume {self.volume:.4g} m3>"
 
     @cached_property
     def size(self) -> float:

@@ -173,12 +173,12 @@ class Contacts(Shown):
 
     def __str__(self) -> str:
         counts = (
-            (self.interfaces, "interfaces"),
-            (self.near_misses, "near misses"),
-            (self.overlaps, "overlaps"),
-            (self.isolated, "isolated blocks"),
-            (self.slivers, "slivers"),
-            (self.strips, "strips"),
-            (self.through, "contacts through a block"),
+            (self.interfaces, "interface"),
+            (self.near_misses, "near miss", "near misses"),
+            (self.overlaps, "overlap"),
+            (self.isolated, "isolated block"),
+            (self.slivers, "sliver"),
+            (self.strips, "strip"),
+            (self.through, "contact through a block", "contacts through a block"),
         )
-        return ", ".join(f"{len(things)} {words}" for things, words in counts)
+        return ", ".join(many(len(things), *words) for things, *words in counts)

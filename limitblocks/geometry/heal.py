@@ -108,10 +108,13 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     length = block_length(blocks) if blocks else 1.0
     shown = Accuracy.shown(blocks)
     size = shown.size * length if accuracy is None and shown.size is not None else accuracy
-    if size is None or not 0.0 <= size < np.inf:
+    if size is None:
         raise ModelError(
-            f"accuracy is {accuracy!r}; a length in m is needed where joints are too few to tell it"
+            "how accurate the faces are is not known, too few of them touch: heal(blocks, accuracy=...) "
+            "takes a length in m; or leave them as they are and widen the gap that counts as touching"
         )
+    if not 0.0 <= size < np.inf:
+        raise ModelError(f"accuracy is {accuracy!r}; a length in m is needed")
     used = chosen(None, None, None, Accuracy(size / length, shown.angle))
     if size <= 1e-9 * length:  # drawn exactly
         still = MappingProxyType({block.name: 0.0 for block in blocks})

@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from limitblocks.arrays import Array
+from limitblocks.geometry.polygon import areas
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Interface:
     """Plane contact polygon between block i and block j (the paper's Fig. 10).
 
@@ -32,6 +33,9 @@ class Interface:
     axes: Array
     polygon: Array
     joint: object
+
+    def __repr__(self) -> str:
+        return f"<interface {self.name!r}: area {areas(self.polygon):.4g} m2>"
 
     @property
     def name(self) -> str:

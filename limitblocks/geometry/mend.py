@@ -17,6 +17,7 @@ from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered
 from limitblocks.geometry.given import wrong
 from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, odd_places
 from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
+from limitblocks.shown import many
 
 #: Distance, relative to the block's size, below which two vertices are one.
 WELD = 1e-6
@@ -174,8 +175,8 @@ def _refuse_open(name: str, points: Array, edges: Indices, uses: Indices) -> Non
             a, b = points[edges[odd.argmax()]]
             wrong(
                 name,
-                f"{word}: edges that belong to {uses[odd.argmax()]} faces: {odd.sum()}, the first from "
-                f"{_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
+                f"{word}: edges that belong to {many(int(uses[odd.argmax()]), 'face')}: {odd.sum()}, the "
+                f"first from {_place(a)} to {_place(b)}; each edge of a solid belongs to 2 faces",
             )
 
 
@@ -187,7 +188,9 @@ def _untwisted(
     which = np.flatnonzero(off > PLANE_TOLERANCE * size)
     if not len(which):
         return points, loops
-    said = f"{len(which)} twisted faces, whose corners lie up to {off.max():.3g} m out of their planes"
+    said = (
+        f"{many(len(which), 'twisted face')}, whose corners lie up to {off.max():.3g} m out of their planes"
+    )
     if twisted == "triangulate":
         notes.append(f"{said}, divided into triangles")
         return points, triangulated(points, loops, which)

@@ -23,10 +23,14 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
         tied = len(contacts.isolated) - len(wide.isolated)
         if tied > 0:
             apart = _distance(wide, blocks, set(contacts.isolated))
+            drawn = (
+                f"are the joints drawn open? They are typically {1e3 * apart:.2g} mm wide"
+                if apart >= 0.0
+                else f"the blocks typically overlap by {-1e3 * apart:.2g} mm"
+            )
             return [
                 f"{many(tied, 'block')} without any interface would touch with gap={gap:g} (block lengths, "
-                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): are the joints drawn open? "
-                f"They are typically {1e3 * apart:.2g} mm wide"
+                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): {drawn}"
             ]
     return []
 

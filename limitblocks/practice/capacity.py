@@ -36,9 +36,9 @@ GROWTH = 10.0  # of a step over the one before where the load factor rises
 MOST = 50  # points a step asked for: a curve that snaps on and on has no end
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next one, the least and those after
-JUMP = 1e-6  # of the size of the structure: a step in which the load factor jumps through zero, or is lost
+JUMP = 1e-6  # of the size of the structure: a step in which the load factor goes through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
-EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or beyond which no answer is found
+EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or to a zero that is not answered
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 
 
@@ -90,8 +90,16 @@ def capacity_curve(
     point = _control(model, first, control)
     points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)
     points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
-    zero = None if ended else points[-2 if points[-1].snapped else -1].displacement
+    zero = None if ended else _zero(points)
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
+
+
+def _zero(points: Sequence[CapacityPoint]) -> float:
+    """Displacement of the zero, m: the last one, before a snap, or the secant's where that lies behind it."""
+    last = points[-1]
+    if last.snapped:
+        return points[-2].displacement
+    return last.displacement + (_to_zero(points[-2], last) if last.load_factor < 0.0 else 0.0)
 
 
 def _curve(
@@ -122,7 +130,7 @@ def _curve(
         next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale)
-        if isinstance(found, str) and _to_zero(before, point) <= JUMP * assembly.size:
+        if isinstance(found, str) and _to_zero(before, point) <= EVENT * assembly.size:
             return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
             yield found if isinstance(found, str) else stopped(point.displacement)
@@ -148,7 +156,8 @@ def _ahead(
         if found is None:
             return stopped(point.displacement)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        if left >= -ZERO * scale or way <= JUMP * assembly.size or found[2].snapped:
+        beyond = -_to_zero(point, found[2])  # the zero lies as far behind
+        if left >= -ZERO * scale or min(way, beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
         step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
 

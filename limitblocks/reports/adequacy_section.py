@@ -6,7 +6,7 @@ from limitblocks.model import Model
 from limitblocks.practice import Adequacy
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import rounded_down, with_unit
+from limitblocks.reports.words import at_least, at_most, rounded_down, with_unit
 
 FACTORED = (
     "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "
@@ -36,11 +36,11 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
         headline=rounded_down(found.factor),
         quantity=f"adequacy factor, {'at least one' if found.satisfied else 'LESS than one'}",
         values=(
-            ("Characteristic load factor", f"{found.characteristic.lower:#.7g}", "associated, as given"),
-            ("Design load factor, static", f"{found.bounds.lower:#.7g}", "associated, of the design model"),
+            ("Characteristic load factor", at_least(found.characteristic.lower), "associated, as given"),
+            ("Design load factor, static", at_least(found.bounds.lower), "associated, of the design model"),
             (
                 "Design load factor, kinematic",
-                f"{found.bounds.upper:#.7g}",
+                at_most(found.bounds.upper),
                 "associated, of the design model",
             ),
             *real,

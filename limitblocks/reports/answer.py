@@ -16,7 +16,7 @@ CERTIFIED = (
 )
 LEAST = "It is the least of the {} certified load factors of this report that loading leads to."
 UPPER = (
-    "It is the static bound for joints that dilate by the friction angle (associated flow). No certified "
+    "It is the kinematic bound for joints that dilate by the friction angle (associated flow). No certified "
     "load factor without that dilatancy is in this report."
 )
 WARNING = (
@@ -79,7 +79,7 @@ class Verdict:
 def answer(sections: Sequence[Section]) -> Answer:
     """Return the load factor to design with: the least certified non-associated one that loading leads to.
 
-    Without one it is the least static bound, as an upper estimate.
+    Without one it is the least kinematic bound, as an upper estimate.
     """
     certified = sorted(design for one in sections for design in one.designs)
     if certified:
@@ -87,7 +87,7 @@ def answer(sections: Sequence[Section]) -> Answer:
         least = f"{LEAST.format(len(certified))} " if len(certified) > 1 else ""
         return Answer(load_factor, True, source, least + CERTIFIED, remarks)
     upper = [one.upper for one in sections if one.upper is not None]
-    return Answer(min(upper), False, "static bound", UPPER) if upper else Answer()
+    return Answer(min(upper), False, "kinematic bound", UPPER) if upper else Answer()
 
 
 def verdict(found: Answer, demand: float) -> Verdict | None:

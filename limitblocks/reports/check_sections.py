@@ -44,6 +44,7 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
     associated = not isfinite(claim.claim.dilatancy)
     flow = "associated: joints dilate by the friction angle" if associated else f"{claim.claim.dilatancy:g}"
     source = "by the checker, from the claimed state alone"
+    most = claim.load_factor if claim.claim.upper is None else claim.claim.upper
     return Section(
         title=f"Claimed solution, check {check.headline}",
         meaning=f"A load factor and a state that were read, not computed here. {check.meaning}",
@@ -62,7 +63,7 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
         designs=((claim.load_factor, "claimed solution, checked", check.warnings),)
         if claim.certified
         else (),
-        upper=claim.load_factor if claim.check.accepted and not claim.certified else None,
+        upper=most if claim.check.accepted and not claim.certified else None,
     )
 
 

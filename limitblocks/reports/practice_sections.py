@@ -14,7 +14,7 @@ from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
-from limitblocks.reports.words import cut, kilonewtons
+from limitblocks.reports.words import at_least, at_most, cut, kilonewtons
 
 SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
@@ -78,7 +78,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
         quantity=f"least sum for load factor {found.required:.6g}",
         values=(
             ("Required", f"{found.required:#.7g}", "load factor"),
-            ("Associated", f"{found.bounds.lower:#.7g}", "static load factor of the reinforced structure"),
+            ("Associated", at_least(found.bounds.lower), "static load factor of the reinforced structure"),
             ("Without dilatancy", f"{found.result.load_factor:#.7g}", "of the reinforced structure"),
         ),
         checks=checks_of(found.result.residuals, found.result.tolerance),
@@ -116,14 +116,14 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         meaning=(
             "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
             "the model's own live load; the fill disperses the axles. The least one is found by a search "
-            "between the worst positions, a local minimum."
+            "between the worst positions, a local minimum, with the place to a thousandth of the way."
         ),
         headline=cut(found.bounds.lower),
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
         values=(
             *_vehicle_rows(found),
-            ("Static load factor", f"{found.bounds.lower:#.7g}", "at the worst position"),
-            ("Kinematic load factor", f"{found.bounds.upper:#.7g}", "at the worst position"),
+            ("Static load factor", at_least(found.bounds.lower), "at the worst position"),
+            ("Kinematic load factor", at_most(found.bounds.upper), "at the worst position"),
             (
                 "Axles on the structure",
                 kilonewtons(-float(acting[2])),

@@ -10,6 +10,7 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.comparison import NOT_CLAIMED
+from limitblocks.reports.words import at_least, at_most
 
 SHOWN = 4  # names in a cell
 KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
@@ -20,13 +21,13 @@ def limits(result: Nonassociated) -> tuple[Row, Row]:
     """Return name, value and meaning of the load factors that no solution is below and above."""
     lower, upper = result.frictionless, result.associated
     if result.from_file:
-        least = NOT_CLAIMED if isnan(lower) else number(lower)
+        least = NOT_CLAIMED if isnan(lower) else at_least(lower)
         return ("Frictionless", least, AS_READ), ("Associated", number(upper), AS_READ)
     return (
         ("Frictionless", NOT_CLAIMED, result.unclaimed)
         if isnan(lower)
-        else ("Frictionless", number(lower), "joints carry no shear: no solution is lower"),
-        ("Associated", number(upper), "joints dilate by the friction angle: no solution is higher")
+        else ("Frictionless", at_least(lower), "joints carry no shear: no solution is lower"),
+        ("Associated", at_most(upper), "joints dilate by the friction angle: no solution is higher")
         if isfinite(upper)
         else ("Associated", number(upper), "dilating joints jam under this load: nothing is known above"),
     )

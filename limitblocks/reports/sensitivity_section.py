@@ -10,6 +10,7 @@ from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.reports.document import Part, Table
 from limitblocks.reports.section import Section
+from limitblocks.reports.words import at_least
 
 MOST = 10  # data listed
 NOISE = 1e-9  # of the load factor: a change that is none
@@ -34,7 +35,7 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
         if first
         else "no friction or unit weight changes the load factor",
         values=(
-            ("Load factor", f"{found.load_factor:#.7g}", "static load factor, associated flow"),
+            ("Load factor", at_least(found.load_factor), "static load factor, associated flow"),
             ("Friction, all together", _sum(found.of_interfaces), "per unit of relative change"),
             ("Unit weights, all together", _sum(found.of_blocks), "per unit of relative change"),
             ("Derivatives by friction", "two-sided" if found.agreed.all() else "in part one-sided", sides),

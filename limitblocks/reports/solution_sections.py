@@ -16,7 +16,7 @@ from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section, checks_of
-from limitblocks.reports.words import cut
+from limitblocks.reports.words import at_least, at_most, cut
 from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
@@ -39,8 +39,8 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         ),
         headline=cut(bounds.lower),
         values=(
-            ("Static load factor", f"{bounds.lower:#.7g}", f"lower bound, {static}"),
-            ("Kinematic load factor", f"{bounds.upper:#.7g}", f"upper bound, {kinematic}"),
+            ("Static load factor", at_least(bounds.lower), f"lower bound, {static}"),
+            ("Kinematic load factor", at_most(bounds.upper), f"upper bound, {kinematic}"),
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
             ("Proven", *_proven(bounds.proof)),
         ),
@@ -48,8 +48,8 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
         warnings=loose(bounds.tolerance, OF_BOUNDS),
-        upper=bounds.lower,
-        compared=(("Associated", f"{bounds.lower:#.7g}", ASSOCIATED),),
+        upper=bounds.upper,
+        compared=(("Associated", at_least(bounds.lower), ASSOCIATED),),
     )
 
 

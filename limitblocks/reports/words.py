@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from decimal import ROUND_DOWN, ROUND_UP, Context, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from inspect import getdoc
 from math import floor, log10
 from typing import Any
@@ -112,13 +112,23 @@ def rounded_down(ratio: float) -> str:
 
 
 def cut(value: float, digits: int = 4, most: bool = False) -> str:
-    """Return a load factor or displacement as text: the first of the seven digits of tables, never more.
+    """Return a load factor or displacement as text: the first of three more `digits`, never more.
 
     What is the `most` that something can be is never less.
     """
-    first = Decimal(f"{value:.7g}")
-    rounding = ROUND_UP if most else ROUND_DOWN
+    first = Decimal(f"{value:.{digits + 3}g}")
+    rounding = ROUND_CEILING if most else ROUND_FLOOR
     return f"{float(Context(prec=digits, rounding=rounding).plus(first)):#.{digits}g}"
+
+
+def at_least(bound: float) -> str:
+    """Return a lower bound in the seven digits of tables, rounded down."""
+    return cut(bound, 7)
+
+
+def at_most(bound: float) -> str:
+    """Return an upper bound in the seven digits of tables, rounded up."""
+    return cut(bound, 7, most=True)
 
 
 def kilonewtons(force: float) -> str:

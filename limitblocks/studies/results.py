@@ -12,7 +12,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
-from limitblocks.shown import Saved
+from limitblocks.shown import Saved, many
 from limitblocks.studies.pool import Result
 from limitblocks.written import write
 
@@ -86,12 +86,13 @@ class Study(Saved):
         failures = sum(map(bool, self.errors))
         lost = f"; {failures} without an answer" if failures else ""
         if not np.isfinite(self.load_factors).any():
-            return f"{len(self.errors)} analyses, no load factor{lost}"
+            return f"{many(len(self.errors), 'analysis', 'analyses')}, no load factor{lost}"
         units = {name: f" {unit}" for name, unit in self.units.items()}
         here = self._key(self.least).items()
         where = ", ".join(f"{name} {_short(value)}{units.get(name, '')}" for name, value in here)
         least = self.load_factors[self.least]
-        return f"{len(self.errors)} analyses, least load factor {least:.6g} at {where}{lost}"
+        made = many(len(self.errors), "analysis", "analyses")
+        return f"{made}, least load factor {least:.6g} at {where}{lost}"
 
     def _key(self, k: int) -> dict[str, Any]:
         return {"row": k}

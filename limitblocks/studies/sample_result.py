@@ -12,7 +12,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
-from limitblocks.shown import Saved
+from limitblocks.shown import Saved, many
 from limitblocks.studies.results import write_rows
 
 
@@ -131,7 +131,7 @@ class SampledStudy(Saved):
 
     def __str__(self) -> str:
         failed = f", {self.failures} without an answer" if self.failures else ""
-        said = f"{len(self.load_factors)} analyses of {', '.join(self.names)}"
+        said = f"{many(len(self.load_factors), 'analysis', 'analyses')} of {', '.join(self.names)}"
         try:
             low, middle, high = self.quantiles()
         except SolveError:

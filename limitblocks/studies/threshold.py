@@ -14,7 +14,7 @@ from limitblocks.analysis.stability import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
-from limitblocks.shown import Saved
+from limitblocks.shown import Saved, many
 from limitblocks.studies.results import in_columns, write_rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
@@ -65,7 +65,7 @@ class Threshold(Saved):
         digits = max(6, int(np.ceil(np.log10(size / width))) + 2)  # two of the width: the ends are told apart
         return (
             f"{self.parameter} {self.stands:.{digits}g} stands, {self.falls:.{digits}g} falls{beside} "
-            f"({len(self.trials)} trials)"
+            f"({many(len(self.trials), 'trial')})"
         )
 
     def rows(self) -> list[dict[str, Any]]:

@@ -168,6 +168,23 @@ def test_a_springing_at_roundoff_is_at_zero(tmp_path):
     assert "e-16" not in said
 
 
+def test_stones_drawn_into_one_another_are_not_joints_drawn_open(tmp_path):
+    """Each 1 mm into the one below, where .6 mm counts as touching."""
+    stones = [lb.Block.box("base", (3, 1, 0.2), (0, 0, -0.1))]
+    stones += [lb.Block.box(f"{k}", (1, 0.5, 0.5), (0, 0, 0.25 - 0.001 + 0.499 * k)) for k in range(2)]
+    said = run("look", lb.files.write_blocks(stones, tmp_path / "deep.obj")).stdout
+    assert "the blocks typically overlap by 1 mm" in said
+    assert "drawn open" not in said
+
+
+def test_healing_what_tells_no_accuracy_says_what_to_do(tmp_path):
+    stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5)), lb.Block.box("top", (1, 1, 1), (0, 0, 0.5))]
+    file = lb.files.write_blocks(stones, tmp_path / "two.obj")
+    said = run("import", file, *OPTIONS, "--supports", "base", "--heal", code=2).stderr
+    assert "how accurate the faces are is not known" in said
+    assert "None" not in said
+
+
 def test_joints_drawn_open_name_distance_and_gap(tmp_path):
     stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
     stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, 0.11 + 0.21 * k)) for k in range(3)]

@@ -108,6 +108,20 @@ def test_contacts_are_plain_data():
     )
 
 
+def test_of_one_thing_no_plural_is_said():
+    one = find_contacts([box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0, 0, 0.5))], None)
+    assert str(one).startswith("1 interface, 0 near misses, 0 overlaps, 0 isolated blocks")
+    apart = find_contacts([box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0, 0, 0.502))], None)
+    assert str(apart).startswith("0 interfaces, 1 near miss, 0 overlaps, 2 isolated blocks")
+
+
+def test_blocks_and_interfaces_are_short_lines_in_a_console():
+    low, high = box("low", UNIT, (0, 0, -0.5)), box("high", (0.5, 0.5, 2.0), (0, 0, 1.0))
+    (one,) = lb.find_interfaces([low, high], lb.PointContact(0.6))
+    assert repr(high) == "<block 'high': size 2 m, volume 0.5 m3>"
+    assert repr(one) == "<interface 'low|high': area 0.25 m2>"
+
+
 def noisy(blocks, noise, seed):
     """Bricks as surveyed: in mm, turned at random, 500 km away, every vertex off by up to `noise`, m."""
     rng = np.random.default_rng(seed)

@@ -152,7 +152,7 @@ def test_face_that_is_not_planar_is_named_by_its_corners():
     vertices = BOX.vertices.copy()
     vertices[7] += (0.0, 0.0, 0.1)
     with pytest.raises(
-        lb.errors.GeometryError, match=r"'box'.*twisted faces.*\(1, 2, 3.1\).*--twisted triangulate or fit"
+        lb.errors.GeometryError, match=r"'box'.*twisted face.*\(1, 2, 3.1\).*--twisted triangulate or fit"
     ):
         mended("box", vertices, BOX.faces)
 

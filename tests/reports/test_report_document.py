@@ -18,6 +18,7 @@ from limitblocks.reports.document import Chapter, Table
 from limitblocks.reports.facts import fact_rows
 from limitblocks.reports.interfaces import relative_motion
 from limitblocks.reports.pdf import latin, pdf
+from limitblocks.reports.words import at_least, at_most
 
 pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
 
@@ -126,10 +127,10 @@ def test_what_is_not_certified_is_an_upper_estimate_and_says_so(house, results):
     bounds, solved, stands = results
     stalled = replace(solved, status=Status.OUT_OF_STEPS)
     found = answer(lb.report(house, stalled, bounds).sections)
-    assert (found.load_factor, found.certified) == (bounds.lower, False)
+    assert (found.load_factor, found.certified) == (bounds.upper, False)
     made = lb.report(house, stalled, bounds)
     assert "real friction dilates less than associated flow assumes" in made.markdown
-    assert f"≤ {-float(down(-bounds.lower)):.4f}" in made.html
+    assert f"≤ {-float(down(-bounds.upper)):.4f}" in made.html
     assert answer(lb.report(house, stalled, stands).sections).load_factor is None
     assert "no load factor to design with" in lb.report(house, stands).html
 
@@ -157,6 +158,19 @@ def test_large_numbers_are_never_rounded_up(capsys):
         assert f"upper estimate of the load factor {most[:6]} is" in upper
         terminal.print_result(model, solved)
         assert capsys.readouterr().out.split()[0] == said
+
+
+@pytest.mark.parametrize(
+    ("bound", "least", "most"),
+    [
+        (0.47788986, "0.4778898", "0.4778899"),
+        (0.4999999999999, "0.5000000", "0.5000000"),  # rounding of a computer is none of the bound
+        (12.34567891, "12.34567", "12.34568"),
+        (-0.47788986, "-0.4778899", "-0.4778898"),
+    ],
+)
+def test_bounds_in_tables_are_rounded_away_from_the_load_factor(bound, least, most):
+    assert (at_least(bound), at_most(bound)) == (least, most)
 
 
 def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):

@@ -11,6 +11,7 @@ from limitblocks.cli import app
 from limitblocks.reports import pdf
 from limitblocks.reports.document import Chapter, Heading, Headline, Items, Table, Text
 from limitblocks.reports.markdown import escaped, written
+from limitblocks.reports.words import at_least
 
 JOINT = lb.OrdunaLourenco(0.6)
 
@@ -48,7 +49,7 @@ def test_markdown_says_what_the_page_says(report, model):
         "## Side by side",
         "## Associated bounds",
         "## Load path",
-        f"{report.results[0].lower:#.7g}",
+        at_least(report.results[0].lower),
         f"{report.results[0].gap:.1e}",
         "Interfaces that do not stick: 4 of 10",
         model.digest,

@@ -14,6 +14,7 @@ from limitblocks.evidence.backward_error import MEANINGS, BackwardError
 from limitblocks.evidence.residuals import Residual
 from limitblocks.problem import Turning
 from limitblocks.reports.facts import facts
+from limitblocks.reports.words import at_most
 
 
 def portal(name="lintel", joint=None):
@@ -117,7 +118,7 @@ def test_report_says_what_an_engineer_files(html, model, bounds):
     for part in (
         "Portal lintel",
         f"{bounds.lower:#.4g}",
-        f"{bounds.upper:#.7g}",
+        at_most(bounds.upper),
         f"{bounds.gap:.1e}",
         "64 kN",
         "friction coefficient 0.6 (31.0 degrees)",
@@ -205,7 +206,7 @@ def test_json_holds_the_same_content(model, bounds):
     content = json.loads(lb.report(model, bounds).json)
     assert content["model"]["digest"] == model.digest
     assert content["results"][0]["lower"] == bounds.lower
-    assert content["answer"] == {"load_factor": bounds.lower, "certified": False}
+    assert content["answer"] == {"load_factor": bounds.upper, "certified": False}
 
 
 def test_two_thousand_blocks_stay_under_three_megabytes(bounds):
