@@ -76,7 +76,7 @@ def test_rounds_on_a_line_are_extrapolated_to_where_they_stand_still():
     assert (closing.ahead(rounds[0], None, weights) == after[1]).all()
 
 
-def test_extrapolated_rounds_need_half_as_many_and_mechanisms_beyond_yield(monkeypatch):
+def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_beyond_yield(monkeypatch):
     """Of this corner 7 where 12 are needed without."""
     joint = lb.OrdunaLourenco(0.6)
     model = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0.0, 1.0, 0.0))
@@ -144,17 +144,25 @@ def test_the_last_path_of_a_large_model_keeps_more_compliance(monkeypatch):
     assert lb.check_mcp(corner(), found).passed
 
 
-def test_a_large_wall_in_its_plane_has_a_larger_barrier_before_increments(monkeypatch):
+@pytest.mark.parametrize(
+    ("budget", "end"), [(20, "of the fixed point, in the plane"), (1500, "seed 1, in the plane")]
+)
+def test_a_large_wall_in_its_plane_has_a_larger_barrier_and_rounds_before_increments(
+    budget, end, monkeypatch
+):
     def never(*_):
         raise AssertionError("increments cost too much")
 
     first, larger = LARGE_PLANAR_MEANS
     monkeypatch.setattr(ways, "LARGE_IN_PLANE", 10)
-    monkeypatch.setattr(ways, "LARGE_PLANAR_MEANS", (first._replace(budget=1), larger))
+    monkeypatch.setattr(
+        ways, "LARGE_PLANAR_MEANS", (first._replace(budget=1), larger._replace(budget=budget))
+    )
     monkeypatch.setattr(ways, "_increments", never)
     model = lb.structures.wall(lb.PointContact(0.6), length=2.4, courses=6)
     found = lb.nonassociated(model)
     assert found.how.startswith("tracked path, barrier 3 ")
+    assert found.how.endswith(end)
     assert lb.check_mcp(model, found).passed
 
 

@@ -52,9 +52,9 @@ LARGE_MEANS = (
     Means(Barrier(3.0, 2.0, 1e-4), 2, 400),
 )
 # In a plane: of 14 walls of some 600 to 2,000 blocks, both joints, a barrier of 3 closes 12 in 222 to 847
-# factorisations; two without crushing are left at 1.0 and 1.2e-8. One of 0.2 takes 1.0 to 3.1 times as many
-# on those of up to 1,008 blocks, and ends 0.2 to 0.7 % lower; a small one does not close them in 2,500, and
-# increments take 35 times their bounds.
+# factorisations; two without crushing are left at 1.0 and 1.2e-8, which a round closes. One of 0.2 takes
+# 1.0 to 3.1 times as many on those of up to 1,008 blocks, and ends 0.2 to 0.7 % lower; a small one does not
+# close them in 2,500, and increments take 35 times their bounds.
 LARGE_PLANAR_MEANS = (
     Means(Barrier(), 1, 100),
     Means(Barrier(3.0, 2.0, LOW), 1, 1500),

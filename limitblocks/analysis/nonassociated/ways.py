@@ -61,15 +61,13 @@ def first_to_solve(
     met: list[tuple[State, str]] = []
     blocks, in_space = len(flow.problem.blocks), _in_space(flow)
     large = means is MEANS and blocks > LARGE and in_space and flow.dissipative
-    if means is MEANS and blocks > LARGE_IN_PLANE and not in_space:
-        means = LARGE_PLANAR_MEANS
-    elif means is MEANS and half is no_half:  # in a plane or one half points cost little
+    large_in_plane = means is MEANS and blocks > LARGE_IN_PLANE and not in_space
+    if means is MEANS and half is no_half:  # in a plane or one half points cost little
         means = tuple(one._replace(patience=None) for one in MEANS)
-    ways = (
-        _large_ways(flow, x0, scale, tolerance, record)
-        if large
-        else _ways(flow, x0, scale, means, tolerance, record)
-    )
+    if large or large_in_plane:
+        ways = (_large_ways if large else _large_planar_ways)(flow, x0, scale, tolerance, record)
+    else:
+        ways = _ways(flow, x0, scale, means, tolerance, record)
     for state, how in ways if len(means) == 1 else _then(ways, half):
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
@@ -114,9 +112,8 @@ def _ways(
         if one.barrier.size <= SMALL:
             yield tracked(one)
     larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
-    if means is LARGE_PLANAR_MEANS or _in_space(flow):
-        yield from larger
     if _in_space(flow):
+        yield from larger
         yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
     else:  # in a plane they cost little
         yield _increments(flow, x0, scale, tolerance, record)
@@ -176,6 +173,17 @@ def _large_ways(
             yield state, how
         if not ended:
             yield _in_rounds(flow, nearest, state, how, tolerance)
+
+
+def _large_planar_ways(
+    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
+) -> Iterator[tuple[State, str]]:
+    """Ends of the paths for large models in a plane; rounds take off the compliance left, 1e-8 of flow."""
+    for one in LARGE_PLANAR_MEANS:
+        end = _tracked(flow, x0, scale, one, record)
+        yield end
+    yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *end, tolerance)
+    yield _increments(flow, x0, scale, tolerance, record)
 
 
 def _tracked(
