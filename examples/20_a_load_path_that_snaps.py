@@ -48,7 +48,8 @@ def main(folder="output", suffix=".png"):
     (snap,) = path.snaps
     peak = greatest(weight) + jack
     print(path)
-    print(f"{snap}; by hand from {peak:.0f} N to {weight + jack:.0f} N")
+    below = f"the last state before it is {1 - snap.before.load_factor / peak:.0%} below this peak"
+    print(f"{snap}; by hand from {peak:.0f} N ({below}) to {weight + jack:.0f} N")
     picture(Path(folder) / f"20_a_load_path_that_snaps{suffix}", model, along)
     return {
         "collapse over weight": path.load_factor / (weight + jack),

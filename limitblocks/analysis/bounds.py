@@ -52,7 +52,7 @@ UNLIMITED = (
     "its direction, or use the non-associated analysis"
 )
 PER_BLOCK = 1e-10  # accuracy of a solution of many blocks: a polish costs more than it betters
-PAIRS = 4  # that pass the tolerance, tried for a proof: an unproven one may violate what is light
+PAIRS = 4  # that pass the tolerance, tried for a proof where the load factor is small
 Tell = Callable[[str], None]
 CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
@@ -165,7 +165,8 @@ def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Arr
     tried: list[tuple[Pair, Proof]] = []
     for pair in islice(pairs_of_bounds(problem, dead, tolerance), PAIRS):
         tried.append(_proven(pair, dead, tolerance))
-        if tried[-1][1].complete:
+        # small beside what acts on a block may be large beside the live load
+        if tried[-1][1].complete or pair.residuals.worst.value <= tolerance * abs(pair.state.load_factor):
             break
     pair, proof = tried[-1] if tried[-1][1].complete else tried[0]
     if proof.complete and proof.width > tolerance:

@@ -23,6 +23,8 @@ _KILO, _DENSITY = 5e2, 5e3
 _HEAVY, _STRONG = 2.2e5, 1e9
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
+#: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
+_CALM = 0.49
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
@@ -70,6 +72,13 @@ def of_axles(axles: Sequence[float]) -> list[str]:
     """Return the question for the axle loads of a vehicle, N."""
     if (heaviest := max(axles)) < _LIGHT:
         return [f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N"]
+    return []
+
+
+def of_ground(a_g: float) -> list[str]:
+    """Return the question for the ground acceleration of a site at life safety, m/s2."""
+    if a_g < _CALM:
+        return [f"a_g is {a_g:.3g} m/s2, {a_g / 9.81:.2g} g: g? {a_g:.3g} g = {9.81 * a_g:.3g} m/s2"]
     return []
 
 

@@ -75,6 +75,9 @@ def answer(
         if output and error.result is not None:
             write_result(error.result, output, overwrite=force)
             typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+            if error.result.digest != model.digest:
+                made = "a model made from it on the way, with design values or displaced"
+                typer.echo(f"it is not of {file} but of {made}: check and report refuse it", err=True)
         if stopped:
             typer.echo(f"error: {error}", err=True)
             raise typer.Exit(INTERRUPTED) from None

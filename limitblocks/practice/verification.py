@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.analysis.magnitudes import of_ground
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
@@ -115,7 +116,7 @@ def verification(
                 more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
                 found += steps(state, more)
                 checks.append(check)
-    said = remarks(model, collapse.displacement_rates, confidence)
+    said = (*of_ground(demand.a_g), *remarks(model, collapse.displacement_rates, confidence))
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)
 
 

@@ -116,7 +116,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         meaning=(
             "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
             "the model's own live load; the fill disperses the axles. The least one is found by a search "
-            "between the worst positions, a local minimum."
+            "between the worst positions, a local minimum, with the place to a thousandth of the way."
         ),
         headline=cut(found.bounds.lower),
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",

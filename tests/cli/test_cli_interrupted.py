@@ -1,5 +1,6 @@
 """Commands that are stopped: what they say on the way, and what they leave."""
 
+import importlib
 import signal
 import subprocess
 import sys
@@ -25,6 +26,17 @@ def test_stopping_early_is_code_3_and_the_best_state_is_kept(solver, file, tmp_p
     assert run("nonassociated", file).exit_code == 3
     assert run("report", file, "--nonassociated").exit_code == 3
     assert not file.with_suffix(".html").exists()
+
+
+def test_a_state_of_a_model_with_design_values_is_said_to_be_of_another_model(file, tmp_path, monkeypatch):
+    module = importlib.import_module("limitblocks.practice.adequacy")
+    monkeypatch.setattr(module, "nonassociated", stopped)
+    output = tmp_path / "best.json"
+    factors = ("--gamma-g", 1.0, "--gamma-q", 1.5, "--gamma-m", 1.2)
+    done = run("adequacy", file, *factors, "--output", output)
+    assert done.exit_code == 3
+    assert f"it is not of {file} but of a model made from it on the way" in done.stderr
+    assert run("check", file, output).exit_code == 2
 
 
 @pytest.mark.usefixtures("solver")

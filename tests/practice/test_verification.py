@@ -165,6 +165,13 @@ def test_confidence_of_joints_without_compressive_strength(facade, answer):
     assert said.startswith("FC 1.2 with joints without compressive strength")
 
 
+def test_a_ground_acceleration_that_may_be_in_g_is_asked_about(facade, answer):
+    """.25 g = 2.45 m/s2; .5 m/s2 is a calm site."""
+    (said,) = verification(facade, answer, Spectrum(0.25, 1.2, 2.5, 0.5), q=2.0).remarks
+    assert said == "a_g is 0.25 m/s2, 0.025 g: g? 0.25 g = 2.45 m/s2"
+    assert verification(facade, answer, Spectrum(0.5, 1.2, 2.5, 0.5), q=2.0).remarks == ()
+
+
 def test_scale_of_the_mechanism_does_not_matter(facade, answer):
     """Bounds and the answer without dilatancy have one mechanism here, in one scale or another."""
     found = verification(facade, answer, SITE, q=2.0, confidence=1.0)
