@@ -147,7 +147,8 @@ def _said(fault: Any, form: type[Document]) -> str:
         case "union_tag_not_found":
             return "type is missing"
         case "union_tag_invalid":
-            return f"type {_value(context['tag'])} is unknown; expected {context['expected_tags']}"
+            own = "; no file can tell a joint of your own" if fault["loc"][:1] == ("joints",) else ""
+            return f"type {_value(context['tag'])} is unknown; expected {context['expected_tags']}{own}"
         case "json_invalid":
             return f"not JSON: {context['error']}"
         case "value_error":

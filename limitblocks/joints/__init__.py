@@ -2,6 +2,7 @@
 
 For a joint of your own: `YieldRows` is what it returns, `Queries` asks one joint, `areas` and
 `torsion_constants` measure polygons; examples/16_write_your_own_joint.py is one.
+`Model.save` writes its fields, but no file tells its rows: build such a model again in Python.
 """
 
 from limitblocks.geometry.polygon import areas

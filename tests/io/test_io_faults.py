@@ -97,6 +97,7 @@ FAULTS = {
     "load type": (find("dead", 0, "type", to="Snow"), ["dead[0]", "'Snow'", "'SelfWeight'"]),
     "joint type": (find("joints", "dry", "type", to="Glue"), ["joints.dry", "'Glue'", "'OrdunaLourenco'"]),
     "joint without type": (find("joints", "dry", "type", to=...), ["joints.dry", "type is missing"]),
+    "joint of your own": (find("joints", "dry", "type", to="Mortar"), ["'Mortar'", "joint of your own"]),
     "friction": (find("joints", "dry", "friction", to=-0.1), ["joints.dry", "friction is -0.1"]),
     "unknown joint": (
         find("interfaces", "find", "joint", to="dri"),
