@@ -97,12 +97,17 @@ def backward_error(flow: Flow, state: State, most: float = np.inf) -> BackwardEr
         given = Given(flow, state)
         free = least(given, most) if all(np.isfinite(part).all() for part in parts) else None
         if free is None:
-            limits, turned, loads, moved = (Residual(*one) for one in UNKNOWN)
-            return BackwardError(limits, turned, loads, moved, (), np.inf, None)
+            return unknown()
         held = least(given, most, held=True) if moved_by(given, free).value > free.change else None
         both = [one for one in (free, held) if one]
         near = min(both, key=lambda one: _total(given, one))
         return _error(given, near, min(both, key=lambda one: one.change))
+
+
+def unknown() -> BackwardError:
+    """Return the backward error of a state of which none is known: infinite."""
+    limits, turned, loads, moved = (Residual(*one) for one in UNKNOWN)
+    return BackwardError(limits, turned, loads, moved, (), np.inf, None)
 
 
 def checked_limit(limit: Any) -> float | None:

@@ -8,7 +8,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import closing, ways
+from limitblocks.analysis.nonassociated import closing, finished, ways
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import path as tracking
 from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
@@ -28,6 +28,7 @@ from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.analysis.polish import defect, polish
+from limitblocks.evidence import backward_error
 from limitblocks.problem import Flow, Turning
 
 # Ferris & Tin-Loi (2001), non-associated: the reference and another code; not unique, so 1 % about the two
@@ -206,6 +207,27 @@ def test_an_interrupted_path_leaves_its_best_state():
     assert found.status.name == "INTERRUPTED"
     assert found.load_factor == seen[8].load_factor  # the last point that was accepted as a whole
     assert found.how.endswith("interrupted")
+
+
+@pytest.mark.parametrize(("part", "known"), [("backward_error", False), ("fixed_point_change", True)])
+def test_an_answer_is_kept_that_is_interrupted_while_its_evidence_is_gathered(monkeypatch, part, known):
+    """The wall's answer, and all residuals of it within the tolerance, but not all that speaks for it."""
+    model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
+    whole = lb.nonassociated(model)
+
+    def press(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr({"backward_error": backward_error, "fixed_point_change": finished}[part], part, press)
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(model)
+    found = caught.value.result
+    assert found.status is lb.results.Status.INTERRUPTED
+    assert found.load_factor == whole.load_factor
+    assert found.residuals.worst.value <= 1e-8
+    assert np.isfinite(found.backward_error.value) == known
+    assert found.fixed_point_change is None
+    assert any(remark.startswith("this state solves the equations") for remark in found.remarks)
 
 
 @pytest.mark.parametrize("rule", [{}, {"turning": Turning.PRESSURE, "softening": 1e-2}], ids=str)

@@ -12,7 +12,7 @@ from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
-from limitblocks.evidence.backward_error import settled, within
+from limitblocks.evidence.backward_error import BackwardError, settled, unknown, within
 from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
@@ -21,6 +21,11 @@ from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State
+
+UNCHECKED = (
+    "this state solves the equations; the analysis was interrupted before its backward error and its "
+    "confirmation as a fixed point were known, and check_mcp finds the first"
+)
 
 
 def end(flow: Flow, state: State) -> Iteration:
@@ -46,12 +51,9 @@ def finished(
     With a `limit` of the backward error, unless that is within it.
     """
     problem = flow.problem
-    state, error = settled(flow, state, tolerance, limit)
+    state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
-    status = _status(flow, residuals, how, tolerance)
-    change = None
-    if confirm and status is Status.CONVERGED:
-        change = fixed_point_change(flow, state, plane_of(model, problem, state.x))
+    status = Status.INTERRUPTED if stopped else _status(flow, residuals, how, tolerance)
     bounds, claimed = enclosing.bounds, enclosing.of(flow)
     dead = (
         bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
@@ -80,6 +82,7 @@ def finished(
             *locked_shear(flow, state),
             *locked_tension(model, flow, state),
             *unconfirmed(change),
+            *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
         ),
         tolerance=tolerance,
         digest=model.digest,
@@ -89,6 +92,20 @@ def finished(
     if throw and not result.accepted:
         raise _refused(flow, result)
     return result
+
+
+def _evidence(
+    model: Model, state: State, flow: Flow, tolerance: float, confirm: bool, limit: float | None
+) -> tuple[State, BackwardError, float | None, bool]:
+    """The state that is told, its backward error and change as a fixed point; whether the user stopped."""
+    error = unknown()
+    try:
+        state, error = settled(flow, state, tolerance, limit)
+        if not confirm or mcp_residuals(flow, state).worst.value > tolerance:
+            return state, error, None, False
+        return state, error, fixed_point_change(flow, state, plane_of(model, flow.problem, state.x)), False
+    except KeyboardInterrupt:
+        return state, error, None, True
 
 
 def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
