@@ -14,21 +14,22 @@ from limitblocks.analysis.polish import defect
 from limitblocks.problem import Flow, State, Turning
 
 CRUSHING = lb.OrdunaLourenco(0.6, compressive_strength=3e5)
-LINTEL, LINTEL_CRUSHING = (
-    lb.structures.eccentric_lintel(joint, eccentricity=0.15, direction=(1.0, 0.0, 0.0))
+LINTELS = [
+    lb.structures.eccentric_lintel(joint, eccentricity=off, direction=(1.0, 0.0, 0.0))
     for joint in (lb.OrdunaLourenco(0.6), CRUSHING)
-)
+    for off in (0.05, 0.1, 0.15, 0.2)
+]
 
 
 @pytest.mark.parametrize("pivots", [True, False])
-@pytest.mark.parametrize("model", [LINTEL, LINTEL_CRUSHING], ids=["lintel", "lintel crushing"])
-def test_the_load_path_is_closed_where_it_is_not_plain_what_yields(model, pivots, monkeypatch):
-    """Without pivots on the way the path leaves 3e-5 and more, too far for those at its end."""
+def test_the_load_path_is_closed_where_it_is_not_plain_what_yields(pivots, monkeypatch):
+    """Without pivots on the way most paths leave 3e-5 and more, too far for those at their ends."""
     if not pivots:
         monkeypatch.setattr(path, "pivoted", lambda flow, state, **_: state)
-    result = lb.nonassociated(model, means=MEANS[:1], confirm=False, throw=False)
-    assert result.converged is pivots
-    assert lb.check_mcp(model, result).passed is pivots
+    found = [lb.nonassociated(one, means=MEANS[:1], confirm=False, throw=False) for one in LINTELS]
+    passed = [lb.check_mcp(model, one).passed for model, one in zip(LINTELS, found, strict=True)]
+    assert passed == [one.converged for one in found]
+    assert all(passed) if pivots else sum(passed) <= len(LINTELS) / 2
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), CRUSHING, lb.PointContact(0.6)], ids=repr)
