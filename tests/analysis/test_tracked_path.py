@@ -253,6 +253,16 @@ def test_the_derivative_is_that_of_the_equations(joint, size, rule):
     np.testing.assert_allclose((products[0] - products[1]) / (2.0 * h), asked, atol=1e-6)
 
 
+def test_a_point_that_ran_away_is_refused_without_a_word_on_the_terminal(capfd):
+    """SuperLU takes what is not finite, and BLAS prints that it is illegal."""
+    flow, x0, weights = start(structures.wall(lb.PointContact(0.6), length=0.8, courses=3))
+    path = path_from(flow, x0, weights, Barrier(), 0)
+    z, _ = centred(path)
+    with np.errstate(all="ignore"), pytest.raises(np.linalg.LinAlgError, match="ran away"):
+        Newton(path, replace(z, y=np.inf * z.y))
+    assert capfd.readouterr() == ("", "")
+
+
 def test_the_products_of_moved_points_are_those_of_their_theta():
     flow, x0, weights = start(structures.wall(lb.OrdunaLourenco(0.6), length=0.8, courses=3))
     path = path_from(flow, x0, weights, Barrier(), 1)

@@ -186,6 +186,8 @@ class Layout:
         live = self.problem.live[self.problem.live != 0.0]
         data[border] = np.concatenate([live, live])
         data[idle] = -1.0
+        if not np.isfinite(data).all():  # BLAS would print that it is illegal
+            raise np.linalg.LinAlgError("the stiffness of a point that ran away is not finite")
         matrix = copy(pattern)  # which is checked once
         matrix.data = data
         return diagonal_factors(matrix, "NATURAL")
