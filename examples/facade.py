@@ -32,9 +32,9 @@ def main(folder="output"):
     check.require()
     print(f"report: {lb.report(model, result, bounds, check).save(output / 'facade.html')}\n")
     worst = check.worst
-    print(f"collapse at      {result.load_factor:.4f} g, certified: residuals at most {worst.value:.0e}")
-    print(f"if sliding lifts {bounds.lower:.4f} g to {bounds.upper:.4f} g, the associated bounds")
-    print(f"a free wall      {0.4 / 2.0:.4f} g, thickness over height: the return walls hold it")
+    print(f"collapse at      {result.load_factor:.6f} g, certified: residuals at most {worst.value:.0e}")
+    print(f"if sliding lifts {bounds.lower:.6f} g to {bounds.upper:.6f} g, the associated bounds")
+    print(f"a free wall      {0.4 / 2.0:.6f} g, thickness over height: the return walls hold it")
     return {"load factor": result.load_factor, "bound": bounds.upper}
 
 

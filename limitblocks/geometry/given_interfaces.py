@@ -24,7 +24,9 @@ def interface_faults(interfaces: Sequence[Interface]) -> list[str]:
     faults, alike = {}, defaultdict(list)
     for k, one in enumerate(interfaces):
         shape = np.shape(one.polygon)
-        if np.shape(one.centroid) == (3,) and np.shape(one.axes) == (3, 3) and shape[1:] == (2,):
+        if type(one.joint).__hash__ is None:
+            faults[k] = f"joint {type(one.joint).__name__} cannot be hashed; make it a frozen dataclass"
+        elif np.shape(one.centroid) == (3,) and np.shape(one.axes) == (3, 3) and shape[1:] == (2,):
             alike[shape[0]].append(k)
         else:
             faults[k] = "centroid, axes and polygon have shapes (3,), (3, 3) and (n, 2)"

@@ -1,6 +1,7 @@
 """Interfaces given by hand: numbers that are wrong are refused, sound ones count in any orientation."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -56,6 +57,7 @@ def test_any_orientation_gives_the_same(given):
         (replace(OWN, polygon=SQUARE + 0.1), "is 0.1 m from its origin"),
         (replace(OWN, polygon=SQUARE[[0, 1, 3, 2]]), "not counter-clockwise"),
         (replace(OWN, polygon=np.zeros((3, 3))), "have shapes"),
+        (replace(OWN, joint=SimpleNamespace(friction=0.5)), "cannot be hashed; make it a frozen dataclass"),
     ],
 )
 def test_numbers_that_are_wrong_are_refused(given, said):
