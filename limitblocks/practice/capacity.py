@@ -39,6 +39,7 @@ SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next o
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor goes through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or to a zero that is not answered
+SHORT = 0.99  # of the step to a zero that is not answered: the dead loads alone are at their limit there
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 
 
@@ -129,7 +130,7 @@ def _curve(
         # no block moves farther than that, however slow the control point is
         next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
-        found = _ahead(assembly, control, point, step, scale)
+        found = _ahead(assembly, control, point, step, scale, _to_zero(before, point))
         if isinstance(found, str) and _to_zero(before, point) <= EVENT * assembly.size:
             return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
@@ -140,16 +141,19 @@ def _curve(
 
 
 def _ahead(
-    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float, ahead: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
-    """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
+    """The structure one step on, no farther than to where its load factor is zero; or why there is none.
+
+    The secant is zero `ahead`, m.
+    """
     share = 1.0 if step <= JUMP * assembly.size else SMALLEST
     most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
             found = _advanced(assembly, control, point, step, scale)
         except SolveError as error:
-            step /= 2.0
+            step *= SHORT if step == ahead else 0.5
             if step < least:
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue

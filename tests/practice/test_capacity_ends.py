@@ -97,7 +97,7 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
     point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
     control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0)
+    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0, np.inf)
     assert 0.15 <= found.displacement < 0.3
 
 
@@ -136,10 +136,26 @@ def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(mo
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
     point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
     control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0)
+    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
     assert tried == [0.8]
     assert capacity._zero([point, found]) == pytest.approx(1.0, abs=1e-12)
     assert found.displacement > 1.0 + 5e-7
+
+
+def test_a_zero_that_is_not_answered_is_not_approached_by_halves(monkeypatch):
+    """Load factor 1 - d, not answered within 1e-3 of its zero: the next step ends a hundredth before it."""
+    there = assembly_of(sliding_block())
+
+    def advanced_to(assembly, control, point, step, scale):
+        if abs(at := 1.0 - point.displacement - step) < 1e-3:
+            raise lb.SolveError("the dead loads alone are at their limit")
+        return assembly, control, replace(point, displacement=1.0 - at, load_factor=at)
+
+    monkeypatch.setattr(capacity, "_advanced", advanced_to)
+    point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
+    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
+    assert found.load_factor == pytest.approx(0.008, rel=1e-9)
 
 
 @pytest.mark.parametrize("within", [False, True])

@@ -34,6 +34,10 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dila
 from limitblocks.problem.plane import Choice
 
 AGREE = 1e-6  # relative difference of two load factors that agree
+ROUNDED = (
+    "a snap could be followed with the barrier of the increments only, which rounds it: the load factor "
+    "before it is low by some percent"
+)
 
 Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
@@ -123,7 +127,10 @@ def load_path(
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     tracked = found.tracked()
-    return LoadPath(steps, collapse, folds, trace, tracked, _remarks(collapse.load_factor, tracked))
+    remarks = _remarks(collapse.load_factor, tracked)
+    if any(one.increment.rounded for one in found.pushes):
+        remarks += (ROUNDED,)
+    return LoadPath(steps, collapse, folds, trace, tracked, remarks)
 
 
 class _Loaded(NamedTuple):
