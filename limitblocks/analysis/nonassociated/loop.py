@@ -12,13 +12,13 @@ from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
+from limitblocks.analysis.nonassociated.path_record import recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
-    bracket,
     close_bounds,
+    flow_of,
     flowing_state,
     load_scale,
-    own_units,
     refuse_jammed,
     refuse_unlimited,
 )
@@ -30,7 +30,7 @@ from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, State, Turning
 
 
 @one_thread
@@ -105,20 +105,11 @@ def nonassociated(
         one of its kind, if it is proven that there is none.
     """
     way = method_of(method)
-    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     limit = checked_limit(backward_error)
-    enclosing = bracket(model)
-    problem = own_units(model, enclosing)
-    flow = Flow(problem, slope, about)
+    flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
-    history: list[Iteration] = []
-
-    def record(iteration: Iteration) -> None:
-        history.append(iteration)
-        if progress is not None:
-            progress(iteration)
-
+    history, record = recorder(progress)
     given = close_bounds(model, enclosing, tolerance) if flow.associated and start is None else start
     state = flowing_state(model, flow, given)
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:

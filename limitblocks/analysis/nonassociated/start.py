@@ -21,7 +21,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
@@ -72,6 +72,13 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
         return model.problem
     state = state_of(model, model.problem, limit_load)
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
+
+
+def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flow, Bracket]:
+    """Return the flow rule of a model in its own units, and what encloses every solution."""
+    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    enclosing = bracket(model)
+    return Flow(own_units(model, enclosing), slope, about), enclosing
 
 
 def close_bounds(model: Model, enclosing: Bracket, tolerance: float) -> Bounds | None:
