@@ -15,9 +15,6 @@ from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
     STILL,
-    Advanced,
-    advanced,
-    carried,
     control_point,
     farthest,
     refuse_left_behind,
@@ -28,7 +25,7 @@ from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered
-from limitblocks.practice.snapped import falls, snapped
+from limitblocks.practice.snapped import held
 from limitblocks.practice.touching import pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
@@ -39,6 +36,7 @@ SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next o
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor goes through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or to a zero that is not answered
+SHORT = 0.99  # of the step to a zero that is not answered: the dead loads alone are at their limit there
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 
 
@@ -129,7 +127,7 @@ def _curve(
         # no block moves farther than that, however slow the control point is
         next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
-        found = _ahead(assembly, control, point, step, scale)
+        found = _ahead(assembly, control, point, step, scale, _to_zero(before, point))
         if isinstance(found, str) and _to_zero(before, point) <= EVENT * assembly.size:
             return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
@@ -140,16 +138,19 @@ def _curve(
 
 
 def _ahead(
-    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float, ahead: float
 ) -> tuple[Assembly, Control, CapacityPoint] | str:
-    """The structure one step on, no farther than to where its load factor is zero; or why there is none."""
+    """The structure one step on, no farther than to where its load factor is zero; or why there is none.
+
+    The secant is zero `ahead`, m.
+    """
     share = 1.0 if step <= JUMP * assembly.size else SMALLEST
     most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
-            found = _advanced(assembly, control, point, step, scale)
+            found = _advanced(assembly, control, point, step)
         except SolveError as error:
-            step /= 2.0
+            step *= SHORT if step == ahead else 0.5
             if step < least:
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
@@ -185,10 +186,10 @@ def _to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
 
 
 def _advanced(
-    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float
 ) -> tuple[Assembly, Control, CapacityPoint] | None:
     """The structure one step on and its point; None where contacts allow no step."""
-    there = _held(assembly, control, point, step)
+    there = held(assembly, control, point.result.displacement_rates, step, EVENT * assembly.size)
     if there is None:
         return None
     goal, shift, loaded, result, pressed = answered(there.assembly)
@@ -197,28 +198,6 @@ def _advanced(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )
     return goal, there.control, found
-
-
-def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: float) -> Advanced | None:
-    """The structure one step on, or as far as a load factor holds it; beyond, where it snaps to."""
-
-    def ahead(way: float) -> tuple[Advanced | None, bool]:
-        there = advanced(assembly, control, point.result.displacement_rates, way)
-        return there, there is not None and falls(there.assembly)
-
-    there, fallen = ahead(step)
-    low, high, held = 0.0, step, None
-    way = EVENT * assembly.size
-    while fallen and high - low > EVENT * assembly.size:
-        one, beyond = ahead(way)
-        there, high = (one, way) if beyond else (there, high)
-        held, low = (held, low) if beyond else (one, way)
-        way = (low + high) / 2.0
-    if held is not None or there is None or not fallen:
-        return held or there
-    rest, changes = snapped(there.assembly)
-    moved_on = carried(there.assembly, rest, there.control)
-    return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 
 
 def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:

@@ -14,6 +14,7 @@ __all__ = [
     "COCCHETTI_RIZZI",
     "FERRIS_TIN_LOI",
     "FERRIS_TIN_LOI_NONASSOCIATED",
+    "GOODMAN_BRAY",
     "HEYMAN",
     "MILANKOVITCH",
     "OPPENHEIM",
@@ -104,3 +105,6 @@ STOCKDALE = Published(2.751, "Stockdale et al. (2018), KCLC", Comparison.IDEALIS
 #: Prestwood bridge with its fill, line load at the quarter span, kN. Published analyses of the test, as
 #: quoted by others: 220 kN (Zampieri et al. 2020) and 245 kN (Simoncello et al. 2020), which are 25 kN apart.
 PRESTWOOD = Published(228.0, "Page (1987), TRRL RR 110, tested", Comparison.MEASURED, 25.0)
+#: Slope of 16 blocks that topple and slide: friction at limit equilibrium; four digits are printed.
+#: Also in D. C. Wyllie, C. W. Mah, Rock Slope Engineering (2004), Section 9.4.3.
+GOODMAN_BRAY = Published(0.7855, "Goodman & Bray (1976)", Comparison.SAME, 5e-5)

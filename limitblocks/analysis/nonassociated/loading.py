@@ -29,6 +29,7 @@ from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
+from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, State
 
 log = logging.getLogger(__name__)
@@ -52,6 +53,17 @@ class Pushed:
     factorisations: int
     failures: int
 
+    def told(self, unit: float) -> Iteration:
+        """Return what it tells the user; `unit` is that of the live load."""
+        return Iteration(
+            load_factor=float(self.state.load_factor / unit),
+            kind="step",
+            step_size=1.0 / self.increment.rho,
+            residuals=self.residuals.to_dict(),
+            inner=self.factorisations,
+            failures=self.failures,
+        )
+
 
 Progress = Callable[[Pushed], None]
 
@@ -71,12 +83,8 @@ def pushed(
 
     Parameters
     ----------
-    flow : Flow
-        The limit problem and its flow rule.
-    x0 : Array, shape (s,)
-        Stresses under the permanent loads, dimensionless.
-    weights : Array, shape (s,)
-        Compliance W of the joints.
+    flow, x0, weights, share
+        As for :func:`limitblocks.analysis.nonassociated.path_start.path_from`.
     tolerance : float
         Largest residual of a solution.
     settings : Settings
@@ -85,30 +93,21 @@ def pushed(
         Load factor that increments are measured by, dimensionless.
     progress : callable, optional
         Called with each increment.
-    share : Array, shape (R,)
-        Of the barrier, in each row.
 
     Returns
     -------
     tuple of Pushed, State
         The increments, and the collapse or the last state.
     """
-    path = path_from(
-        replace(flow, softening=SOFTENING),
-        x0,
-        weights,
-        Barrier(settings.barrier, floor=0.0),
-        0,
-        scale / len(flow.problem.blocks),
-        share,
-    )
-    first = rho = float(path.elastic[0] / weights[0]) / len(flow.problem.blocks) / settings.first
+    soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
+    barrier = Barrier(settings.barrier, floor=0.0)
+    path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
+    first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     pushes: list[Pushed] = []
     state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
-        met = increment(path, weights, rho, settings.left)
-        met, proof, closed = _ended(flow, met, tolerance)
+        met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
         used += met.factorisations
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)

@@ -225,11 +225,7 @@ def _increments(
 
     def tell(one: Pushed) -> None:
         met.append(one.state)
-        load_factor = float(one.state.load_factor / problem.units.live)
-        left = one.residuals.to_dict()
-        record(
-            Iteration(load_factor, "step", 1.0 / one.increment.rho, left, one.factorisations, one.failures)
-        )
+        record(one.told(problem.units.live))
 
     try:
         return pushed(flow, x0, problem.compliance, tolerance, STEPS, scale, tell)[1], how
