@@ -17,9 +17,6 @@ grow if the jack goes *back*: 1 + (dF/dd) / K < 0. A slow experiment moves the j
 of the seat. The library follows the states between by arclength, reports the two ends of the snap, and goes
 on to where the push carries all the weight.
 
-The greatest load comes out some percent low: the barrier of the increments rounds so sharp a corner. What
-comes after the snap, and the collapse, have nothing to do with it.
-
 Source: derived above; snaps followed by arclength: Riks (1979), Int. J. Solids Structures 15, 529-551.
 """
 
@@ -42,14 +39,13 @@ SEAT, JACK = lb.OrdunaLourenco(MU), lb.OrdunaLourenco(0.5)  # two joints, for tw
 def main(folder="output", suffix=".png"):
     model = plug_in_its_seat()
     weight, jack = (block.weight for block in model.free_blocks)
-    options = {"start": driven_in(model).ravel(), "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)}}
+    options = {"start": driven_in(model), "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)}}
     path, along = (lb.load_path(model, **options, snaps=how) for how in ("across", "along"))
     lb.check_mcp(model, path.collapse).require()
     (snap,) = path.snaps
     peak = greatest(weight) + jack
     print(path)
-    below = f"the last state before it is {1 - snap.before.load_factor / peak:.0%} below this peak"
-    print(f"{snap}; by hand from {peak:.0f} N ({below}) to {weight + jack:.0f} N")
+    print(f"{snap}; by hand from {peak:.2f} N to {weight + jack:.2f} N")
     picture(Path(folder) / f"20_a_load_path_that_snaps{suffix}", model, along)
     return {
         "collapse over weight": path.load_factor / (weight + jack),

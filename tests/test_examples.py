@@ -110,8 +110,8 @@ EXPECTED = {
     },
     "20_a_load_path_that_snaps": {  # closed form in the example
         "collapse over weight": (1, 1e-9),
-        "after the snap over weight": (1, 2e-3),
-        "before the snap over greatest": (0.95, 0.05),  # the barrier rounds the corner
+        "after the snap over weight": (1, 1e-8),
+        "before the snap over greatest": (1, 2e-5),
         "jack moved across the snap": (0, 1e-12),
         "same end along": (1, 1e-9),
     },

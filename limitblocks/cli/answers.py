@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import wraps
-from inspect import Parameter, signature
+from inspect import Parameter, Signature, signature
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, get_type_hints
 
@@ -31,21 +31,23 @@ NOTHING = Kept()
 
 
 def keeping(verb: Callable[..., None]) -> Callable[..., None]:
-    """Give a verb whose last parameter is `kept` the options of :class:`Kept` in its place."""
-    own = signature(verb, eval_str=True)
+    """Give a verb the options that the named tuple of its last parameter has, such as :class:`Kept`."""
+    *own, last = signature(verb, eval_str=True).parameters.values()
     shown = [
-        Parameter(name, Parameter.KEYWORD_ONLY, default=Kept._field_defaults[name], annotation=hint)
-        for name, hint in get_type_hints(Kept, include_extras=True).items()
+        Parameter(
+            name, Parameter.KEYWORD_ONLY, default=last.annotation._field_defaults[name], annotation=hint
+        )
+        for name, hint in get_type_hints(last.annotation, include_extras=True).items()
     ]
 
     @wraps(verb)
     def run(**given: Any) -> None:
-        kept = Kept(**{one.name: given.pop(one.name) for one in shown})
-        verb(**given, kept=kept)
+        told = last.annotation(**{one.name: given.pop(one.name) for one in shown})
+        verb(**given, **{last.name: told})
 
-    parameters = [one.replace(kind=Parameter.KEYWORD_ONLY) for one in own.parameters.values()]
-    run.__signature__ = own.replace(parameters=[*parameters[:-1], *shown])  # type: ignore[attr-defined]
-    run.__annotations__ = {one.name: one.annotation for one in (*parameters[:-1], *shown)}
+    parameters = [*(one.replace(kind=Parameter.KEYWORD_ONLY) for one in own), *shown]
+    run.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    run.__annotations__ = {one.name: one.annotation for one in parameters}
     return run
 
 

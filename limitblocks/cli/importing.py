@@ -89,30 +89,19 @@ def import_blocks(
         refuse_existing(to, force, file)
         strength = {"slip": slip, "compressive_strength": compressive_strength}
         law, table = _joints(joint, friction, strength, materials)
-        load = mass_proportional(live)
-        weight = _unit_weight(unit_weight, table)
+        read: Any = {"units": units, "unit_weight": _unit_weight(unit_weight, table), "skip_bad": skip_bad}
         if thickness is None:
-            given: Any = {"up": up, "twisted": twisted}
-            imported = read_blocks(file, units=units, unit_weight=weight, skip_bad=skip_bad, **given)
+            read |= {"up": up, "twisted": twisted}
+            imported = read_blocks(file, **read)
         else:
-            imported = read_drawing(
-                file, thickness=thickness, units=units, unit_weight=weight, skip_bad=skip_bad
-            )
+            imported = read_drawing(file, thickness=thickness, **read)
         _refuse_no_supports(file, imported, supports)
-        used: Tolerances | None = None
+        tolerances: Any = {"gap": gap, "angle": angle, "width": width}
         if heal:
             imported, used = _healed(imported)
-        model, contacts, vain = model_of(
-            imported,
-            joint=law,
-            materials=table,
-            supports=supports,
-            live=load,
-            gap=used.gap if used and gap is None else gap,
-            angle=used.angle if used and angle is None else angle,
-            width=used.width if used and width is None else width,
-            name=file.stem,
-        )
+            tolerances = {k: getattr(used, k) if given is None else given for k, given in tolerances.items()}
+        made: Any = {"joint": law, "materials": table, "supports": supports, "name": file.stem}
+        model, contacts, vain = model_of(imported, live=mass_proportional(live), **made, **tolerances)
         notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
         _tell(model, notes, (*imported.guesses, *vain, *contacts.warnings))
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import groupby
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
+from limitblocks.cli.answers import keeping, questioned
 from limitblocks.cli.errors import INTERRUPTED as EXIT_INTERRUPTED
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import (
@@ -44,91 +45,72 @@ Start = Annotated[Any, vector("--from", names="X,Y", help="First place in plan, 
 End = Annotated[Any, vector("--to", names="X,Y", help="Last place in plan, m.")]
 
 
+class Asked(NamedTuple):
+    """How the analyses of a study are made, and what becomes of its rows."""
+
+    nonassociated: Nonassociated = False
+    dilatancy: Dilatancy = 0.0
+    tolerance: OwnTolerance = None
+    workers: Workers = None
+    as_json: AsJson = False
+    csv: CsvFile = None
+    output: ResultFile = None
+    force: Force = False
+
+
+ASKED = Asked()
+
+
 @studies.command()
-def directions(
-    model: ModelFile,
-    count: Count = 16,
-    vertical: Vertical = False,
-    nonassociated: Nonassociated = False,
-    dilatancy: Dilatancy = 0.0,
-    tolerance: OwnTolerance = None,
-    workers: Workers = None,
-    as_json: AsJson = False,
-    csv: CsvFile = None,
-    output: ResultFile = None,
-    force: Force = False,
-) -> None:
+@keeping
+def directions(model: ModelFile, count: Count = 16, vertical: Vertical = False, asked: Asked = ASKED) -> None:
     """Print the load factor for each direction of a mass-proportional live load."""
     with clean_errors():
-        from limitblocks.cli.answers import questioned
         from limitblocks.mechanics.loads import compass
         from limitblocks.studies import directions as study
 
-        _refuse(model, csv, output, force)
-        settings = _settings(nonassociated, dilatancy, tolerance, workers)
-        with of_a_count("study") as show:
-            answer = study(questioned(model), compass(count, vertical=vertical), progress=show, **settings)
-        _tell(answer, as_json, csv, output, force)
+        _answer(study, model, asked, compass(count, vertical=vertical))
 
 
 @studies.command(cls=Command)
+@keeping
 def moving(
-    model: ModelFile,
-    load: MovingForce,
-    start: Start,
-    end: End,
-    count: Count = 21,
-    nonassociated: Nonassociated = False,
-    dilatancy: Dilatancy = 0.0,
-    tolerance: OwnTolerance = None,
-    workers: Workers = None,
-    as_json: AsJson = False,
-    csv: CsvFile = None,
-    output: ResultFile = None,
-    force: Force = False,
+    model: ModelFile, load: MovingForce, start: Start, end: End, count: Count = 21, asked: Asked = ASKED
 ) -> None:
     """Print the load factor of a force on top of the structure at places along a line, and the least."""
     with clean_errors():
         import numpy as np
 
-        from limitblocks.cli.answers import questioned
         from limitblocks.studies import moving_load as study
 
-        _refuse(model, csv, output, force)
-        settings = _settings(nonassociated, dilatancy, tolerance, workers)
-        with of_a_count("study") as show:
-            places = np.linspace(start, end, count)
-            answer = study(questioned(model), load, places, progress=show, **settings)
-        _tell(answer, as_json, csv, output, force)
+        _answer(study, model, asked, load, np.linspace(start, end, count))
 
 
-def _settings(
-    nonassociated: bool, dilatancy: float, tolerance: float | None, workers: int | None
-) -> dict[str, Any]:
-    if dilatancy and not nonassociated:
+def _answer(study: Callable[..., Study], model: Path, asked: Asked, *what: Any) -> None:
+    """Make a study of the model in a file, write and print its rows; no row with an answer is an error."""
+    if asked.dilatancy and not asked.nonassociated:
         raise LimitBlocksError("--dilatancy needs --nonassociated")
-    analysis = {"analysis": "nonassociated", "dilatancy": dilatancy} if nonassociated else {}
-    given = {} if tolerance is None else {"tolerance": tolerance}
-    return {"workers": workers, **given, **analysis}
+    refuse_existing(asked.csv, asked.force, model, option="--csv")
+    refuse_existing(asked.output, asked.force, model)
+    settings: Any = {} if asked.tolerance is None else {"tolerance": asked.tolerance}
+    settings |= {"analysis": "nonassociated", "dilatancy": asked.dilatancy} if asked.nonassociated else {}
+    with of_a_count("study") as show:
+        answer = study(questioned(model), *what, progress=show, workers=asked.workers, **settings)
+    _tell(answer, asked)
 
 
-def _refuse(model: Path, csv: Path | None, output: Path | None, force: bool) -> None:
-    refuse_existing(csv, force, model, option="--csv")
-    refuse_existing(output, force, model)
-
-
-def _tell(study: Study, as_json: bool, csv: Path | None, output: Path | None, force: bool) -> None:
-    """Write and print the rows; no row with an answer is an error."""
+def _tell(study: Study, asked: Asked) -> None:
+    """Write and print the rows."""
     from limitblocks.io import write_result
     from limitblocks.io.result_file import result_text
     from limitblocks.reports.terminal import print_table, print_warnings
     from limitblocks.studies.pool import INTERRUPTED
 
-    if csv:
-        study.write_csv(csv, overwrite=force)
-    if output:
-        write_result(study, output, overwrite=force)
-    if as_json:
+    if asked.csv:
+        study.write_csv(asked.csv, overwrite=asked.force)
+    if asked.output:
+        write_result(study, asked.output, overwrite=asked.force)
+    if asked.as_json:
         typer.echo(result_text(study))
     else:
         rows = study.rows()

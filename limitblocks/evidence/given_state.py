@@ -11,10 +11,12 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.sought import Sought
 from limitblocks.problem import Flow, State
 from limitblocks.problem.places import places
 
-STILL = 1e-9  # what the rates of a place are worth in the load factor: below it the place is still
+STILL = TOLERANCE / 2  # what the rates of a place are worth in the load factor: below it the place is still
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,6 +30,11 @@ class Given:
     def G(self) -> sparse.csr_array:
         """The flow at the state."""
         return self.flow.matrix(self.state.x)
+
+    @cached_property
+    def sought(self) -> Sought:
+        """Where the mechanism is sought."""
+        return Sought.of(self.flow, self.state)
 
     @cached_property
     def limits(self) -> Limits:

@@ -71,15 +71,16 @@ def nearby(given: Given, level: float, held: bool = False) -> Nearby | None:
     What is within `level` of yield, or carries no more than that, may flow; all else is still. The mechanism
     is the nearest one; where it is `held`, rates are as dear as directions of flow.
     """
-    p, state = given.flow.problem, given.state
+    at = given.sought
+    p, state = at.problem, at.state
     near = given.off <= level
     if (~near & (given.change > 0.0)).any():
         return None
     moves = np.where((given.force <= SLIGHT)[given.places[0]], level * given.reach, 0.0)
     turn = max(level, TURN)
-    may = near_yield(p.cones, p.F @ state.x + p.g, near, moves, turn)
-    mechanism = nearest_mechanism(p, given.G, state.u, state.y, may, turn if held else 1.0)
-    return None if mechanism is None else _changed(given, *mechanism)
+    may = near_yield(p.cones, p.F @ state.x + p.g, at.every(near), at.merged(moves), turn)
+    mechanism = nearest_mechanism(p, at.G, state.u, state.y, may, turn if held else 1.0)
+    return None if mechanism is None else _changed(given, *at.lifted(*mechanism))
 
 
 def _changed(given: Given, u: Array, y: Array) -> Nearby:

@@ -16,7 +16,7 @@ from limitblocks.problem import LimitProblem
 REGULAR = 1e-13  # eps of the quasidefinite system
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
 EXACT = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
-ROUNDS = 8  # steps, each without the rows whose multipliers turned negative; fewer where they leave as much
+ROUNDS = 8  # steps, each without the rows whose multipliers turned negative; fewer where they leave too much
 
 
 def nearest_mechanism(
@@ -33,11 +33,11 @@ def nearest_mechanism(
     blocks: list[list[Any]] = [[problem.C, strains], [live, None]]
     J = sparse.csr_array(sparse.block_array(blocks if len(w) else [row[:1] for row in blocks]))
     right, kept = np.append(np.zeros(len(J.indptr) - 2), 1.0), np.ones(len(w), dtype=bool)
-    before = np.inf  # what the round before left, of the same rows
     for further in reversed(range(ROUNDS)):
         w = np.where(kept, w, 0.0)
         left = right - J @ np.append(u, w)
-        if _share(left, u) > EXACT:
+        before = _share(left, u)
+        if before > EXACT:
             largest = float(np.abs(w).max(initial=0.0)) or 1.0
             size = np.maximum(np.abs(w[may.ray]) / largest, LEAST_MULTIPLIER)
             d = _least_change(J, left, np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0)))
@@ -50,7 +50,6 @@ def nearest_mechanism(
         if share * (share / before) ** further > EXACT:  # at this rate not within the rounds
             return None
         kept &= ~negative[may.ray]
-        before = np.inf if negative.any() else share
     return None
 
 

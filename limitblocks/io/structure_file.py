@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from pathlib import Path
+from typing import Any
 
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.errors import ModelError
@@ -86,38 +87,19 @@ def read(
         The format needs a package that is not installed.
     """
     path = Path(file)
-    given: dict[str, object] = {
-        "joint": joint,
-        "materials": materials,
-        "supports": supports,
-        "unit_weight": unit_weight,
-        "units": units,
-        "up": up,
-        "twisted": twisted,
-        "skip_bad": skip_bad or None,
-    }
-    said = [key for key, value in given.items() if value is not None]
-    if is_model_file(path) and said:
-        raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
+    made: Any = {"joint": joint, "materials": materials, "supports": supports}
+    as_read: Any = {"unit_weight": unit_weight, "units": units, "up": up, "twisted": twisted}
     if is_model_file(path):
+        given = made | as_read | {"skip_bad": skip_bad or None}
+        if said := [key for key, value in given.items() if value is not None]:
+            raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
         return model_file.read(path)
-    imported = read_blocks(
-        path, units=units, unit_weight=unit_weight, up=up, twisted=twisted, skip_bad=skip_bad
-    )
-    table = read_materials(materials) if isinstance(materials, str | Path) else materials
+    imported = read_blocks(path, **as_read, skip_bad=skip_bad)
+    if isinstance(materials, str | Path):
+        made["materials"] = read_materials(materials)
+    made |= {"live": live, "dead": dead, "gap": gap, "angle": angle, "width": width, "name": path.stem}
     with faults.named(path):
-        model, contacts, vain = model_of(
-            imported,
-            joint=joint,
-            materials=table,
-            supports=supports,
-            live=live,
-            dead=dead,
-            gap=gap,
-            angle=angle,
-            width=width,
-            name=path.stem,
-        )
+        model, contacts, vain = model_of(imported, **made)
     for line in (*imported.notes, *imported.guesses, *vain, *contacts.warnings, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)

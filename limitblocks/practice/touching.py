@@ -78,8 +78,11 @@ def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dic
         closed = gap <= 10.0 * CLOSED * assembly.size
         if own.tied or closed.all() or not -Q[2] > least:
             continue
-        pressed = shapely.Point(-Q[4] / Q[2], Q[3] / Q[2])
+        centre = np.array([-Q[4] / Q[2], Q[3] / Q[2]])
+        pressed = shapely.Point(centre)
         shut = shapely.MultiPoint(own.interface.polygon[closed]).convex_hull
         if not closed.any() or shut.distance(pressed) > NEAR * size:
-            said[k] = f"{own.interface.name} presses across a gap of {1e3 * gap.max():.3g} mm"
+            opening = np.linalg.lstsq(np.c_[np.ones(len(gap)), own.interface.polygon], gap)[0]  # linear
+            there = float(opening @ [1.0, *centre])
+            said[k] = f"{own.interface.name} presses across a gap of {1e3 * there:.3g} mm"
     return said

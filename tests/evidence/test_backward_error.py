@@ -166,6 +166,20 @@ def test_every_row_off_by_a_little_is_a_model_as_near(name, size):
         assert backward_error(Flow(p), State(state.load_factor, x, u, y)).model <= 200.0 * size
 
 
+def test_rates_that_are_rounding_of_the_mechanism_are_still():
+    """Taken for a flow, rates worth 1e-9 of the load factor ask for models .1 to .2 away."""
+    model = lb.structures.EXAMPLES["wall"](lb.PointContact(0.6))
+    p, state = model.problem, state_of(model, lb.nonassociated(model, confirm=False))
+    acting, size = Given(Flow(p), state).acting, 1e-5
+    for seed in range(3):
+        random = np.random.default_rng(seed)
+        x = state.x + size * acting * random.uniform(-1.0, 1.0, len(state.x))
+        u = state.u + size * np.abs(state.u).max() * random.uniform(-1.0, 1.0, len(state.u))
+        off = size * np.abs(state.y).max() * random.uniform(-1.0, 1.0, len(state.y))
+        y = p.cones.nearest(state.y + off * (state.y != 0.0))
+        assert backward_error(Flow(p), State(state.load_factor, x, u, y)).model <= 100.0 * size
+
+
 def shaken(problem, state, size):
     """The state with other stresses in equilibrium, and a mechanism that is as far off."""
     random = np.random.default_rng(2)

@@ -27,16 +27,16 @@ def sought(*, ease, allowed):
     return p, found
 
 
-def test_rows_that_allow_no_mechanism_are_given_up_after_two_rounds(solves):
-    """Without rows C u = 0 contradicts live . u = 1: the second round leaves what the first has left."""
+def test_rows_that_allow_no_mechanism_are_given_up_after_a_round(solves):
+    """Without rows C u = 0 contradicts live . u = 1: a round leaves all that was left."""
     _, found = sought(ease=1.0, allowed=False)
     assert found is None
-    assert len(solves) == 2
+    assert len(solves) == 1
 
 
 def test_a_mechanism_that_takes_many_rounds_is_found(solves):
     """Multipliers that hardly change: each round leaves a part of what the one before has left."""
-    p, (u, y) = sought(ease=2e-4, allowed=True)
+    p, (u, y) = sought(ease=1e-2, allowed=True)
     assert len(solves) > 2
     assert np.abs(p.C @ u + p.G.T @ y).max() <= 1e-9 * np.abs(u).max()
     assert p.live @ u == pytest.approx(1.0, rel=1e-9)

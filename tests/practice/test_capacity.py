@@ -13,6 +13,7 @@ from limitblocks.practice import PartialFactors, adequacy, answered, capacity_cu
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
+PUSH = lb.mass_proportional((1, 0, 0))
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
@@ -28,6 +29,27 @@ def test_block_that_rocks_about_its_toe(joint):
     assert curve.points[0].load_factor == pytest.approx(lb.nonassociated(model).load_factor, rel=1e-12)
     assert all(lb.check_mcp(point.model, point.result).passed for point in curve.points)
     assert curve.points[1].changes == ("base|block 1 opens",)
+
+
+def test_block_whose_toe_crushes():
+    """Moments about the toe, from where the stress block W/(fc d) reaches: its width lies under a gap."""
+    ratio, depth, weight = 0.2, 1.0, 20e3 * B * H
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=weight / (B * depth * ratio))
+    stones = [
+        lb.Block.box("floor", (3, 3, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (B, depth, H), (0, 0, H / 2), 20e3),
+    ]
+    model = lb.Model(stones, ["floor"], lb.find_interfaces(stones, joint), lb.self_weight(), PUSH)
+    curve = capacity_curve(model, control=("block", (B / 2, 0, H)), steps=6)
+    s = curve.displacements / H
+    c = np.sqrt(1 - s**2)
+    expected = (B * c - H * s - ratio * B) / (B * s + H * c)
+    assert curve.load_factors == pytest.approx(expected, abs=1e-8)
+    phi = np.arccos(ratio * B / np.hypot(B, H)) - np.arctan2(H, B)
+    assert curve.zero == pytest.approx(H * np.sin(phi), rel=1e-8)
+    assert curve.proven_to == 0.0
+    (said,) = curve.points[1].across
+    assert float(said.split()[-2]) == pytest.approx(1e3 * ratio * B / 2 * np.tan(np.arcsin(s[1])), rel=0.01)
 
 
 def test_block_that_slides_keeps_its_load_factor_until_half_of_it_is_off():

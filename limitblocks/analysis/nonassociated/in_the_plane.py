@@ -14,7 +14,6 @@ import numpy as np
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.nonassociated.increment import Increment
 from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
@@ -51,7 +50,7 @@ class InPlane:
         visits = tuple(
             visit._replace(point=self._point(visit.point), rho=live * visit.rho) for visit in met.visits
         )
-        increment = Increment(visits, self._point(met.end), live * met.rho, met.fading)
+        increment = replace(met, visits=visits, end=self._point(met.end), rho=live * met.rho)
         state = self.plane.lifted(one.state)
         return replace(
             one, start=start, increment=increment, state=state, residuals=mcp_residuals(self.whole, state)

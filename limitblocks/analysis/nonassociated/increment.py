@@ -12,6 +12,7 @@ go on growing. At the last tau the barrier fades at a fixed rho; the increment e
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -28,6 +29,10 @@ from limitblocks.arrays import Array
 SPANS = (10.0, 1000.0)
 ARRIVED = 1.01  # times the last theta
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
+SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
+FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
+FARTHER = (1.0, 2.0, 4.0)  # times tau
+TURN = 1e-5  # of tau: how near a fold is approached
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
 
@@ -45,13 +50,15 @@ class Visit(NamedTuple):
 class Increment:
     """Points from the first tau to the last with the barrier, and the end with as little of it as is left.
 
-    `fading` is the path on which theta is the barrier, at the last tau.
+    `fading` is the path on which theta is the barrier, at the last tau. A `rounded` one snaps, and could be
+    followed with the large barrier only.
     """
 
     visits: tuple[Visit, ...]
     end: Point
     rho: float
     fading: Path
+    rounded: bool = False
 
     @property
     def left(self) -> float:
@@ -60,18 +67,23 @@ class Increment:
 
     @property
     def folds(self) -> tuple[tuple[int, int], ...]:
-        """Places of the visit of largest tau at each fold, and of the first beyond it at that tau or more."""
-        at, folds, k = self.visits, [], 1
-        while k < len(at):
-            if not at[k].forward:
-                fold = k - 1
-                while at[fold + 1].rho < at[fold].rho:
-                    fold += 1
-                later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
-                k = next(later, len(at) - 1)
-                folds.append((fold, k))
-            k += 1
-        return tuple(folds)
+        """Places of both ends of each snap among the visits."""
+        return _folds(self.visits)
+
+
+def _folds(at: Sequence[Visit]) -> tuple[tuple[int, int], ...]:
+    """Places of the visit of largest tau at each fold, and of the first beyond it at that tau or more."""
+    folds, k = [], 1
+    while k < len(at):
+        if not at[k].forward:
+            fold = k - 1
+            while at[fold + 1].rho < at[fold].rho:
+                fold += 1
+            later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
+            k = next(later, len(at) - 1)
+            folds.append((fold, k))
+        k += 1
+    return tuple(folds)
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,6 +126,11 @@ class _Stretch(Walk):
         return "arrived" if self.arrived else "lost"
 
     def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+        if self.base is not None and self._forward(-1) and sign != self.points[0].sign:
+            ahead = self.length * abs(self.base.tangent.theta) / self.base.point.theta
+            if ahead > TURN:
+                self._retreat()
+                return
         self.kept.append(self.z)
         super()._accept(sign, correction, tangent)
 
@@ -137,7 +154,7 @@ class _Stretch(Walk):
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
 def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) -> Tried:
-    """Push by 1 / rho from the stresses path.x0.
+    """Push by 1 / rho from the stresses path.x0; where that snaps or may have, once more with less barrier.
 
     Parameters
     ----------
@@ -150,7 +167,33 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
     left : float
         Size of the barrier at the end.
     """
-    for span in SPANS:
+    met = _pushed(path, weights, rho, left, SPANS)
+    if met.increment is None or not (met.increment.folds or _fell(path, met.increment)):
+        return met
+    sharp = replace(path, barrier=replace(path.barrier, size=min(SHARP, path.barrier.size)))
+    used = met.factorisations
+    for farther in FARTHER:  # the barrier makes a fold come early: without it the increment may end before
+        again = _pushed(sharp, weights, rho / farther, left, SPANS[1:])
+        used += again.factorisations
+        if again.increment is None:
+            break
+        if again.increment.folds or not met.increment.folds:
+            return replace(again, factorisations=used)
+    if again.returned:
+        return Tried(None, used, returned=True)
+    return Tried(replace(met.increment, rounded=bool(met.increment.folds)), used)
+
+
+def _fell(path: Path, met: Increment) -> bool:
+    """Whether the load factor is lower at the end of an increment than at its start."""
+    p = path.flow.problem
+    start = (path.layout.balance @ path.x0 - p.dead) @ p.live / (p.live @ p.live)
+    return bool(met.end.load_factor < start - FELL * abs(start))
+
+
+def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[float, ...]) -> Tried:
+    """One increment with the barrier of the path."""
+    for span in spans:
         first = span * rho
         curve = replace(path, elastic=first * weights)
         try:
@@ -166,11 +209,24 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
     used += walk.factorisations
     if not walk.arrived:
         return Tried(None, used, walk.returned)
-    last = walk.kept[-1]
-    size, rho = path.barrier.size * last.theta / FADING, first * last.theta
-    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=rho * weights)
-    begun = Increment(walk.visits(first), replace(last, theta=FADING), rho, fading)
-    return faded(begun, left, used)
+    visits = list(walk.visits(first))
+    for fold in _folds(visits):
+        for k in fold:
+            one = _without_barrier(path, weights, visits[k]._replace(rho=visits[fold[0]].rho), left)
+            used += one.factorisations
+            if one.increment is None:
+                return Tried(None, used)
+            visits[k] = one.increment.visits[0]._replace(point=one.increment.end)
+    met = _without_barrier(path, weights, visits[-1], left)
+    whole = None if met.increment is None else replace(met.increment, visits=tuple(visits))
+    return Tried(whole, used + met.factorisations)
+
+
+def _without_barrier(path: Path, weights: Array, visit: Visit, left: float) -> Tried:
+    """The increment that ends at a visit with as little of the barrier as is left."""
+    size = path.barrier.size * visit.point.theta / FADING
+    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=visit.rho * weights)
+    return faded(Increment((visit,), replace(visit.point, theta=FADING), visit.rho, fading), left)
 
 
 @np.errstate(all="ignore")

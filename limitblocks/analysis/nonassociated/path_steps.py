@@ -38,11 +38,11 @@ def told(
     for one in pushes:
         trace.append(teller.trace(one.increment, trace[-1][-1, 0]))
         for before, after in one.increment.folds:
-            ends = _ends(one.increment, before, after)
-            first = teller.add(ends[0], "before snap")
-            for visit in one.increment.visits[before + 1 : after] if how.snaps == "along" else ():
+            visits = one.increment.visits
+            first = teller.add(_total(visits[before]), "before snap")
+            for visit in visits[before + 1 : after] if how.snaps == "along" else ():
                 teller.add(_total(visit), "unstable")
-            snaps.append(Snap(first, teller.add(ends[1], "after snap")))
+            snaps.append(Snap(first, teller.add(_total(visits[after]), "after snap")))
         z = one.increment.end
         teller.add(State(z.load_factor, z.x, z.u / one.increment.rho, z.y / one.increment.rho), "step")
         teller.moved = teller.moved + z.u / one.increment.rho
@@ -55,23 +55,6 @@ def _total(visit: Visit) -> State:
     """A visit with displacements and multipliers since the start of its increment."""
     z = visit.point
     return State(z.load_factor, z.x, z.u / visit.rho, z.y / visit.rho)
-
-
-def _ends(increment: Increment, before: int, after: int) -> tuple[State, State]:
-    """The states of a snap: the last visit, and the state beyond the fold at the same displacement.
-
-    That one lies between two visits. On the line between them equilibrium holds, and yield since K is convex.
-    """
-    fold, a, b = (increment.visits[k] for k in (before, after - 1, after))
-    t = min(1.0, (1.0 / fold.rho - 1.0 / a.rho) / (1.0 / b.rho - 1.0 / a.rho))
-    one, two = _total(a), _total(b)
-    mixed = State(
-        one.load_factor + t * (two.load_factor - one.load_factor),
-        one.x + t * (two.x - one.x),
-        one.u + t * (two.u - one.u),
-        one.y + t * (two.y - one.y),
-    )
-    return _total(fold), mixed
 
 
 @dataclass
