@@ -38,14 +38,21 @@ class Yielding:
 
     @cached_property
     def flows(self) -> sparse.csr_array:
-        """Directions of flow, of unit length, of what yields: one a linear row or a cone, shape (k, s)."""
+        """Directions of flow, of unit length, of what yields, shape (k, s): one of a linear row or a cone.
+
+        A cone whose flow is within the dual one is at its apex, where the flow may turn: each row is one.
+        """
         p, cones, y = self.problem, self.problem.cones, self.state.y
         weights = np.append(np.ones(cones.linear), y[cones.linear :])
         members = sparse.coo_array((weights, (cones.member, np.arange(len(y))))).tocsr()
         flows = sparse.csr_array(members @ p.F)
         rates = np.append(y[: cones.linear], np.ones(cones.degree - cones.linear))
         strain = rates * abs(flows).max(axis=1).toarray().ravel()
-        active = flows[np.flatnonzero(strain > YIELDING * max(float(strain.max()), np.finfo(float).tiny))]
+        least = YIELDING * max(float(strain.max()), np.finfo(float).tiny)
+        apex = cones.margin(y) * abs(p.F).max() > least
+        apex[: cones.linear] = False
+        turning = p.F[np.flatnonzero(apex[cones.member])]
+        active = sparse.vstack([flows[np.flatnonzero((strain > least) & ~apex)], turning], format="csr")
         size = np.sqrt(active.multiply(active).sum(axis=1))
         return sparse.csr_array(sparse.diags_array(1.0 / size) @ active)
 

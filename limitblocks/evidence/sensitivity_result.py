@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array
-from limitblocks.shown import Result
+from limitblocks.shown import Result, many
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,10 +68,11 @@ class Sensitivities(Result):
     weights, frictions : Array, shapes (n,) and (m,)
         Unit weights, N/m3, and friction coefficients of the model, for `governing`.
     unique : bool
-        Whether the mechanism is the only one, so that derivatives by weights and loads are two-sided.
+        Whether the mechanism is the only one, so that derivatives by weights and loads are two-sided; without
+        it none need be.
     agreed : ndarray of bool, shape (m,)
         Whether all stress states of the load factor agree on the derivative by the friction of the interface,
-        so that it is two-sided.
+        so that it is two-sided if the mechanism is unique.
     blocks, interfaces : tuple of str
         Names.
     digest : str
@@ -120,6 +121,8 @@ class Sensitivities(Result):
     def __str__(self) -> str:
         first = "; ".join(map(str, self.governing(3)))
         sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
+        if self.unique and not self.agreed.all():
+            sides = f"; by the friction of {many(int((~self.agreed).sum()), 'joint')} it may be one-sided"
         return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}{self._as_read}"
 
     def to_dict(self) -> dict[str, Any]:

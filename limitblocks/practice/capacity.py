@@ -15,9 +15,6 @@ from limitblocks.model import Model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
     STILL,
-    Advanced,
-    advanced,
-    carried,
     control_point,
     farthest,
     refuse_left_behind,
@@ -28,7 +25,7 @@ from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered
-from limitblocks.practice.snapped import falls, snapped
+from limitblocks.practice.snapped import held
 from limitblocks.practice.touching import pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
@@ -151,7 +148,7 @@ def _ahead(
     most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
-            found = _advanced(assembly, control, point, step, scale)
+            found = _advanced(assembly, control, point, step)
         except SolveError as error:
             step *= SHORT if step == ahead else 0.5
             if step < least:
@@ -189,10 +186,10 @@ def _to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
 
 
 def _advanced(
-    assembly: Assembly, control: Control, point: CapacityPoint, step: float, scale: float
+    assembly: Assembly, control: Control, point: CapacityPoint, step: float
 ) -> tuple[Assembly, Control, CapacityPoint] | None:
     """The structure one step on and its point; None where contacts allow no step."""
-    there = _held(assembly, control, point, step)
+    there = held(assembly, control, point.result.displacement_rates, step, EVENT * assembly.size)
     if there is None:
         return None
     goal, shift, loaded, result, pressed = answered(there.assembly)
@@ -201,28 +198,6 @@ def _advanced(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )
     return goal, there.control, found
-
-
-def _held(assembly: Assembly, control: Control, point: CapacityPoint, step: float) -> Advanced | None:
-    """The structure one step on, or as far as a load factor holds it; beyond, where it snaps to."""
-
-    def ahead(way: float) -> tuple[Advanced | None, bool]:
-        there = advanced(assembly, control, point.result.displacement_rates, way)
-        return there, there is not None and falls(there.assembly)
-
-    there, fallen = ahead(step)
-    low, high, held = 0.0, step, None
-    way = EVENT * assembly.size
-    while fallen and high - low > EVENT * assembly.size:
-        one, beyond = ahead(way)
-        there, high = (one, way) if beyond else (there, high)
-        held, low = (held, low) if beyond else (one, way)
-        way = (low + high) / 2.0
-    if held is not None or there is None or not fallen:
-        return held or there
-    rest, changes = snapped(there.assembly)
-    moved_on = carried(there.assembly, rest, there.control)
-    return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 
 
 def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:

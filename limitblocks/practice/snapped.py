@@ -10,7 +10,8 @@ from scipy import optimize, sparse
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
 from limitblocks.joints import Dowel, Guide, Tie
-from limitblocks.practice.advance import moved_until_contact
+from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
+from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
 from limitblocks.practice.rejoined import rows_of
 
@@ -21,6 +22,30 @@ ROUNDS = 100  # of linear programs, each from where the last one led
 FALLS = 1e-6  # power of the dead loads over that of all of them through the largest displacement: none below
 # presolve ends programs of opened joints, whose rows are nearly dependent, with Status 4 or at no optimum
 TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10, "presolve": False}
+
+
+def held(assembly: Assembly, control: Control, rates: Array, step: float, accuracy: float) -> Advanced | None:
+    """Return the structure one step on (m, of the control point), or as far as a load factor holds it.
+
+    That is found within `accuracy`, m; beyond it the structure is where it snaps to. None if it is stuck.
+    """
+
+    def ahead(way: float) -> tuple[Advanced | None, bool]:
+        there = advanced(assembly, control, rates, way)
+        return there, there is not None and falls(there.assembly)
+
+    there, fallen = ahead(step)
+    low, high, last, way = 0.0, step, None, accuracy
+    while fallen and high - low > accuracy:
+        one, beyond = ahead(way)
+        there, high = (one, way) if beyond else (there, high)
+        last, low = (last, low) if beyond else (one, way)
+        way = (low + high) / 2.0
+    if last is not None or there is None or not fallen:
+        return last or there
+    rest, changes = snapped(there.assembly)
+    moved_on = carried(there.assembly, rest, there.control)
+    return Advanced(rest, moved_on, there.changes + changes, snapped=True)
 
 
 def falls(assembly: Assembly) -> bool:

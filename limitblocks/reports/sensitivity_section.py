@@ -19,14 +19,15 @@ MEANING = (
     "collapse found, without solving again. They hold for small changes: a larger one may bring another "
     "mechanism. The load factor without dilatancy changes alike only as far as its mechanism is the same."
 )
-ONE_SIDED = "the mechanism is not unique: derivatives by weights and loads may hold in one direction only"
+ONE_SIDED = "the mechanism is not unique: derivatives may hold in one direction only"
 
 
 def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
     """Return the section of the sensitivities of a load factor."""
     governing = _governing(found)
     first = governing[0] if governing else None
-    sides = "all stress states agree" if found.agreed.all() else "some may hold in one direction only"
+    agreed = found.unique and bool(found.agreed.all())
+    sides = "all stress states agree" if agreed else "some may hold in one direction only"
     return Section(
         title="Sensitivity",
         meaning=MEANING,
@@ -38,7 +39,7 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
             ("Load factor", at_least(found.load_factor), "static load factor, associated flow"),
             ("Friction, all together", _sum(found.of_interfaces), "per unit of relative change"),
             ("Unit weights, all together", _sum(found.of_blocks), "per unit of relative change"),
-            ("Derivatives by friction", "two-sided" if found.agreed.all() else "in part one-sided", sides),
+            ("Derivatives by friction", "two-sided" if agreed else "in part one-sided", sides),
         ),
         checks=(),
         tolerance=0.0,

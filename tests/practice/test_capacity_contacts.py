@@ -243,7 +243,7 @@ def test_a_gap_that_closes_is_not_stepped_over():
     back = replace(result, displacement_rates=-forth)
     corner, along = toe_corner(leaning.model), read_only(np.array([-1.0, 0, 0]))
     control, point = Control("block 1", corner, along), CapacityPoint(0.0, 0.2, 0.0, leaning.model, back, ())
-    goal, _, found = capacity._advanced(leaning, control, point, 1.5 * 0.01, 0.2)
+    goal, _, found = capacity._advanced(leaning, control, point, 1.5 * 0.01)
     assert 0.0 < found.displacement < 0.0101
     assert goal.contacts[0].ways[:, 2].min() > -1e-7
 

@@ -70,7 +70,7 @@ def test_blocks_that_meet_stop_the_curve():
 
 
 def test_a_contact_that_closes_at_once_is_not_called_blocks_that_meet(monkeypatch):
-    monkeypatch.setattr("limitblocks.practice.capacity.advanced", lambda *step: None)
+    monkeypatch.setattr("limitblocks.practice.snapped.advanced", lambda *step: None)
     curve = capacity_curve(lb.structures.block(JOINT, width=B, height=H))
     assert len(curve.points) == 1
     assert curve.zero is None
@@ -90,7 +90,7 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
     """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
     there = assembly_of(sliding_block())
 
-    def advanced_to(assembly, control, point, step, scale):
+    def advanced_to(assembly, control, point, step):
         at = point.displacement + step
         return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
 
@@ -128,7 +128,7 @@ def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(mo
     """Load factor 1 - d, a step that ends 8e-7 m beyond its zero: within 1e-6 of the size that is enough."""
     there, tried = assembly_of(sliding_block()), []
 
-    def advanced_to(assembly, control, point, step, scale):
+    def advanced_to(assembly, control, point, step):
         tried.append(step)
         at = point.displacement + step * (1.0 + 1e-6 * (len(tried) == 1))
         return assembly, control, replace(point, displacement=at, load_factor=1.0 - at)
@@ -146,7 +146,7 @@ def test_a_zero_that_is_not_answered_is_not_approached_by_halves(monkeypatch):
     """Load factor 1 - d, not answered within 1e-3 of its zero: the next step ends a hundredth before it."""
     there = assembly_of(sliding_block())
 
-    def advanced_to(assembly, control, point, step, scale):
+    def advanced_to(assembly, control, point, step):
         if abs(at := 1.0 - point.displacement - step) < 1e-3:
             raise lb.SolveError("the dead loads alone are at their limit")
         return assembly, control, replace(point, displacement=1.0 - at, load_factor=at)

@@ -54,7 +54,7 @@ def test_a_contact_without_force_is_not_pressed():
 def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(monkeypatch):
     tried = []
 
-    def fails(assembly, control, point, step, scale):
+    def fails(assembly, control, point, step):
         tried.append(step)
         raise lb.SolveError("none")
 

@@ -13,9 +13,8 @@ from limitblocks.analysis.load_factor_range.search import Task, drawn, extreme, 
 from limitblocks.analysis.load_factor_range.wedging import wedging
 from limitblocks.analysis.nonassociated.start import (
     Bracket,
-    bracket,
+    flow_of,
     load_scale,
-    own_units,
     refuse_jammed,
     refuse_unlimited,
     start_stresses,
@@ -27,7 +26,7 @@ from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, State, Turning
 
 BEYOND = 10.0  # times the load scale: load factors looked at where nothing limits them
 Progress = Callable[[Iteration], None]
@@ -81,15 +80,12 @@ def load_factor_range(
     NoEquilibrium, UnlimitedLoad
         As for :func:`limitblocks.nonassociated`.
     """
-    flow_rule = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     if paths < 1 or mechanisms < 0 or not time_limit > 0.0:
         raise ModelError(
             f"paths is {paths}, mechanisms {mechanisms}, time_limit {time_limit}; expected at least "
             "1, at least 0 and more than 0 s"
         )
-    enclosing = bracket(model)
-    problem = own_units(model, enclosing)
-    flow = Flow(problem, *flow_rule)
+    flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     if exact:

@@ -11,14 +11,13 @@ from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import small_barrier
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
     Start,
-    bracket,
+    flow_of,
     load_scale,
-    own_units,
     refuse_unlimited,
     start_stresses,
 )
@@ -30,7 +29,7 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.plane import Choice
 
 AGREE = 1e-6  # relative difference of two load factors that agree
@@ -96,20 +95,13 @@ def load_path(
     """
     if snaps not in ("across", "along"):
         raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
-    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
-    enclosing = bracket(model)
-    problem = own_units(model, enclosing)
-    flow = Flow(problem, slope, about)
+    flow, enclosing = flow_of(model, dilatancy, turning)
+    problem = flow.problem
     refuse_unlimited(flow, enclosing.associated)
     compliance = _compliance(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
-    history: list[Iteration] = []
-
-    def record(iteration: Iteration) -> None:
-        history.append(iteration)
-        if progress is not None:
-            progress(iteration)
+    history, record = recorder(progress)
 
     def load(at: Flow, x0: Array, own: Array) -> _Loaded:
         scale = load_scale(at.problem, enclosing.associated)
@@ -160,7 +152,7 @@ def _loaded(
         while met and met[-1].start is one.start:  # taken back and pushed once more, farther
             met.pop()
         met.append(one)
-        record(_iteration(flow.problem, one))
+        record(one.told(flow.problem.units.live))
 
     how = "increments of the load path"
     share = 1.0 if planar is None else planar.share
@@ -194,18 +186,6 @@ def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:
     return (
         f"the tracked path of nonassociated ends at {tracked:.6g}, {share:.2g} % off: it pushes "
         "once for all, so that slip may go back, and its barrier rounds the corners of yield",
-    )
-
-
-def _iteration(problem: LimitProblem, one: Pushed) -> Iteration:
-    """What an increment tells the user."""
-    return Iteration(
-        load_factor=one.state.load_factor / problem.units.live,
-        kind="step",
-        step_size=1.0 / one.increment.rho,
-        residuals=one.residuals.to_dict(),
-        inner=one.factorisations,
-        failures=one.failures,
     )
 
 

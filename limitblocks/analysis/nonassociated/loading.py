@@ -21,7 +21,7 @@ from limitblocks.analysis.nonassociated.increment import (
     faded,
     increment,
 )
-from limitblocks.analysis.nonassociated.path import DEGENERATE, state_of
+from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -29,6 +29,7 @@ from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
+from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, State
 
 log = logging.getLogger(__name__)
@@ -52,6 +53,17 @@ class Pushed:
     factorisations: int
     failures: int
 
+    def told(self, unit: float) -> Iteration:
+        """Return what it tells the user; `unit` is that of the live load."""
+        return Iteration(
+            load_factor=float(self.state.load_factor / unit),
+            kind="step",
+            step_size=1.0 / self.increment.rho,
+            residuals=self.residuals.to_dict(),
+            inner=self.factorisations,
+            failures=self.failures,
+        )
+
 
 Progress = Callable[[Pushed], None]
 
@@ -71,12 +83,8 @@ def pushed(
 
     Parameters
     ----------
-    flow : Flow
-        The limit problem and its flow rule.
-    x0 : Array, shape (s,)
-        Stresses under the permanent loads, dimensionless.
-    weights : Array, shape (s,)
-        Compliance W of the joints.
+    flow, x0, weights, share
+        As for :func:`limitblocks.analysis.nonassociated.path_start.path_from`.
     tolerance : float
         Largest residual of a solution.
     settings : Settings
@@ -85,30 +93,21 @@ def pushed(
         Load factor that increments are measured by, dimensionless.
     progress : callable, optional
         Called with each increment.
-    share : Array, shape (R,)
-        Of the barrier, in each row.
 
     Returns
     -------
     tuple of Pushed, State
         The increments, and the collapse or the last state.
     """
-    path = path_from(
-        replace(flow, softening=SOFTENING),
-        x0,
-        weights,
-        Barrier(settings.barrier, floor=0.0),
-        0,
-        scale / len(flow.problem.blocks),
-        share,
-    )
-    first = rho = float(path.elastic[0] / weights[0]) / len(flow.problem.blocks) / settings.first
+    soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
+    barrier = Barrier(settings.barrier, floor=0.0)
+    path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
+    first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     pushes: list[Pushed] = []
     state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
-        met = increment(path, weights, rho, settings.left)
-        met, proof, closed = _ended(flow, met, tolerance)
+        met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
         used += met.factorisations
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
@@ -119,7 +118,7 @@ def pushed(
             else:
                 rho *= settings.growth**2
             continue
-        state = state_of(met.increment.end)
+        state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
             progress(pushes[-1])
@@ -146,13 +145,13 @@ def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals |
 
 def _proof(flow: Flow, met: Increment) -> Residuals | None:
     """Residuals of the end of an increment, None where it is not in equilibrium within yield."""
-    residuals = mcp_residuals(flow, state_of(met.end))
+    residuals = mcp_residuals(flow, met.end.state)
     return residuals if max(residuals["equilibrium"], residuals["yield"]) <= ADMISSIBLE else None
 
 
 def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
     """The collapse that an increment ends at, None if it does not: polished, else by pivots."""
-    reached, before = state_of(met.end), met.end.load_factor
+    reached, before = met.end.state, met.end.load_factor
     state = polish(flow, reached)
     if tolerance < defect(flow, state) < DEGENERATE:
         state = pivoted(flow, reached)

@@ -12,13 +12,13 @@ from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
+from limitblocks.analysis.nonassociated.path_record import recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
-    bracket,
     close_bounds,
+    flow_of,
     flowing_state,
     load_scale,
-    own_units,
     refuse_jammed,
     refuse_unlimited,
 )
@@ -30,7 +30,7 @@ from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, State, Turning, checked_dilatancy, turning_of
+from limitblocks.problem import Flow, State, Turning
 
 
 @one_thread
@@ -72,9 +72,10 @@ def nonassociated(
     backward_error : float, optional
         Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
         its status is then Status.NEARBY. By default only the tolerance counts.
-    start : Nonassociated, Bounds or array_like, shape (s,), optional
-        State to start from, in place of that of the permanent loads: of an earlier result, or generalised
-        stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    start : Nonassociated, Bounds or array_like, shape (m, 6) or (s,), optional
+        State to start from, in place of that of the permanent loads: of an earlier result, or in equilibrium
+        with the dead and some live load, within yield: (V1, V2, N, M1, M2, T) of each interface, or
+        generalised stresses in the order of a result's (joint by joint, not interface by interface), N, N m.
     method : {"path", "fixed point"}
         The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
         analyses, each with the friction of the last, from the associated state or `start` on. Often the
@@ -105,20 +106,11 @@ def nonassociated(
         one of its kind, if it is proven that there is none.
     """
     way = method_of(method)
-    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
     limit = checked_limit(backward_error)
-    enclosing = bracket(model)
-    problem = own_units(model, enclosing)
-    flow = Flow(problem, slope, about)
+    flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
-    history: list[Iteration] = []
-
-    def record(iteration: Iteration) -> None:
-        history.append(iteration)
-        if progress is not None:
-            progress(iteration)
-
+    history, record = recorder(progress)
     given = close_bounds(model, enclosing, tolerance) if flow.associated and start is None else start
     state = flowing_state(model, flow, given)
     if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:

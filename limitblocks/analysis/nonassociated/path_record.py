@@ -2,15 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.evidence.results import Iteration
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
+
+
+def recorder(
+    progress: Callable[[Iteration], None] | None,
+) -> tuple[list[Iteration], Callable[[Iteration], None]]:
+    """Return the history of a search, and what adds to it and tells the user."""
+    history: list[Iteration] = []
+
+    def record(iteration: Iteration) -> None:
+        history.append(iteration)
+        if progress is not None:
+            progress(iteration)
+
+    return history, record
 
 
 def off_load_path(how: str) -> tuple[str, ...]:

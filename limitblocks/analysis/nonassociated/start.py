@@ -21,7 +21,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State
+from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
@@ -72,6 +72,13 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
         return model.problem
     state = state_of(model, model.problem, limit_load)
     return known(model, "own units", lambda: remeasured(model.problem, state)) or model.problem
+
+
+def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flow, Bracket]:
+    """Return the flow rule of a model in its own units, and what encloses every solution."""
+    slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    enclosing = bracket(model)
+    return Flow(own_units(model, enclosing), slope, about), enclosing
 
 
 def close_bounds(model: Model, enclosing: Bracket, tolerance: float) -> Bounds | None:
@@ -145,6 +152,17 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
     return x
 
 
+def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:
+    """Generalised stresses (s,) from the resultants of each interface (m, 6), N and N m."""
+    B = problem.resultants
+    if B.nnz > B.shape[1]:
+        raise ModelError(
+            "start has the stress resultants of each interface, which do not determine the inner forces of "
+            "this model's joints (point contacts): give generalised stresses, as a result has them"
+        )
+    return np.asarray((B.T @ (resultants.ravel() / problem.units.resultants)) * problem.stress_units)
+
+
 def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if isinstance(start, Nonassociated | Bounds):
         if start.digest != model.digest:
@@ -152,7 +170,10 @@ def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
                 f"start belongs to model {start.digest[:12]}, not to this model {model.digest[:12]}"
             )
         return np.asarray(start.generalised_stresses / problem.stress_units)
-    stresses = np.asarray(start, dtype=float).ravel()
+    stresses = np.asarray(start, dtype=float)
+    if stresses.shape == (len(model.interfaces), 6):
+        stresses = _of_resultants(problem, stresses)
+    stresses = stresses.ravel()
     if stresses.shape != problem.stress_units.shape or not np.isfinite(stresses).all():
         raise ModelError(
             f"start has {stresses.size} numbers; the {problem.stress_units.size} finite generalised stresses "
