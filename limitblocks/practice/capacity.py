@@ -192,8 +192,11 @@ def _advanced(
     there = held(assembly, control, point.result.displacement_rates, step, EVENT * assembly.size)
     if there is None:
         return None
-    goal, shift, loaded, result, pressed = answered(there.assembly)
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
+    try:
+        goal, shift, loaded, result, pressed = answered(there.assembly)
+    except SolveError as error:
+        raise SolveError(f"at {at:.6g} m: {error}") from error
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )
