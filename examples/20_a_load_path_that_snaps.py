@@ -39,7 +39,7 @@ SEAT, JACK = lb.OrdunaLourenco(MU), lb.OrdunaLourenco(0.5)  # two joints, for tw
 def main(folder="output", suffix=".png"):
     model = plug_in_its_seat()
     weight, jack = (block.weight for block in model.free_blocks)
-    options = {"start": driven_in(model).ravel(), "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)}}
+    options = {"start": driven_in(model), "stiffness": {SEAT: (STIFF, STIFF), JACK: (SOFT, SOFT)}}
     path, along = (lb.load_path(model, **options, snaps=how) for how in ("across", "along"))
     lb.check_mcp(model, path.collapse).require()
     (snap,) = path.snaps

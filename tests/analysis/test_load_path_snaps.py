@@ -22,7 +22,7 @@ def of_plug(**options):
     model = PLUG["plug_in_its_seat"]()
     stiffness = {PLUG["SEAT"]: (PLUG["STIFF"],) * 2, PLUG["JACK"]: (PLUG["SOFT"],) * 2}
     options = {"settings": lb.settings.Settings(growth=2.0)} | options
-    return model, lb.load_path(model, start=PLUG["driven_in"](model).ravel(), stiffness=stiffness, **options)
+    return model, lb.load_path(model, start=PLUG["driven_in"](model), stiffness=stiffness, **options)
 
 
 @pytest.fixture(scope="module", params=["across", "along"])
@@ -110,7 +110,7 @@ def test_both_ends_of_a_snap_are_those_by_hand(monkeypatch, angle, friction, pre
     greatest = 2 * area * slides_at * (k_s * c**2 + k_n * s**2) + jack
     path = lb.load_path(
         model,
-        start=PLUG["driven_in"](model).ravel(),
+        start=PLUG["driven_in"](model),
         stiffness={seat: (k_n, k_s), PLUG["JACK"]: (PLUG["SOFT"],) * 2},
         settings=lb.settings.Settings(growth=growth),
     )

@@ -1,5 +1,7 @@
 """Starting elsewhere than from the permanent loads: any state, another dilatancy."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -72,6 +74,22 @@ def test_any_admissible_state_is_a_start(kind, analysis):
     bounds = lb.bounds(model)
     for start in (bounds, bounds.generalised_stresses, bounds.generalised_stresses.tolist()):
         assert analysis(model, start=start).load_factor == pytest.approx(0.4, abs=1e-6)
+
+
+def test_resultants_of_each_interface_are_a_start_in_the_order_of_the_interfaces():
+    """Generalised stresses stand joint by joint: here base and top before the one between them."""
+    model = structures.column(lb.OrdunaLourenco(MU), count=3, width=0.6, height=0.5)
+    other = replace(model.interfaces[1], joint=lb.OrdunaLourenco(MU + 0.2))
+    model = replace(model, interfaces=(model.interfaces[0], other, model.interfaces[2]))
+    bounds = lb.bounds(model)
+    assert lb.nonassociated(model, start=bounds.stress_resultants).load_factor == pytest.approx(0.4, abs=1e-6)
+    by_joint = bounds.stress_resultants[[0, 2, 1]].ravel()
+    assert bounds.generalised_stresses == pytest.approx(by_joint, rel=1e-9, abs=1e-6)
+    with pytest.raises(lb.ModelError, match="start is no state of this model"):
+        lb.nonassociated(model, start=bounds.stress_resultants.ravel())
+    points = structures.block(lb.PointContact(MU), width=0.4, height=1.0)
+    with pytest.raises(lb.ModelError, match="do not determine the inner forces"):
+        lb.nonassociated(points, start=lb.bounds(points).stress_resultants)
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -72,9 +72,10 @@ def nonassociated(
     backward_error : float, optional
         Also accept a state that is exact for a model changed by no more than this, such as 1e-4 of friction;
         its status is then Status.NEARBY. By default only the tolerance counts.
-    start : Nonassociated, Bounds or array_like, shape (s,), optional
-        State to start from, in place of that of the permanent loads: of an earlier result, or generalised
-        stresses (N, N m) in equilibrium with the dead and some live load, within yield.
+    start : Nonassociated, Bounds or array_like, shape (m, 6) or (s,), optional
+        State to start from, in place of that of the permanent loads: of an earlier result, or in equilibrium
+        with the dead and some live load, within yield: (V1, V2, N, M1, M2, T) of each interface, or
+        generalised stresses in the order of a result's (joint by joint, not interface by interface), N, N m.
     method : {"path", "fixed point"}
         The tracked path, or the outer loop of Gilbert, Casapulla & Ahmed (2006) alone: associated limit
         analyses, each with the friction of the last, from the associated state or `start` on. Often the

@@ -152,6 +152,17 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
     return x
 
 
+def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:
+    """Generalised stresses (s,) from the resultants of each interface (m, 6), N and N m."""
+    B = problem.resultants
+    if B.nnz > B.shape[1]:
+        raise ModelError(
+            "start has the stress resultants of each interface, which do not determine the inner forces of "
+            "this model's joints (point contacts): give generalised stresses, as a result has them"
+        )
+    return np.asarray((B.T @ (resultants.ravel() / problem.units.resultants)) * problem.stress_units)
+
+
 def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if isinstance(start, Nonassociated | Bounds):
         if start.digest != model.digest:
@@ -159,7 +170,10 @@ def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
                 f"start belongs to model {start.digest[:12]}, not to this model {model.digest[:12]}"
             )
         return np.asarray(start.generalised_stresses / problem.stress_units)
-    stresses = np.asarray(start, dtype=float).ravel()
+    stresses = np.asarray(start, dtype=float)
+    if stresses.shape == (len(model.interfaces), 6):
+        stresses = _of_resultants(problem, stresses)
+    stresses = stresses.ravel()
     if stresses.shape != problem.stress_units.shape or not np.isfinite(stresses).all():
         raise ModelError(
             f"start has {stresses.size} numbers; the {problem.stress_units.size} finite generalised stresses "
