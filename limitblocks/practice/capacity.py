@@ -144,7 +144,7 @@ def _ahead(
 
     The secant is zero `ahead`, m.
     """
-    share = 1.0 if step <= JUMP * assembly.size else SMALLEST
+    share = SHORT if step <= JUMP * assembly.size else SMALLEST
     most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
@@ -193,10 +193,7 @@ def _advanced(
     if there is None:
         return None
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
-    try:
-        goal, shift, loaded, result, pressed = answered(there.assembly)
-    except SolveError as error:
-        raise SolveError(f"at {at:.6g} m: {error}") from error
+    goal, shift, loaded, result, pressed = answered(there.assembly)
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )
