@@ -17,9 +17,9 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.programs import Program, map_in_cone
-from limitblocks.analysis.scales import Scaled
+from limitblocks.analysis.scales import Scaled, scaled, with_rates_near_one
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem import Cones, State, in_units
+from limitblocks.problem import Cones, LimitProblem, State, in_units
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,9 +128,9 @@ class Rates:
         return x
 
 
-def form_of(problem: Scaled) -> Stresses | Rates:
+def form_of(problem: LimitProblem) -> Stresses | Rates:
     """Return the form in which a problem is solved fastest."""
-    return without_multipliers(problem) or Stresses(problem)
+    return without_multipliers(with_rates_near_one(problem)) or Stresses(scaled(problem))
 
 
 def without_multipliers(problem: Scaled) -> Rates | None:

@@ -8,23 +8,19 @@ from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import Stresses, form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.programs import DIRECT, PLANAR
-from limitblocks.analysis.scales import scaled
-from limitblocks.problem import LimitProblem, State, power_of_two
+from limitblocks.analysis.scales import with_rates_near_one
+from limitblocks.problem import LimitProblem, State
 from limitblocks.problem.plane import Planar
 
 IN_HALF = " in one half"  # of a problem with a mirror plane
 
 
 def programs_of(problem: LimitProblem) -> Programs:
-    """Return the programs of a problem, reduced by its mirror if it has one.
-
-    In a plane the rates are near one, not over the number of blocks: they lose fewer digits.
-    """
+    """Return the programs of a problem, reduced by its mirror if it has one."""
     plane = in_plane(problem)
     if plane is None or not plane.flat:
-        return Programs(form_of(scaled(problem if plane is None else plane.problem)))
-    p = plane.problem
-    return Programs(Stresses(scaled(p, float(power_of_two(1.0 / len(p.blocks)))), refined=False))
+        return Programs(form_of(problem if plane is None else plane.problem))
+    return Programs(Stresses(with_rates_near_one(plane.problem), refined=False))
 
 
 def limit_state(programs: Programs, plane: Planar | None) -> tuple[State, str] | None:

@@ -160,6 +160,11 @@ def scaled(problem: LimitProblem, load_factor: float = 1.0) -> Scaled:
     return Scaled(problem, np.ones(len(problem.interfaces)), np.ones(problem.C.shape[1]), load_factor)
 
 
+def with_rates_near_one(problem: LimitProblem) -> Scaled:
+    """Return the same with rates near one, not over the number of blocks: they lose fewer digits."""
+    return scaled(problem, float(power_of_two(1.0 / len(problem.blocks))))
+
+
 def frictional(problem: LimitProblem) -> Array:
     """Return the friction where it limits a stress that has no part in N, M1, M2, and is below one; (s,)."""
     pressing = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(problem.interfaces))

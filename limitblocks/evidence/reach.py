@@ -16,7 +16,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, owned, same_rows
+from limitblocks.arrays import Array, Indices, owned
 from limitblocks.evidence.rounding import EPS, UP, Products, products, size_of
 from limitblocks.evidence.spanning_tree import Tree
 from limitblocks.problem import LimitProblem
@@ -141,20 +141,35 @@ class Kinematic:
         p, m, parts = self.problem, len(self.problem.interfaces), []
         rows, row = owned(p.row_interface, m)
         columns, column = owned(p.stress_interface, m)
-        F = p.F.tocoo()
-        of_entry, position = p.row_interface[F.row], (column[F.col], row[F.row])
+        F, most = p.F.tocoo(), rows.shape[1]
+        place = column[F.col] * most + row[F.row]
+        number, matrix = _alike(p.row_interface[F.row], place, F.data, (m, columns.shape[1] * most))
         tall, wide = (rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)
         for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
             these = np.flatnonzero((tall == r) & (wide == c))
-            index = np.full(m, -1)
-            index[these] = np.arange(len(these))
-            at, flat = index[of_entry], np.zeros(len(these) * c * r)
-            its = slice(None) if len(these) == m else at >= 0
-            flat[(at[its] * c + position[0][its]) * r + position[1][its]] = F.data[its]
-            first, kind = same_rows(flat.reshape(len(these), -1))
-            matrix = flat.reshape(-1, c, r)[first]
-            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix)))
+            its, kind = np.unique(number[these], return_inverse=True)
+            inverse = _right_inverse(matrix[its].reshape(len(its), -1, most)[:, :c, :r])
+            parts.append((rows[these, :r], columns[these, :c], kind.ravel(), *inverse))
         return parts
+
+
+def _alike(owner: Indices, place: Indices, data: Array, shape: tuple[int, int]) -> tuple[Indices, Array]:
+    """The kind (m,) of m owners of entries `data` at `place`, `shape` (m, places); entries (kinds, places).
+
+    Of one kind are those with the same sum of entries times numbers without a pattern, if these are the same.
+    """
+    m, places = shape
+    mix = np.cos(np.arange(places) ** 2 + 1.0)
+    total, count = np.bincount(owner, data * mix[place], m), np.bincount(owner, minlength=m)
+    _, first, kind = np.unique(total, return_index=True, return_inverse=True)
+    first, kind = first[kind.ravel()], kind.ravel()
+    for _ in range(2):
+        matrix, its = np.zeros((int(kind.max(initial=-1)) + 1, places)), first[owner] == owner
+        matrix[kind[owner[its]], place[its]] = data[its]
+        if (matrix[kind[owner], place] == data).all() and (count == count[first]).all():
+            break
+        first = kind = np.arange(m)
+    return kind, matrix
 
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:
@@ -184,13 +199,15 @@ def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, A
     places, position = owned(p.stress_interface, len(p.interfaces))
     child = np.full(len(p.interfaces), -1)
     child[tree.interface] = np.arange(n)
-    C = p.C.tocoo()
-    k, block = child[p.stress_interface[C.row]], C.col // 6
+    k = child[p.stress_interface]
+    tied = np.flatnonzero(k >= 0)  # few of all
+    C = p.C[tied].tocoo()
+    row, column, data = tied[C.row], C.col, C.data
     matrices = []
     for whose in (np.arange(n), tree.parent):
         matrix = np.zeros((n, 6, places.shape[1]))
-        its = (k >= 0) & (whose[k] == block)
-        matrix[k[its], C.col[its] % 6, position[C.row[its]]] = C.data[its]
+        its = whose[k[row]] == column // 6
+        matrix[k[row[its]], column[its] % 6, position[row[its]]] = data[its]
         matrices.append(matrix)
     return places[tree.interface], matrices[0], matrices[1]
 

@@ -231,15 +231,13 @@ class LimitProblem:
         live = power_of_two(old.live * float(np.abs(self.live * np.repeat(old.block_force / block, 6)).sum()))
         units = replace(old, block_force=block, interface_force=at_ends, live=live)
         loads, stresses = old.loads / units.loads, at_ends / old.interface_force
-        columns, rows = stresses[self.stress_interface], stresses[self.row_interface]
+        columns, rows = stresses[self.stress_interface], stresses[self.row_interface]  # F and G stay
         live_share = old.live / live
         return replace(
             self,
             C=in_units(self.C, columns, loads),
             dead=read_only(self.dead * loads),
             live=read_only(self.live * loads * live_share),
-            F=in_units(self.F, 1.0 / rows, columns),
-            G=in_units(self.G, 1.0 / rows, columns),
             g=read_only(self.g / rows),
             compliance=read_only(self.compliance * columns**2),
             units=units,

@@ -133,15 +133,34 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
-def test_the_last_path_of_a_large_model_keeps_more_compliance(monkeypatch):
+def test_the_last_path_of_a_large_model_has_a_smaller_barrier(monkeypatch):
     """It closes what the others leave open: here they are stopped, and rounds close nothing."""
     means = tuple(one._replace(budget=1) for one in LARGE_MEANS[:-1])
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(ways, "LARGE_MEANS", (*means, LARGE_MEANS[-1]))
-    monkeypatch.setattr(ways, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
+    monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
     found = lb.nonassociated(corner())
-    assert found.how.startswith("tracked path, barrier 3 (large barrier), power 2, seed 2")
+    assert found.how.startswith("tracked path, barrier 0.2 (large barrier), power 2, seed 2")
     assert lb.check_mcp(corner(), found).passed
+    monkeypatch.setattr(ways, "LARGE_MEANS", means)
+    with pytest.raises(lb.NotConverged):
+        lb.nonassociated(corner())
+
+
+@pytest.mark.parametrize("rounds", [True, False])
+def test_rounds_close_a_path_of_a_large_model_on_its_way(rounds, monkeypatch):
+    """The path of this vault closes in 240 factorisations with them, and in 381 without."""
+    vault = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.6))
+    model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    problem = own_units(model, bracket(model))
+    flow = Flow(problem)
+    x0 = start_stresses(model, problem, problem.compliance, None)
+    power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
+    one = LARGE_MEANS[1]._replace(budget=300)
+    way = closing.Closing(flow, 1e-8) if rounds else None
+    _, (info,) = follow(flow, x0, problem.compliance, means=[one], power=power, closing=way)
+    assert info.closed is rounds
+    assert way is None or (way.succeeded and way.how.endswith("rounds of the fixed point"))
 
 
 @pytest.mark.parametrize(
@@ -233,7 +252,7 @@ def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(ways, "LARGE", 10)
-    monkeypatch.setattr(ways, "closed", pressed)
+    monkeypatch.setattr(closing, "closed", pressed)
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.nonassociated(corner())
     assert caught.value.result.status is lb.results.Status.INTERRUPTED
@@ -241,7 +260,7 @@ def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
 
 def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch):
     """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-5."""
-    whole, ends = ways.closed, []
+    whole, ends = closing.closed, []
 
     def rough(flow, nearest, state, tolerance):
         found, rounds = whole(flow, nearest, state, tolerance)
@@ -250,7 +269,7 @@ def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch
         return ends[-1], rounds
 
     monkeypatch.setattr(ways, "LARGE", 10)
-    monkeypatch.setattr(ways, "closed", rough)
+    monkeypatch.setattr(closing, "closed", rough)
     found = lb.nonassociated(corner(), backward_error=1e-5)
     assert len(ends) == 1
     assert found.status is lb.results.Status.NEARBY

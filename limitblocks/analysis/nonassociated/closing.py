@@ -9,19 +9,47 @@ Complementary pivots close what is left near a solution.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, frozen_mechanism
+from limitblocks.analysis.nonassociated.path_record import ROUNDS
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
+from limitblocks.shown import many
 
 FALLS = 0.3  # a round: where the gap falls less, on average since the first, rounds are given up
 EPSILON = float(np.finfo(float).eps)
 NEAR = 1e-5  # residual where pivots are tried: from 1e-4 on they change nothing
 
 Round = tuple[Array, Array]  # stresses after a round, and what it changed
+
+
+@dataclass
+class Closing:
+    """Rounds from a state; how many they were the last time, and whether they led to a solution."""
+
+    flow: Flow
+    tolerance: float
+    rounds: int = 0
+    succeeded: bool = False
+
+    def __post_init__(self) -> None:
+        self.nearest = NearestStresses(self.flow.problem, self.flow.problem.compliance)
+
+    def __call__(self, state: State) -> State:
+        """Return the best state met."""
+        best, self.rounds = closed(self.flow, self.nearest, state, self.tolerance)
+        self.succeeded = defect(self.flow, best) <= self.tolerance
+        return best
+
+    @property
+    def how(self) -> str:
+        """How many rounds they were, in words that follow those of a path."""
+        return f", {many(self.rounds, 'round')} {ROUNDS}"
 
 
 def closed(flow: Flow, nearest: NearestStresses, start: State, tolerance: float) -> tuple[State, int]:

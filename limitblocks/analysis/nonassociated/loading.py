@@ -21,7 +21,7 @@ from limitblocks.analysis.nonassociated.increment import (
     faded,
     increment,
 )
-from limitblocks.analysis.nonassociated.path import DEGENERATE, state_of
+from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -118,7 +118,7 @@ def pushed(
             else:
                 rho *= settings.growth**2
             continue
-        state = state_of(met.increment.end)
+        state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
         if progress is not None:
             progress(pushes[-1])
@@ -145,13 +145,13 @@ def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals |
 
 def _proof(flow: Flow, met: Increment) -> Residuals | None:
     """Residuals of the end of an increment, None where it is not in equilibrium within yield."""
-    residuals = mcp_residuals(flow, state_of(met.end))
+    residuals = mcp_residuals(flow, met.end.state)
     return residuals if max(residuals["equilibrium"], residuals["yield"]) <= ADMISSIBLE else None
 
 
 def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
     """The collapse that an increment ends at, None if it does not: polished, else by pivots."""
-    reached, before = state_of(met.end), met.end.load_factor
+    reached, before = met.end.state, met.end.load_factor
     state = polish(flow, reached)
     if tolerance < defect(flow, state) < DEGENERATE:
         state = pivoted(flow, reached)

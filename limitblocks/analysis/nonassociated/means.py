@@ -41,15 +41,15 @@ MEANS = (
     Means(Barrier(0.2, 2.0, LOW), 2, 800),
 )
 # Of models of some hundred blocks: the path with a small barrier bends at each row that starts to yield; it
-# is followed as far as pays, and rounds of the fixed point close it. Then by how many of seven cases each
-# closes alone, facades of 160 and 223 blocks, houses of 215 and a tower of 180: 4 and 2. Last a path that
-# keeps more compliance: a facade of 223 pushed out winds in 2,200 factorisations with the floor of 1e-6 and
-# closes in 240 to 301 with four of five barriers and seeds; facades of 160 need the lower floor.
+# is followed as far as pays, and rounds of the fixed point close it. The others go on to where rounds close
+# them, which take a few tries on the way: with the floor of 1e-6 what is left of the flow stands at 2e-5
+# (facade of 223 blocks, diagonal), with 1e-8 it falls with theta. Either leaves facades open that the other
+# closes: pushed out, one of 223 with point contacts closes with the barrier of 3 alone in 4,000
+# factorisations, one of 160 without crushing, diagonal, with that of 0.2.
 LARGE_MEANS = (
     Means(Barrier(), 1, 100),
-    Means(Barrier(3.0, 2.0), 1, 600),
-    Means(Barrier(0.2, 2.0), 2, 800),
-    Means(Barrier(3.0, 2.0, 1e-4), 2, 400),
+    Means(Barrier(3.0, 2.0, 1e-8), 1, 1000),
+    Means(Barrier(0.2, 2.0, 1e-8), 2, 4000),
 )
 # In a plane: of 14 walls of some 600 to 2,000 blocks, both joints, a barrier of 3 closes 12 in 222 to 847
 # factorisations; two without crushing are left at 1.0 and 1.2e-8, which a round closes. One of 0.2 takes
@@ -79,6 +79,7 @@ def follow(
     means: Sequence[Means] = MEANS,
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
+    closing: Callable[[State], State] | None = None,
 ) -> tuple[State, tuple[Tracked, ...]]:
     """Follow paths until one is closed.
 
@@ -96,6 +97,8 @@ def follow(
         Unit of the barriers' sizes, dimensionless.
     progress : callable, optional
         Called with each accepted point.
+    closing : callable, optional
+        A further means to close a state near a solution.
 
     Returns
     -------
@@ -104,7 +107,7 @@ def follow(
     """
     tried = []
     for one in means:
-        outcome = track(flow, x0, weights, **one._asdict(), power=power, progress=progress)
+        outcome = track(flow, x0, weights, **one._asdict(), power=power, progress=progress, closing=closing)
         tried.append(outcome)
         if outcome[1].closed or outcome[1].interrupted:
             return outcome[0], tuple(info for _, info in tried)

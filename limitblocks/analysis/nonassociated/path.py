@@ -42,7 +42,7 @@ PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
-DEGENERATE = 3e-3  # residual from which on complementary pivots are tried
+DEGENERATE, NEAR = 3e-3, 1e-6  # residuals from which on complementary pivots and rounds are tried
 PIVOTS = 200  # pairs of slack and multiplier that are not plain: more cost more than further steps
 DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
@@ -71,6 +71,7 @@ def track(
     patience: int | None = None,
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
+    closing: Callable[[State], State] | None = None,
 ) -> tuple[State, Tracked]:
     """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
 
@@ -94,6 +95,8 @@ def track(
         Unit of the barrier's size, dimensionless.
     progress : callable, optional
         Called with each accepted point.
+    closing : callable, optional
+        A further means to close a state near a solution, tried where the polish leaves one open.
 
     Returns
     -------
@@ -102,22 +105,18 @@ def track(
     """
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
-        walk.patience = patience
+        walk.patience, walk.closing = patience, closing
         end = walk.go()
         best, left = (walk.best, walk.left) if walk.best else (walk.state, defect(flow, walk.state))
     counts = walk.factorisations, walk.failures, tuple(walk.points)
     return best, Tracked(walk.path.barrier, seed, end, left, *counts)
 
 
-def state_of(z: Point) -> State:
-    """Return a point as a state."""
-    return State(z.load_factor, z.x, z.u, z.y)
-
-
 class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
     patience: int | None = None
+    closing: Callable[[State], State] | None = None
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
         self.path, self.budget, self.progress = path, budget, progress
@@ -132,7 +131,7 @@ class Walk:
     @property
     def state(self) -> State:
         """The last accepted point as a state."""
-        return state_of(self.base.point if self.base else self.z)
+        return (self.base.point if self.base else self.z).state
 
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
@@ -238,12 +237,14 @@ class Walk:
         left = defect(flow, reached)
         self._keep(*polished(flow, reached, left, patience=1))  # a point costs less than more steps
         if self.left > TOLERANCE and left < DEGENERATE:
-            state = pivoted(flow, reached, largest=PIVOTS)
-            self._keep(state, defect(flow, state))
+            self._keep(pivoted(flow, reached, largest=PIVOTS))
+        if self.closing and self.left > TOLERANCE and left < NEAR:
+            self._keep(self.closing(reached))
         return self.left < TOLERANCE
 
-    def _keep(self, state: State, residual: float) -> None:
+    def _keep(self, state: State, residual: float | None = None) -> None:
         """Keep a state as the best one met, unless it belongs to another path."""
+        residual = defect(self.path.flow, state) if residual is None else residual
         reached = self.state.load_factor
         if abs(state.load_factor - reached) <= DRIFT * abs(reached) and residual < self.left:
             self.best, self.left = state, residual

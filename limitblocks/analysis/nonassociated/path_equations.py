@@ -20,7 +20,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.arrays import Array
-from limitblocks.problem import Cones, Flow
+from limitblocks.problem import Cones, Flow, State
 from limitblocks.problem.barrier import central, curvature, spread
 
 LEAST_THETA = 0.05  # part of theta that a move leaves
@@ -55,6 +55,11 @@ class Point:
     s: Array
     y: Array
     theta: float = 0.0
+
+    @property
+    def state(self) -> State:
+        """The point without slacks and theta."""
+        return State(self.load_factor, self.x, self.u, self.y)
 
     def moved(self, t: float, d: Point) -> Point:
         """Return this point moved by t along the direction d."""

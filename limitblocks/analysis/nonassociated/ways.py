@@ -7,8 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.closing import NEAR, closed
-from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
+from limitblocks.analysis.nonassociated.closing import NEAR, Closing
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
@@ -21,7 +20,7 @@ from limitblocks.analysis.nonassociated.means import (
     follow,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, ROUNDS, Progress
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish, polished
@@ -29,7 +28,6 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
-from limitblocks.shown import many
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
@@ -114,7 +112,7 @@ def _ways(
     larger = (tracked(one) for one in means[1:] if one.barrier.size > SMALL)
     if _in_space(flow):
         yield from larger
-        yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *first, tolerance)
+        yield _in_rounds(Closing(flow, tolerance), *first)
     else:  # in a plane they cost little
         yield _increments(flow, x0, scale, tolerance, record)
     yield from larger
@@ -165,14 +163,14 @@ def _large_ways(
 
     That of the first comes without rounds as well: one half costs less, and follows the load path.
     """
-    nearest = NearestStresses(flow.problem, flow.problem.compliance)
+    closing = Closing(flow, tolerance)
     for one in LARGE_MEANS:
-        state, how = _tracked(flow, x0, scale, one, record)
+        state, how = _tracked(flow, x0, scale, one, record, closing=closing)
         ended = how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance
         if ended or one is LARGE_MEANS[0]:
             yield state, how
         if not ended:
-            yield _in_rounds(flow, nearest, state, how, tolerance)
+            yield _in_rounds(closing, state, how)
 
 
 def _large_planar_ways(
@@ -182,7 +180,7 @@ def _large_planar_ways(
     for one in LARGE_PLANAR_MEANS:
         end = _tracked(flow, x0, scale, one, record)
         yield end
-    yield _in_rounds(flow, NearestStresses(flow.problem, flow.problem.compliance), *end, tolerance)
+    yield _in_rounds(Closing(flow, tolerance), *end)
     yield _increments(flow, x0, scale, tolerance, record)
 
 
@@ -193,6 +191,7 @@ def _tracked(
     one: Means,
     record: Callable[[Iteration], None],
     softening: float = SOFTENING,
+    closing: Closing | None = None,
 ) -> tuple[State, str]:
     """The end of one path from stresses x, and which path it was."""
     problem = flow.problem
@@ -203,19 +202,18 @@ def _tracked(
         means=[one],
         power=scale / len(problem.blocks),
         progress=lambda at: record(_point(problem, at)),
+        closing=closing,
     )
-    return state, f"{info.how}, {INTERRUPTED}" if info.interrupted else info.how
+    how = f"{info.how}{closing.how}" if closing and closing.succeeded else info.how
+    return state, f"{how}, {INTERRUPTED}" if info.interrupted else how
 
 
-def _in_rounds(
-    flow: Flow, nearest: NearestStresses, state: State, how: str, tolerance: float
-) -> tuple[State, str]:
+def _in_rounds(closing: Closing, state: State, how: str) -> tuple[State, str]:
     """The end of a path closed by rounds, and how; the path's own where the user stops it."""
     try:
-        best, rounds = closed(flow, nearest, state, tolerance)
+        return closing(state), how + closing.how
     except KeyboardInterrupt:
         return state, f"{how}, {INTERRUPTED}"
-    return best, f"{how}, {many(rounds, 'round')} {ROUNDS}"
 
 
 def _increments(
