@@ -31,9 +31,8 @@ LOADS = {
     "a moment (0, 0, 3) kN m on block 'a'": loads.moment("a", (0, 0, 3e3)),
     "a pressure of 5 kPa plus 10 kN/m³ times the depth below Z = 2 m on the face facing (0, 1, 0) of block "
     "'a'": loads.pressure("a", 5e3, facing=(0, 1, 0), unit_weight=1e4, level=2.0),
-    "fill of 18 kN/m³ up to Z = 3 m on all blocks, coefficient of horizontal earth pressure 0.3": loads.fill(
-        18e3, 3.0, earth_pressure=0.3
-    ),
+    "fill of 18 kN/m³ up to Z = 3 m on all blocks, coefficient of horizontal earth pressure 0.3 on faces "
+    "that slope, none on upright ones": loads.fill(18e3, 3.0, earth_pressure=0.3),
     "a force (0, 0, -10) kN on top of the structure at (1, 2) m in plan": loads.top_force(
         (0, 0, -1e4), (1, 2)
     ),

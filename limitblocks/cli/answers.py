@@ -67,16 +67,15 @@ def answer(
     """
     from limitblocks.io import write_result
 
-    as_json, output, force, filed = kept
     _refuse_files(file, kept, animation)
     model = questioned(file)
     try:
         with interrupts() as stopped:
             result = solve(model, **settings)
     except NotConverged as error:
-        if output and error.result is not None:
-            write_result(error.result, output, overwrite=force)
-            typer.echo(f"the best state found, not a solution, is in {output}", err=True)
+        if kept.output and error.result is not None:
+            write_result(error.result, kept.output, overwrite=kept.force)
+            typer.echo(f"the best state found, not a solution, is in {kept.output}", err=True)
             if error.result.digest != model.digest:
                 made = "a model made from it on the way, with design values or displaced"
                 typer.echo(f"it is not of {file} but of {made}: check and report refuse it", err=True)
@@ -85,22 +84,27 @@ def answer(
             raise typer.Exit(INTERRUPTED) from None
         raise
     try:
-        if output:
-            write_result(result, output, overwrite=force)
-        if filed:
-            from limitblocks.reports import report
-
-            report(model, result, *beside).save(filed, overwrite=force)
-        if animation:
-            from limitblocks.io import write_animation
-
-            write_animation(model, animation, result, overwrite=force)
+        _write(model, result, kept, beside, animation)
     finally:  # a full disk does not cost the answer
-        show(model, result, as_json)
+        show(model, result, kept.as_json)
     if stopped:
         typer.echo("interrupted: what was found until then is above", err=True)
         raise typer.Exit(INTERRUPTED)
     return result
+
+
+def _write(model: Model, result: Any, kept: Kept, beside: Sequence[Any], animation: Path | None) -> None:
+    """Write the files that are asked for."""
+    from limitblocks.io import write_animation, write_result
+
+    if kept.output:
+        write_result(result, kept.output, overwrite=kept.force)
+    if kept.filed:
+        from limitblocks.reports import report
+
+        report(model, result, *beside).save(kept.filed, overwrite=kept.force)
+    if animation:
+        write_animation(model, animation, result, overwrite=kept.force)
 
 
 def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:

@@ -32,6 +32,7 @@ from limitblocks.cli.options import (
     WithBounds,
     WithNonassociated,
     WithPath,
+    WithStability,
 )
 from limitblocks.errors import LimitBlocksError
 
@@ -70,6 +71,7 @@ def report(
     tolerance: OwnTolerance = None,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
+    with_stability: WithStability = False,
     with_bounds: WithBounds = False,
     with_nonassociated: WithNonassociated = False,
     with_path: WithPath = False,
@@ -98,6 +100,7 @@ def report(
         reported(structure, *found, **labels)  # refuses what it cannot show before the analysis, too
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
+        found += [analyses.stability(structure, **asked)] if with_stability else []
         if with_bounds or not results:
             found += analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
         found += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []

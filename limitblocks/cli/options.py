@@ -65,6 +65,9 @@ ResultFiles = Annotated[
     list[Path],
     typer.Argument(metavar="[RESULT...]", help="Result files that --output wrote.", show_default=False),
 ]
+WithStability = Annotated[
+    bool, typer.Option("--stability", help="Also whether it stands under its dead loads by itself.")
+]
 WithBounds = Annotated[bool, typer.Option("--bounds", help="Also the bounds.")]
 WithNonassociated = Annotated[bool, typer.Option("--nonassociated", help="Also the non-associated solution.")]
 WithPath = Annotated[bool, typer.Option("--path", help="Also the load path.")]

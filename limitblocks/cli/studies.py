@@ -105,6 +105,7 @@ def _tell(study: Study, asked: Asked) -> None:
     from limitblocks.io.result_file import result_text
     from limitblocks.reports.terminal import print_table, print_warnings
     from limitblocks.studies.pool import INTERRUPTED
+    from limitblocks.studies.results import in_short
 
     if asked.csv:
         study.write_csv(asked.csv, overwrite=asked.force)
@@ -117,7 +118,7 @@ def _tell(study: Study, asked: Asked) -> None:
         errors = [row.pop("error") for row in rows]
         words = [study.head(key).replace("_", " ") for key in rows[0]]
         heads = tuple(word[0].upper() + word[1:] for word in words)
-        print_table("", heads, [[_cell(value) for value in row.values()] for row in rows])
+        print_table("", heads, [[*map(in_short, row.values())] for row in rows])
         print_warnings(_grouped(errors))
         typer.echo(f"\n{study}")
     if INTERRUPTED in study.errors:
@@ -133,7 +134,3 @@ def _grouped(errors: list[str]) -> Iterator[str]:
         which = f"rows {numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"row {numbers[0]}"
         if error:
             yield f"{which}: {error}"
-
-
-def _cell(value: Any) -> str:
-    return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -9,6 +9,11 @@ UNBOUNDED = (
     "a solution without dilatancy need not exist: the blocks may jam"
 )
 
+BELOW_ZERO = (
+    "the load factor is below zero: in this state the structure falls under its dead loads, unless the live "
+    "load acts the other way; stability says whether it stands without stresses that are wedged in"
+)
+
 
 class Status(Enum):
     """How an analysis ended; the text is for the user."""

@@ -110,6 +110,31 @@ def load_path(
     if path.collapse.digest != model.digest:
         raise LimitBlocksError("this LoadPath belongs to another model; give the model it is a result of")
     names = [one.name for one in model.blocks]
+    k, axis = _measured(path, names, block, component)
+    x, loads = path.curve(k, axis)
+    ax = curve_axes(ax)
+    snaps = [(k, k + 1) for k, step in enumerate(path.steps[1:]) if step.kind == "after snap"]
+    across = [pair for pair in snaps if path.steps[pair[0]].kind == "before snap"]
+    for before, after in across:
+        ax.plot(x[[before, after]], loads[[before, after]], "--", color=PALE, linewidth=1.2)
+    breaks = [after for _, after in across]
+    ax.plot(np.insert(x, breaks, np.nan), np.insert(loads, breaks, np.nan), "-", color=BLUE, linewidth=1.4)
+    for kind in dict.fromkeys(step.kind for step in path.steps):
+        these = [step.kind == kind for step in path.steps]
+        size = 11.0 if kind == "polish" else 4.5
+        style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
+        style |= {"label": WORDS.get(kind, kind), "linestyle": "none"}
+        ax.plot(x[these], loads[these], KINDS.get(kind, "o"), **style)
+    word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
+    ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
+    ax.set_ylabel("load factor (–)")
+    legend_below(ax, inches=0.65, ncols=columns(ax, ax.get_legend_handles_labels()[1]))
+    plain(ax)
+    return ax
+
+
+def _measured(path: LoadPath, names: list[str], block: str | None, component: str | None) -> tuple[int, int]:
+    """Positions of the block and of the component that are given, or move most."""
     if block is not None and block not in names:
         raise ModelError(f"block {block!r} is not a block of the model")
     if component is not None and component not in COMPONENTS:
@@ -118,34 +143,7 @@ def load_path(
     axes = [COMPONENTS[component]] if component else [0, 1, 2]
     rows = [names.index(block)] if block else list(range(len(names)))
     row, column = np.unravel_index(int(moved[np.ix_(rows, axes)].argmax()), (len(rows), len(axes)))
-    k, axis = rows[int(row)], axes[int(column)]
-    x, loads = path.curve(k, axis)
-    ax = curve_axes(ax)
-    snaps = [(k, k + 1) for k, step in enumerate(path.steps[1:]) if step.kind == "after snap"]
-    across = [pair for pair in snaps if path.steps[pair[0]].kind == "before snap"]
-    line = loads.astype(float)
-    for before, after in across:
-        ax.plot(x[[before, after]], loads[[before, after]], "--", color=PALE, linewidth=1.2)
-    breaks = [after for _, after in across]
-    ax.plot(np.insert(x, breaks, np.nan), np.insert(line, breaks, np.nan), "-", color=BLUE, linewidth=1.4)
-    for kind in dict.fromkeys(step.kind for step in path.steps):
-        these = [step.kind == kind for step in path.steps]
-        size = 11.0 if kind == "polish" else 4.5
-        style = {"color": BLUE if kind in ("permanent loads", "step") else VERMILION, "markersize": size}
-        ax.plot(
-            x[these],
-            loads[these],
-            KINDS.get(kind, "o"),
-            label=WORDS.get(kind, kind),
-            linestyle="none",
-            **style,
-        )
-    word = "displacement of {} along {} (m)" if axis < 3 else "rotation of {} about {} (rad)"
-    ax.set_xlabel(word.format(names[k], "XYZ"[axis % 3]) + ",\nfor the compliance of the joints")
-    ax.set_ylabel("load factor (–)")
-    legend_below(ax, inches=0.65, ncols=columns(ax, ax.get_legend_handles_labels()[1]))
-    plain(ax)
-    return ax
+    return rows[int(row)], axes[int(column)]
 
 
 def polar(directions: Any, load_factors: Any = None, ax: Any = None, *, label: str | None = None) -> Any:

@@ -144,7 +144,7 @@ def _ahead(
 
     The secant is zero `ahead`, m.
     """
-    share = 1.0 if step <= JUMP * assembly.size else SMALLEST
+    share = SHORT if step <= JUMP * assembly.size else SMALLEST
     most, least = SECANT, min(EVENT * assembly.size, share * step)
     while True:
         try:
@@ -192,8 +192,8 @@ def _advanced(
     there = held(assembly, control, point.result.displacement_rates, step, EVENT * assembly.size)
     if there is None:
         return None
-    goal, shift, loaded, result, pressed = answered(there.assembly)
     at = point.displacement + float((there.control.point - control.point) @ control.direction)
+    goal, shift, loaded, result, pressed = answered(there.assembly)
     found = CapacityPoint(
         at, result.load_factor - shift, shift, loaded, result, there.changes, pressed, there.snapped
     )

@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
@@ -25,6 +25,11 @@ from limitblocks.practice.elements import CORNERS, Element, axes_of
 from limitblocks.practice.freed import as_before, pressed
 from limitblocks.shown import Result
 
+JAMMED = (
+    "settlement of {!r}: the structure jams against this motion, so that its reaction has no limit; check "
+    "the direction, which is that in which the ground moves, such as 0,0,-1 for one that sinks"
+)
+OFF = 1e-6  # of the motion along the line: more than rounding
 RIGID = 1e3  # strength of the guide over the weight of the structure
 
 
@@ -166,8 +171,13 @@ def settlement(
     greatest where its reaction is least. Static theorem: Eqs (56)-(57) with the reaction as the unknown load.
     """
     own = settling(model, support, direction)
-    pair = bounds(own.model)
+    try:
+        pair = bounds(own.model)
+    except UnlimitedLoad as error:
+        raise UnlimitedLoad(JAMMED.format(support)) from error
     result = nonassociated(own.model) if without_dilatancy else None
+    if any(_leaves_its_line(own, answer.displacement_rates) for answer in (pair, result) if answer):
+        raise UnlimitedLoad(JAMMED.format(support))
     return Settlement(
         settling=own,
         lower=own.reaction(pair.upper),
@@ -177,6 +187,15 @@ def settlement(
         result=result,
         digest=model.digest,
     )
+
+
+def _leaves_its_line(own: Settling, rates: Array) -> bool:
+    """True if the guide yields: its strength, not of the structure, limits what nothing else does."""
+    names = [block.name for block in own.model.blocks]
+    k = names.index(own.support)
+    along = float(rates[k, :3] @ own.direction)
+    off = np.append(rates[k, :3] - along * own.direction, own.model.blocks[k].size * rates[k, 3:])
+    return bool(np.abs(off).max() > OFF * abs(along))
 
 
 def settling(model: Model, support: str, direction: Sequence[float]) -> Settling:

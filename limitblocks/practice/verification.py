@@ -108,14 +108,15 @@ def verification(
     if curve:
         rates = scale * collapse.displacement_rates
         scales = (_per_control(model, rates, curve, masses), G / (e * confidence))
-        for state, spectrum, given_xi in zip(("SLV", "SLC"), (demand, collapse_demand), damping, strict=True):
-            if spectrum:
-                found += steps("demand", given(spectrum, state)) if state != "SLV" else []
-                xi = number(given_xi, f"damping at {state}", "", above=0.0)
-                least = set_off if state == "SLV" else 0.0  # the text has it of SLV alone
-                more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
-                found += steps(state, more)
-                checks.append(check)
+        limit_states = [("SLV", demand, damping[0], set_off)]  # the text has what sets it off of SLV alone
+        if collapse_demand:
+            limit_states.append(("SLC", collapse_demand, damping[1], 0.0))
+        for state, spectrum, given_xi, least in limit_states:
+            found += steps("demand", given(spectrum, state)) if state != "SLV" else []
+            xi = number(given_xi, f"damping at {state}", "", above=0.0)
+            more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
+            found += steps(state, more)
+            checks.append(check)
     said = (*of_ground(demand.a_g), *remarks(model, collapse.displacement_rates, confidence))
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)
 

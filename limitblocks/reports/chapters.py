@@ -49,6 +49,11 @@ SENSITIVITY = (
     "How much the load factor changes with friction, unit weights and geometry is not in this report: "
     "no sensitivity was given to it."
 )
+STANDING = "Stability"  # how the title of the section of such a result begins
+STANDS = (
+    "Whether the structure stands under its dead loads by itself, or only by stresses that somebody would "
+    "have to wedge in, is not in this report: no stability was given to it."
+)
 NOT_STATED = "not stated"
 UNTITLED = "Limit analysis of a rigid-block structure"
 OWN = (
@@ -84,6 +89,8 @@ def document(
     warnings = [warning for one in sections for warning in one.warnings] + known["warnings"]
     said = Items(tuple(warnings)) if warnings else Text("There are no warnings.")
     chapters += [_model(model, known), _assumptions(model), *shown]
+    if not any(one.title.startswith(STANDING) for one in sections):
+        chapters.append(Chapter(STANDING, (Text(STANDS),)))
     if not any(one.title.startswith(SENSITIVE) for one in sections):
         chapters.append(Chapter(SENSITIVE, (Text(SENSITIVITY),)))
     chapters.append(Chapter("Warnings", (said,)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+from abc import abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,8 +18,44 @@ from limitblocks.studies.pool import Result
 from limitblocks.written import write
 
 
+class Rows(Saved):
+    """A result that is a table; `units` has those of the columns that have one, by name."""
+
+    units: ClassVar[dict[str, str]] = {}
+
+    @abstractmethod
+    def rows(self) -> list[dict[str, Any]]:
+        """Return rows of the same keys, plain numbers and text."""
+
+    def table(self) -> str:
+        """Return the rows as lines of text in columns."""
+        rows = self.rows()
+        cells = [[*map(self.head, rows[0])]] + [[*map(in_short, row.values())] for row in rows]
+        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
+        return "\n".join("  ".join(line).rstrip() for line in lines)
+
+    def head(self, name: str) -> str:
+        """Return the name of a column with its unit."""
+        return f"{name}, {self.units[name]}" if name in self.units else name
+
+    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the rows to a CSV file (UTF-8, commas, a line of names first) and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            If the file exists and `overwrite` is false, or it cannot be written.
+        """
+        rows, stream = self.rows(), io.StringIO(newline="")
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+        return write(Path(file), stream.getvalue(), overwrite)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class Study(Saved):
+class Study(Rows):
     """Load factors of many analyses, in the order asked for.
 
     Attributes
@@ -32,15 +69,12 @@ class Study(Saved):
         Full results; where an analysis did not converge its best state, which `load_factors` leaves out.
     errors : tuple of str, length n
         Class and message of the error of each analysis, empty where there is none.
-    units : dict of str
-        Units of the columns that have one, by name.
     """
 
     analysis: str
     load_factors: Array
     results: tuple[Result | None, ...]
     errors: tuple[str, ...]
-    units: ClassVar[dict[str, str]] = {}
 
     @property
     def least(self) -> int:
@@ -64,24 +98,6 @@ class Study(Saved):
         """Return the study as plain numbers, lists and text."""
         return {"analysis": "study", "study": type(self).__name__, "of": self.analysis, "rows": self.rows()}
 
-    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the rows to a CSV file (UTF-8, commas, a line of names first) and return its path.
-
-        Raises
-        ------
-        LimitBlocksError
-            If the file exists and `overwrite` is false, or it cannot be written.
-        """
-        return write_rows(self.rows(), file, overwrite=overwrite)
-
-    def table(self) -> str:
-        """Return the rows as lines of text in columns."""
-        return in_columns([{self.head(name): value for name, value in row.items()} for row in self.rows()])
-
-    def head(self, name: str) -> str:
-        """Return the name of a column with its unit."""
-        return f"{name}, {self.units[name]}" if name in self.units else name
-
     def __str__(self) -> str:
         failures = sum(map(bool, self.errors))
         lost = f"; {failures} without an answer" if failures else ""
@@ -89,7 +105,7 @@ class Study(Saved):
             return f"{many(len(self.errors), 'analysis', 'analyses')}, no load factor{lost}"
         units = {name: f" {unit}" for name, unit in self.units.items()}
         here = self._key(self.least).items()
-        where = ", ".join(f"{name} {_short(value)}{units.get(name, '')}" for name, value in here)
+        where = ", ".join(f"{name} {in_short(value)}{units.get(name, '')}" for name, value in here)
         least = self.load_factors[self.least]
         made = many(len(self.errors), "analysis", "analyses")
         return f"{made}, least load factor {least:.6g} at {where}{lost}"
@@ -168,23 +184,6 @@ class Sweep(Study):
         return {self.parameter: value if isinstance(value, str | int | float) else str(value)}
 
 
-def in_columns(rows: list[dict[str, Any]]) -> str:
-    """Return rows of the same keys as lines of text, the keys first."""
-    cells = [list(rows[0])] + [[_short(value) for value in row.values()] for row in rows]
-    widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
-    lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
-    return "\n".join("  ".join(line).rstrip() for line in lines)
-
-
-def write_rows(rows: list[dict[str, Any]], file: str | Path, *, overwrite: bool) -> Path:
-    """Write rows of the same keys to a CSV file and return its path."""
-    stream = io.StringIO(newline="")
-    writer = csv.DictWriter(stream, list(rows[0]))
-    writer.writeheader()
-    writer.writerows(rows)
-    return write(Path(file), stream.getvalue(), overwrite)
-
-
 def _answer(load_factor: float, result: Result | None, error: str, analysis: str) -> dict[str, Any]:
     """The columns that all rows of one analysis have."""
     names = ("lower", "upper") if analysis == "bounds" else ("frictionless", "associated")
@@ -193,5 +192,6 @@ def _answer(load_factor: float, result: Result | None, error: str, analysis: str
     return {"load_factor": load_factor} | beside | {"worst_residual": worst, "error": error}
 
 
-def _short(value: Any) -> str:
+def in_short(value: Any) -> str:
+    """Return a cell as text, numbers with six digits."""
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
-from limitblocks.shown import Saved, many
-from limitblocks.studies.results import write_rows
+from limitblocks.shown import many
+from limitblocks.studies.results import Rows
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SampledStudy(Saved):
+class SampledStudy(Rows):
     """Load factors of sampled parameters.
 
     Attributes
@@ -110,16 +109,6 @@ class SampledStudy(Saved):
             dict(zip(self.names, values, strict=True)) | {"load_factor": a, "mode": mode, "error": error}
             for values, a, mode, error in answers
         ]
-
-    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the rows to a CSV file and return its path.
-
-        Raises
-        ------
-        LimitBlocksError
-            It exists and `overwrite` is false, or it cannot be written.
-        """
-        return write_rows(self.rows(), file, overwrite=overwrite)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the rows and what is asked of them most as numbers and text."""

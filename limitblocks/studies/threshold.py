@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,8 +13,8 @@ from limitblocks.analysis.stability import standing_margin
 from limitblocks.errors import ModelError, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
-from limitblocks.shown import Saved, many
-from limitblocks.studies.results import in_columns, write_rows
+from limitblocks.shown import many
+from limitblocks.studies.results import Rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
 RELATIVE = 1e-6
@@ -24,7 +23,7 @@ Trial = Callable[[float], None]
 
 
 @dataclass(frozen=True, repr=False)
-class Threshold(Saved):
+class Threshold(Rows):
     """Bracket of the value of a parameter at which the loads just stand.
 
     Attributes
@@ -75,10 +74,6 @@ class Threshold(Saved):
             for value, margin in sorted(self.trials)
         ]
 
-    def table(self) -> str:
-        """Return the rows as lines of text in columns."""
-        return in_columns(self.rows())
-
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""
         return {
@@ -91,16 +86,6 @@ class Threshold(Saved):
             "load_factor": self.load_factor,
             "rows": self.rows(),
         }
-
-    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the rows to a CSV file (UTF-8, commas, a line of names first) and return its path.
-
-        Raises
-        ------
-        LimitBlocksError
-            If the file exists and `overwrite` is false, or it cannot be written.
-        """
-        return write_rows(self.rows(), file, overwrite=overwrite)
 
 
 def minimum(

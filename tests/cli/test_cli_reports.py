@@ -14,10 +14,14 @@ import limitblocks as lb
 def test_report_takes_the_analyses_asked_for(file):
     page = file.with_suffix(".html")
     assert run("report", file).exit_code == 0
-    assert "Load path" not in page.read_text(encoding="utf-8")
-    done = run("report", file, "--nonassociated", "--path", "--dilatancy", 0.2, "--force")
+    html = page.read_text(encoding="utf-8")
+    assert "Load path" not in html
+    assert "no stability was given to it" in html
+    done = run("report", file, "--stability", "--nonassociated", "--path", "--dilatancy", 0.2, "--force")
     assert (done.exit_code, done.stderr) == (0, "")
     html = page.read_text(encoding="utf-8")
+    assert "no stability was given to it" not in html
+    assert "Stability under the dead loads" in html
     assert all(part in html for part in ("Side by side", "Non-associated solution", "Steps of the load path"))
 
 

@@ -139,6 +139,7 @@ def test_fill_strengthens_and_models_can_be_analysed():
         (lambda: lb.loads.fill(GAMMA, np.nan), "level is nan"),
         (lambda: lb.loads.fill(GAMMA, LEVEL, earth_pressure=-0.3), "-0.3"),
         (lambda: lb.loads.fill(GAMMA, LEVEL, blocks=["crown"]), "'crown'"),
+        (lambda: lb.loads.fill(GAMMA, LEVEL, blocks=["Voussoir 6"]), "did you mean 'voussoir 6'?"),
         (lambda: lb.loads.fill(GAMMA, 5.0, blocks="voussoir 6"), "level 5 m"),
     ],
 )

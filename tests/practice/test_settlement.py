@@ -194,9 +194,7 @@ def test_joints_of_a_settling_structure_have_states(joint):
     assert states.utilisation[-1] < 0.1
 
 
-def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
-    """Two stones of 20 m x .1 m: thrust W a / 4 t = 50 W at the lower edges, below the support's centroid."""
-    a, t = 20.0, 0.1
+def two_stones(a, t):
     stones = [
         lb.Block.box("left", (1, 1, 1), (-a - 0.5, 0, -0.5 + t)),
         lb.Block.box("right", (1, 1, 1), (a + 0.5, 0, -0.5 + t)),
@@ -204,11 +202,21 @@ def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
         lb.Block.box("two", (a, 1, t), (a / 2, 0, t / 2), WEIGHT),
     ]
     found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    spread = settlement(model, "right", (1, 0, 0))
+    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
+    """Two stones of 20 m x .1 m: thrust W a / 4 t = 50 W at the lower edges, below the support's centroid."""
+    a, t = 20.0, 0.1
+    spread = settlement(two_stones(a, t), "right", (1, 0, 0))
     thrust = 2 * WEIGHT * a * t * a / (4 * t)
     assert spread.nonassociated == pytest.approx(thrust, rel=1e-6)
     assert spread.upper == pytest.approx(thrust, rel=1e-6)
+
+
+def test_stones_between_abutments_that_close_in_jam():
+    with pytest.raises(lb.errors.UnlimitedLoad, match="'right': the structure jams against this motion"):
+        settlement(two_stones(2.0, 0.1), "right", (-1, 0, 0))
 
 
 def test_only_support():

@@ -13,7 +13,7 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, settled, unknown, within
-from limitblocks.evidence.ending import UNBOUNDED, Status
+from limitblocks.evidence.ending import BELOW_ZERO, UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.locked_tension import locked_tension
@@ -77,6 +77,7 @@ def finished(
         dilatancy=flow.dilatancy,
         turning=flow.turning,
         remarks=(
+            *(BELOW_ZERO,) * bool(si.load_factor < -tolerance),
             *off_load_path(how if status is Status.CONVERGED else ""),
             *given_power(flow, state, tolerance),
             *locked_shear(flow, state),

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, few
+from limitblocks.errors import ModelError, few, near
 from limitblocks.geometry import Block
 
 Vector = tuple[float, float, float]
@@ -127,7 +127,8 @@ def position(name: str, blocks: Sequence[Block]) -> int:
     for k, block in enumerate(blocks):
         if block.name == name:
             return k
-    raise ModelError(f"a load names block {name!r}, which is not a free block of the model")
+    like = near(str(name), (block.name for block in blocks))
+    raise ModelError(f"a load names block {name!r}, which is not a free block of the model{like}")
 
 
 def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[float]:

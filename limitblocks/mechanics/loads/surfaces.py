@@ -130,8 +130,13 @@ class Fill:
     def in_words(self) -> str:
         """Return the term in words."""
         said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {self.level:.4g} m"
-        earth = f", coefficient of horizontal earth pressure {self.coefficient:.4g}" * bool(self.coefficient)
-        return f"{said} on {some(self.blocks) if self.blocks else 'all blocks'}{earth}"
+        said += f" on {some(self.blocks) if self.blocks else 'all blocks'}"
+        if not self.coefficient:
+            return said
+        return (
+            f"{said}, coefficient of horizontal earth pressure {self.coefficient:.4g} on faces that slope, "
+            "none on upright ones"
+        )
 
     def on_faces(self, blocks: Sequence[Block]) -> Iterator[tuple[int, int, float, Array]]:
         """Yield block, upward face, weight on it (N), and its first moments about the centroid (N m)."""
