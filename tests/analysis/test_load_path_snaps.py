@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import loading
 from limitblocks.analysis.nonassociated.increment import Increment, Tried, Visit
+from limitblocks.structures.convex import hull
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PLUG = runpy.run_path(str(EXAMPLES / "20_a_load_path_that_snaps.py"))
@@ -118,6 +120,93 @@ def test_both_ends_of_a_snap_are_those_by_hand(monkeypatch, angle, friction, pre
     assert snap.before.load_factor == pytest.approx(greatest, rel=2e-5)
     assert snap.after.load_factor == pytest.approx(weight + jack, rel=1e-8)
     assert len(path.remarks) == 1
+
+
+class FourFaces:
+    """A plug pressed by two pairs of faces: half angles w, areas A, forces N0 and T0, stiffnesses k.
+
+    a, b are its half sides below; the soft pair still holds after the stiff one has slipped.
+    """
+
+    a, b, h, friction, w = 0.15, 0.2, 0.4, 0.6, np.radians([20.0, 12.0])
+    k, jack_k = np.array([1e9, 1e7]), 1e7
+    c, s, t = np.cos(w), np.sin(w), np.tan(w)
+    A = h / c * (2 * np.array([b, a]) + h * t[::-1])
+
+    def __init__(self):
+        sides = {"left": (-1, 0), "right": (1, 0), "front": (0, -1), "back": (0, 1)}
+        corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (0, self.h)]
+        blocks = [
+            hull("floor", [(x, y, z) for x in (-0.6, 0.6) for y in (-0.6, 0.6) for z in (-0.3, -0.1)]),
+            hull("plug", [self.corner(*at) for at in corners], 20e3),
+            hull(
+                "jack",
+                [(x * self.a, y * self.b, z) for x in (-1, 1) for y in (-1, 1) for z in (-0.1, 0)],
+                20e3,
+            ),
+        ]
+        for name, out in sides.items():
+            face = np.array([self.corner(*at) for at in corners if np.dot(at[:2], out) == 1])
+            blocks.append(hull(name, np.concatenate([face, face + 0.5 * np.array([*out, 0])])))
+        joints = [lb.OrdunaLourenco(mu) for mu in (self.friction, self.friction + 1e-12, 0.5)]
+        self.stiffness = dict(zip(joints, [(k, k) for k in (*self.k, self.jack_k)], strict=True))
+        of = {"left": 0, "right": 0, "front": 1, "back": 1, "jack": 2}
+        found = [
+            i for i in lb.find_interfaces(blocks, joints[0]) if {i.block_i, i.block_j} & {"plug", "jack"}
+        ]
+        found = [
+            replace(i, joint=joints[of[({i.block_i, i.block_j} - {"plug"}).pop()]]) if "plug" in i.name else i
+            for i in found
+        ]
+        push = lb.loads.force("jack", (0, 0, 1), at=(0, 0, -0.05))
+        self.model = lb.Model(blocks, ["floor", *sides], found, lb.self_weight(), push)
+        self.weight, self.jack = (block.weight for block in self.model.free_blocks)
+        self.N0 = np.array([5.0, 3.0]) * self.weight
+        self.T0 = (2 * self.N0 * self.s - np.array([self.weight, 0])) / (
+            2 * self.c
+        )  # the second pair by itself
+        self.start = np.zeros((len(found), 6))
+        for k, i in enumerate(found):
+            (other,) = {i.block_i, i.block_j} - {"plug"} if "plug" in i.name else ("floor",)
+            on_j = np.array([0, 0, self.jack]) * (other == "floor")
+            if other in sides:
+                pair = of[other]
+                N, T, c, s = self.N0[pair], self.T0[pair], self.c[pair], self.s[pair]
+                out = np.array(sides[other])
+                on_j = np.array([*(-out * (N * c + T * s)), N * s - T * c]) * (
+                    1 if i.block_j == "plug" else -1
+                )
+            self.start[k, :3] = -i.axes @ on_j
+
+    def corner(self, x, y, z):
+        return x * (self.a + z * self.t[0]), y * (self.b + z * self.t[1]), z
+
+    def force(self, d):
+        """Of the jack on the plug that has risen by d."""
+        N = np.maximum(self.N0 - self.k * self.A * d * self.s, 0)
+        T = np.minimum(self.T0 + self.k * self.A * d * self.c, self.friction * N)
+        return self.weight - 2 * (N * self.s - T * self.c).sum()
+
+    def displacement(self, d):
+        """Of the jack."""
+        return d + self.force(d) / (self.jack_k * 4 * self.a * self.b)
+
+
+@pytest.mark.parametrize("growth", [1.4])
+def test_a_snap_ends_where_what_still_holds_carries_the_push(growth):
+    """The stiff pair slips and lets go; the state after is where force and jack of the soft pair meet."""
+    by = FourFaces()
+    slips = (by.friction * by.N0[0] - by.T0[0]) / (by.A[0] * by.k[0] * (by.c[0] + by.friction * by.s[0]))
+    free = by.N0[0] / (by.k[0] * by.A[0] * by.s[0])
+    lands = brentq(lambda d: by.displacement(d) - by.displacement(slips), free, 20 * free)
+    settings = lb.settings.Settings(growth=growth)
+    path = lb.load_path(by.model, start=by.start, stiffness=by.stiffness, settings=settings)
+    (snap,) = path.snaps
+    plug = [block.name for block in by.model.blocks].index("plug")
+    for state, d in ((snap.before, slips), (snap.after, lands)):
+        assert state.load_factor == pytest.approx(by.force(d) + by.jack, rel=2e-5)
+        assert state.displacements[plug, 2] == pytest.approx(d, rel=2e-4)
+    assert path.load_factor == pytest.approx(by.weight + by.jack, rel=1e-9)
 
 
 def test_a_snap_that_only_the_large_barrier_follows_is_said_to_be_rounded(monkeypatch):

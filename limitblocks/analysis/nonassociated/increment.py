@@ -28,6 +28,7 @@ from limitblocks.arrays import Array
 # Newton's method may find no first point so far from the elastic part
 SPANS = (10.0, 1000.0)
 ARRIVED = 1.01  # times the last theta
+REACHED = 1.0 + 1e-6  # times the theta of a fold
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
 SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
@@ -79,7 +80,8 @@ def _folds(at: Sequence[Visit]) -> tuple[tuple[int, int], ...]:
             fold = k - 1
             while at[fold + 1].rho < at[fold].rho:
                 fold += 1
-            later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
+            back = REACHED * at[fold].rho
+            later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= back)
             k = next(later, len(at) - 1)
             folds.append((fold, k))
         k += 1
@@ -102,6 +104,7 @@ class _Stretch(Walk):
         super().__init__(path, BUDGET, None)
         self.z, self.until = start, until
         self.kept: list[Point] = []
+        self.fold = np.inf  # theta of a fold that tau has not come back to
 
     @property
     def arrived(self) -> bool:
@@ -115,6 +118,11 @@ class _Stretch(Walk):
 
     def _forward(self, k: int) -> bool:
         return self.points[k].sign == self.points[0].sign
+
+    @property
+    def _stop(self) -> float:
+        """The theta that a step stops at: that of a fold once tau grows again, else the last."""
+        return self.fold if np.isfinite(self.fold) and self._forward(-1) else self.until
 
     def go(self) -> str:
         """Follow the path as far as it is asked for."""
@@ -131,14 +139,17 @@ class _Stretch(Walk):
             if ahead > TURN:
                 self._retreat()
                 return
+            self.fold = min(self.fold, self.base.point.theta, self.z.theta)
+        elif self.kept and sign == self.points[0].sign and self.z.theta <= REACHED * self.fold:
+            self.fold = np.inf
         self.kept.append(self.z)
         super()._accept(sign, correction, tangent)
 
     def _predict(self) -> None:
         super()._predict()
-        if self.base is not None and self.z.theta < self.until:
+        if self.base is not None and self.z.theta < self._stop:
             start, tangent = moved(self.path, self.base.point, 1.0, self.base.correction), self.base.tangent
-            self.z = moved(self.path, start, (self.until - start.theta) / tangent.theta, tangent)
+            self.z = moved(self.path, start, (self._stop - start.theta) / tangent.theta, tangent)
 
     def visits(self, rho: float) -> tuple[Visit, ...]:
         """The points kept; rho is that at theta = 1."""
