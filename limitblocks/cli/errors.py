@@ -54,6 +54,11 @@ def interrupts() -> Iterator[list[int]]:
             signal.signal(signal.SIGINT, usual)
 
 
+def with_notes(error: Exception) -> str:
+    """An error and what was noted with it, in one line."""
+    return "; ".join(" ".join(part.split()) for part in (str(error), *getattr(error, "__notes__", ())))
+
+
 def exit_code(error: LimitBlocksError) -> int:
     """1 a check failed, 2 the model is wrong, 3 no solution found."""
     if isinstance(error, CheckFailed):

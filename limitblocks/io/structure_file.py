@@ -25,8 +25,8 @@ from limitblocks.model import Model
 _log = logging.getLogger("limitblocks")
 
 _INSTEAD = (
-    "leave the arguments out; change the file (gap, angle and width stand under interfaces, find) or what was "
-    "read, dataclasses.replace(model, live=...)"
+    "leave the arguments out; change the file (gap, angle and width stand under interfaces, find), or what "
+    "was read: dataclasses.replace(model, live=...)"
 )
 
 
@@ -50,10 +50,10 @@ def read(
     """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
 
     A model file says everything itself, and other arguments are refused with it: what
-    :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
-    :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
-    warnings, a line each; :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return
-    them.
+    :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit. For other formats `joint`,
+    `supports` and `live` are needed; the interfaces are found by :func:`limitblocks.find_interfaces`. What
+    had to be mended, and blocks that nearly touch, are logged as warnings, a line each;
+    :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return them.
 
     Parameters
     ----------
