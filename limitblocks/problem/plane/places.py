@@ -73,7 +73,7 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     of_row = of_member[problem.cones.member]
     count = int(max(of_member.max(initial=-1), of_stress.max(initial=-1))) + 1
     columns, column = owned(of_stress, count)
-    rows, row = owned(of_row, count)
+    rows, _ = owned(of_row, count)
     for its, linear, cones in _alike(problem, of_member, of_stress, count):
         c, r = np.bincount(of_stress)[its[0]], linear + sum(cones)
         own, its_rows = columns[its, :c], rows[its, :r]
