@@ -4,7 +4,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import loads
-from limitblocks.reports.words import assumed, joint_words, load_words
+from limitblocks.reports.words import assumed, joint_words, laid_on, load_words
 
 JOINTS = {
     "friction coefficient 0.6 (31.0 degrees), no tension, no limit of compression, shear and torsion by the "
@@ -59,6 +59,25 @@ def test_an_added_mass_in_words():
     mass = loads.added_mass("floor", (0, 0, 3), weight=12e3)
     words = load_words(lb.mass_proportional((1, 0, 0), [mass]))
     assert words[1] == "a mass that weighs 12 kN, fixed to block 'floor' at (0, 0, 3) m, along +X"
+
+
+SMALL = {"span": 4.0, "rise": 1.0, "thickness": 0.4, "voussoirs": 12}
+
+
+@pytest.mark.parametrize("make", [lb.structures.segmental_arch, lb.structures.arch_bridge])
+def test_the_inertia_of_fill_is_one_line(make):
+    bridge = make(lb.PointContact(0.7), **SMALL, fill=lb.structures.Fill(0.5, 18e3, inertia=0.5))
+    weights, inertia = load_words(bridge.live, laid_on(bridge))
+    assert weights == "the weight of every block, along +X"
+    assert inertia.startswith("12 forces on 12 blocks, ")
+    assert inertia.endswith(
+        " kN along +X: 0.5 × what weighs on them in the dead load, as the inertia of fill"
+    )
+    name = bridge.free_blocks[0].name
+    pushed = bridge.live + lb.loads.force(
+        name, (1e3, 0.0, 0.0), (0.0, 0.0, 0.0)
+    )  # more than half of its fill
+    assert load_words(pushed, laid_on(bridge))[1].endswith(" kN along +X")
 
 
 def test_what_a_joint_assumes_depends_on_its_settings():

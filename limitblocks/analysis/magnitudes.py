@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
 from limitblocks.mechanics.loads.load import Load, some, triple
+from limitblocks.mechanics.loads.surfaces import Fill, Pressure
 from limitblocks.model import Model
 from limitblocks.shown import many
 
@@ -21,6 +22,11 @@ _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
 _KILO, _DENSITY = 5e2, 5e3
 #: Unit weight, N/m3, and strength, Pa, that no masonry has: platinum weighs 2.1e5, basalt bears 4e8.
 _HEAVY, _STRONG = 2.2e5, 1e9
+#: Unit weights, N/m3, below which fill and what presses a face may be densities in kg/m3: expanded clay has
+#: 2500, the active pressure of soil under water grows by 1400 a metre.
+_OF_FILL, _OF_PRESSURE = 2.5e3, 1.2e3
+#: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
+_HEAVY_FILL = 3e4
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
 #: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
@@ -68,6 +74,19 @@ def of_volumes(blocks: Sequence[Block]) -> list[str]:
     ]
 
 
+def of_fill(weight: float, density: float = _OF_FILL) -> list[str]:
+    """Return the question for the unit weight of fill, N/m3, or of what presses a face as a liquid does.
+
+    Below `density` it may be one; 1 is the load whose factor is the unit weight.
+    """
+    if weight > _HEAVY_FILL:
+        return [
+            f"fill or pressure: unit weight is {weight:g} N/m3, more than of concrete: in N/m3? see units"
+        ]
+    asked = [] if weight == 1.0 or weight >= density else _of_weight(weight)
+    return [f"fill or pressure: {question}" for question in asked]
+
+
 def of_axles(axles: Sequence[float]) -> list[str]:
     """Return the question for the axle loads of a vehicle, N."""
     if (heaviest := max(axles)) < _LIGHT:
@@ -85,6 +104,11 @@ def of_ground(a_g: float) -> list[str]:
 def _of_loads(model: Model) -> Iterator[str]:
     if names := weightless(model):
         yield f"without weight: {some(names)}"
+    for _, term in model.dead.terms + model.live.terms:
+        if isinstance(term, Fill):
+            yield from of_fill(term.unit_weight)
+        elif isinstance(term, Pressure) and term.unit_weight:
+            yield from of_fill(term.unit_weight, _OF_PRESSURE)
     if not model.dead.terms:
         yield "no dead load: the structure has no weight to stabilise it"
     if any(isinstance(term, MassProportional) for _, term in model.live.terms):

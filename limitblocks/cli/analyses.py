@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from limitblocks.cli.progress import of_iterations, of_places, of_points, of_settlement, of_stages
-from limitblocks.errors import UnlimitedLoad
+from limitblocks.errors import SolveError, UnlimitedLoad
 
 if TYPE_CHECKING:
     from limitblocks.model import Model
@@ -45,12 +45,33 @@ capacity = _analysis("capacity", "practice.capacity", "capacity_curve", of_point
 vehicle = _analysis("vehicle", "practice.worst_position", "worst_position", of_places)
 
 
-def bounds_if_any(model: Model, asked: dict[str, float], needed: bool) -> list[Any]:
-    """The bounds; none, with a warning, where dilating joints jam and other analyses are to come."""
+def bounds_if_any(model: Model, needed: bool, **asked: float) -> Any:
+    """The bounds; None, with a warning, where dilating joints jam and other analyses are to come."""
     try:
-        return [bounds(model, **asked)]
+        return bounds(model, **asked)
     except UnlimitedLoad as error:
         if needed:
             raise
         typer.echo(f"warning: no bounds: {error}", err=True)
-        return []
+        return None
+
+
+def each(
+    model: Model, asked: Mapping[str, tuple[Callable[..., Any], Mapping[str, Any]]]
+) -> tuple[list[Any], dict[str, SolveError]]:
+    """The results of analyses with their settings, by name, best states among them, and why others have none.
+
+    None is asked for after one that the user stopped.
+    """
+    from limitblocks.evidence.ending import Status
+
+    found, failed = [], {}
+    for word, (solve, settings) in asked.items():
+        try:
+            result = solve(model, **settings)
+        except SolveError as error:
+            failed[word], result = error, getattr(error, "result", None)
+        found += [] if result is None else [result]
+        if getattr(result, "status", None) is Status.INTERRUPTED:
+            break
+    return found, failed

@@ -11,7 +11,7 @@ import typer
 
 from limitblocks.choices import Turning
 from limitblocks.cli import analyses
-from limitblocks.cli.errors import clean_errors, refuse_existing
+from limitblocks.cli.errors import clean_errors, refuse_existing, with_notes
 from limitblocks.cli.options import (
     AsJson,
     Author,
@@ -83,7 +83,8 @@ def report(
 ) -> None:
     """Write a report of saved results, or of analyses: HTML, JSON, Markdown or PDF, as the suffix says.
 
-    Without RESULT the bounds are found; with it nothing is but what is asked for.
+    Without RESULT the bounds are found; with it nothing is but what is asked for. An analysis without an
+    answer is named in the report of the others, and the exit code is 3.
     """
     with clean_errors():
         from limitblocks.io import read, read_result
@@ -100,12 +101,21 @@ def report(
         reported(structure, *found, **labels)  # refuses what it cannot show before the analysis, too
         asked: Any = {} if tolerance is None else {"tolerance": tolerance}
         flow: Any = {"dilatancy": dilatancy, "turning": turning} | asked
-        found += [analyses.stability(structure, **asked)] if with_stability else []
-        if with_bounds or not results:
-            found += analyses.bounds_if_any(structure, asked, needed=not (with_nonassociated or with_path))
-        found += [analyses.nonassociated(structure, **flow)] if with_nonassociated else []
-        found += [analyses.path(structure, **flow)] if with_path else []
-        typer.echo(str(reported(structure, *found, **labels).save(file, overwrite=force)))
+        needed = not (with_nonassociated or with_path)
+        wanted = {
+            "stability": (with_stability, analyses.stability, asked),
+            "bounds": (with_bounds or not results, analyses.bounds_if_any, {"needed": needed} | asked),
+            "non-associated load factor": (with_nonassociated, analyses.nonassociated, flow),
+            "load path": (with_path, analyses.path, flow),
+        }
+        asked_for = {word: (solve, settings) for word, (yes, solve, settings) in wanted.items() if yes}
+        more, failed = analyses.each(structure, asked_for)
+        if found or more or not failed:
+            said = [f"No {word}: {with_notes(error)}" for word, error in failed.items()]
+            made = reported(structure, *found, *more, **labels, failed=said)
+            typer.echo(str(made.save(file, overwrite=force)))
+        for error in failed.values():
+            raise error
 
 
 def export(

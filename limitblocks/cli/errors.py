@@ -26,6 +26,8 @@ def clean_errors() -> Iterator[None]:
         faults = error.problems if isinstance(error, ModelError) else (str(error),)
         for fault in faults:
             typer.echo(f"error: {' '.join(fault.split())}", err=True)
+        for note in getattr(error, "__notes__", ()):
+            typer.echo(note, err=True)
         raise typer.Exit(exit_code(error)) from None
     except KeyboardInterrupt:
         typer.echo("interrupted, with nothing to write yet", err=True)
@@ -50,6 +52,11 @@ def interrupts() -> Iterator[list[int]]:
     finally:
         if noting:
             signal.signal(signal.SIGINT, usual)
+
+
+def with_notes(error: Exception) -> str:
+    """An error and what was noted with it, in one line."""
+    return "; ".join(" ".join(part.split()) for part in (str(error), *getattr(error, "__notes__", ())))
 
 
 def exit_code(error: LimitBlocksError) -> int:

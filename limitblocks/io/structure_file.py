@@ -24,6 +24,11 @@ from limitblocks.model import Model
 
 _log = logging.getLogger("limitblocks")
 
+_INSTEAD = (
+    "leave the arguments out; change the file (gap, angle and width stand under interfaces, find), or what "
+    "was read: dataclasses.replace(model, live=...)"
+)
+
 
 def read(
     file: str | Path,
@@ -44,11 +49,11 @@ def read(
 ) -> Model:
     """Return the model in `file`: a model file (docs/model-file.md) or blocks of any format in docs/files.md.
 
-    A model file says everything itself: what :meth:`limitblocks.Model.save` wrote gives the same model again,
-    bit for bit. For other formats `joint`, `supports` and `live` are needed; the interfaces are found by
-    :func:`limitblocks.find_interfaces`. What had to be mended, and blocks that nearly touch, are logged as
-    warnings, a line each; :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return
-    them.
+    A model file says everything itself, and other arguments are refused with it: what
+    :meth:`limitblocks.Model.save` wrote gives the same model again, bit for bit. For other formats `joint`,
+    `supports` and `live` are needed; the interfaces are found by :func:`limitblocks.find_interfaces`. What
+    had to be mended, and blocks that nearly touch, are logged as warnings, a line each;
+    :func:`limitblocks.files.read_blocks` and :func:`limitblocks.find_contacts` return them.
 
     Parameters
     ----------
@@ -91,8 +96,9 @@ def read(
     as_read: Any = {"unit_weight": unit_weight, "units": units, "up": up, "twisted": twisted}
     if is_model_file(path):
         given = made | as_read | {"skip_bad": skip_bad or None}
+        given |= {"dead": dead, "live": live, "gap": gap, "angle": angle, "width": width}
         if said := [key for key, value in given.items() if value is not None]:
-            raise ModelError(f"{path}: a model file says {', '.join(said)} itself; leave the arguments out")
+            raise ModelError(f"{path}: a model file says {', '.join(said)} itself; {_INSTEAD}")
         return model_file.read(path)
     imported = read_blocks(path, **as_read, skip_bad=skip_bad)
     if isinstance(materials, str | Path):

@@ -98,7 +98,12 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
     word = "load factor" if found.certified else "upper estimate of the load factor"
     number = cut(found.load_factor, most=not found.certified)
     said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.4g}"
-    if ratio < 1.0:
+    if ratio < 0.0:
+        said = (
+            f"the {word} {number} is below zero: in this state the structure falls before the live load acts"
+        )
+        meaning = f"the demand {demand:.4g} cannot be met"
+    elif ratio < 1.0:
         meaning = "the demand is not reached"
     elif found.certified:
         meaning = "the demand is reached"

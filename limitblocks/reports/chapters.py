@@ -79,7 +79,9 @@ def document(
     """Return the report on `model`: `known` are its facts, `picture` is the mechanism of section `drawn`."""
     title = labels.title or model.name or UNTITLED
     place = 0
-    chapters = [_answer(model, sections, labels), *_side_by_side(sections)]
+    first = _answer(model, sections, labels)
+    failed = tuple(Text(why, warning=True) for why in labels.failed)
+    chapters = [Chapter(first.title, (*first.parts, *failed)), *_side_by_side(sections)]
     shown = []
     for one, result in zip(sections, results, strict=True):
         moving = picture if one is drawn else None

@@ -13,7 +13,15 @@ from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.errors import few
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
-from limitblocks.reports.words import assumed, counted, joint_words, load_words, resultant_words, times
+from limitblocks.reports.words import (
+    assumed,
+    counted,
+    joint_words,
+    laid_on,
+    load_words,
+    resultant_words,
+    times,
+)
 from limitblocks.shown import many
 
 
@@ -46,7 +54,7 @@ def facts(model: Model) -> dict[str, Any]:
         "block_types": counted(_shape(len(block.faces), len(block.vertices)) for block in model.blocks),
         "interface_types": counted(_polygon(len(interface.polygon)) for interface in model.interfaces),
         "dead": load_words(model.dead),
-        "live": load_words(model.live),
+        "live": load_words(model.live, laid_on(model)),
         "dead_resultant": resultant_words(model, model.dead),
         "live_resultant": resultant_words(model, model.live),
         "contacts": "; ".join([diagnosis.accuracy, *diagnosis.nothing]),

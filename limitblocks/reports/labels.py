@@ -10,7 +10,7 @@ from limitblocks.errors import LimitBlocksError
 
 @dataclass(frozen=True)
 class Labels:
-    """Title, author, project and notes of a report, and the load factor that is required.
+    """Title, author, project and notes of a report, the load factor required, what was asked in vain.
 
     Raises
     ------
@@ -23,6 +23,7 @@ class Labels:
     project: str = ""
     notes: str = ""
     demand: float | None = None
+    failed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         if self.demand is not None and not (isfinite(self.demand) and self.demand > 0.0):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
 from functools import cached_property
@@ -194,6 +194,7 @@ def report(
     project: str = "",
     notes: str = "",
     demand: float | None = None,
+    failed: Sequence[str] = (),
 ) -> Report:
     """Return a report on `model` and the results of its analyses.
 
@@ -211,6 +212,9 @@ def report(
     demand : float, optional
         Load factor that the structure is required to carry. The report then says how many times this
         demand the load factor is; it says nothing of compliance with a code.
+    failed : sequence of str
+        Analyses that gave no answer, a sentence each with why: warnings beside the load factor to design
+        with.
 
     Raises
     ------
@@ -218,7 +222,7 @@ def report(
         A result is of an unknown kind or belongs to another model, or the demand is no finite number > 0.
     """
     checked_model(model)
-    labels = Labels(title, author, project, notes, demand)
+    labels = Labels(title, author, project, notes, demand, tuple(failed))
     made = Report(model, tuple(checked(model, result) for result in results), labels=labels)
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
     return made

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from inspect import getdoc
 from math import floor, log10
@@ -12,14 +12,17 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.arrays import Array
 from limitblocks.errors import few
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import AddedMass, MassProportional
+from limitblocks.mechanics.loads import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.forces import left_still
 from limitblocks.mechanics.loads.load import along, triple
 from limitblocks.model import Model
+from limitblocks.shown import many
 from limitblocks.units import gravity
 
+MOST_FORCES = 8  # listed one by one
 _OF_BLOCK = re.compile(r"block ('.*?'): (.*)")
 
 
@@ -37,11 +40,45 @@ def assumed(joint: Any) -> tuple[str, ...]:
     return sentences or ((summary,) if summary else ())
 
 
-def load_words(load: Load) -> list[str]:
-    """Return a line a term, with its factor where that is not one."""
+def load_words(load: Load, weighs: Mapping[str, float] | None = None) -> list[str]:
+    """Return a line a term, with its factor where that is not one; many forces are one line.
+
+    That says which part of what `weighs` on their blocks they are, N by the name of the block.
+    """
+    forces = [term for term in load.terms if isinstance(term[1], PointForce)]
+    if len(forces) > MOST_FORCES:
+        rest = Load(tuple(term for term in load.terms if not isinstance(term[1], PointForce)))
+        return [*load_words(rest), _as_one(forces, weighs or {})]
     return [
         f"{factor:g} × {one.in_words()}" if factor != 1.0 else one.in_words() for factor, one in load.terms
     ]
+
+
+def laid_on(model: Model) -> dict[str, float]:
+    """What the dead load weighs on each free block, N, beside masses, which have an inertia of their own."""
+    masses = MassProportional | AddedMass
+    laid = Load(tuple(term for term in model.dead.terms if not isinstance(term[1], masses)))
+    down = -laid.on(model.free_blocks)[:, 2]
+    return {block.name: float(weight) for block, weight in zip(model.free_blocks, down, strict=True)}
+
+
+def _as_one(forces: Sequence[tuple[float, Any]], weighs: Mapping[str, float]) -> str:
+    """Forces in one line."""
+    pushed: dict[str, Array] = {}
+    for factor, one in forces:
+        pushed[one.block] = pushed.get(one.block, np.zeros(3)) + factor * np.array(one.force)
+    total = sum(pushed.values(), np.zeros(3))
+    size = float(np.linalg.norm(total))
+    said = f"{len(forces)} forces on {many(len(pushed), 'block')}"
+    if not size:
+        return f"{said} without a resultant"
+    said += f", {size / 1e3:.4g} kN {along((total / size).tolist())}"
+    down = np.array([weighs.get(name, 0.0) for name in pushed])
+    if (down <= 0.0).any():
+        return said
+    alike = np.allclose(list(pushed.values()), np.outer(down / down.sum(), total), atol=1e-9 * size)
+    part = f": {size / down.sum():.4g} × what weighs on them in the dead load, as the inertia of fill"
+    return said + part * alike
 
 
 def resultant_words(model: Model, load: Load) -> str:

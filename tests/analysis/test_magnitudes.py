@@ -47,6 +47,32 @@ def test_what_a_colleague_would_ask(model, question):
     assert asked.startswith(question)
 
 
+@pytest.mark.parametrize(
+    ("weight", "fill", "pressure"),
+    [
+        (18.0, "unit weight is 18 N/m3: kN/m3?", "unit weight is 18 N/m3: kN/m3?"),
+        (1800.0, "unit weight is 1800 N/m3: kg/m3?", None),  # of soil; its pressure may grow as slowly
+        (1000.0, "unit weight is 1000 N/m3: kg/m3?", "unit weight is 1000 N/m3: kg/m3?"),  # of water
+        (
+            18e6,
+            "unit weight is 1.8e+07 N/m3, more than of concrete",
+            "unit weight is 1.8e+07 N/m3, more than",
+        ),
+        (2.5e3, None, None),  # expanded clay
+        (9.81e3, None, None),
+        (25e3, None, None),
+        (1.0, None, None),  # the load factor is the unit weight
+    ],
+)
+def test_unit_weights_of_fill_and_of_what_presses_a_face_are_asked_about(weight, fill, pressure):
+    model = block()
+    dead = replace(model, dead=model.dead + lb.loads.fill(weight, 2.0))
+    live = replace(model, live=lb.loads.pressure("block 1", facing=(-1, 0, 0), unit_weight=weight, level=1.0))
+    for asked, said in ((questions(dead), fill), (questions(live), pressure)):
+        assert len(asked) == bool(said)
+        assert not said or asked[0].startswith(f"fill or pressure: {said}")
+
+
 @pytest.mark.parametrize("name", structures.EXAMPLES)
 def test_plausible_models_raise_no_question(name):
     assert questions(structures.EXAMPLES[name](lb.OrdunaLourenco(0.8, compressive_strength=3e5))) == []

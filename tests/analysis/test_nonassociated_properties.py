@@ -166,6 +166,8 @@ def test_not_converged_carries_the_best_result(reference, analysis):
     result = caught.value.result
     assert isinstance(result, lb.results.Nonassociated)
     assert result.residuals.worst.name in str(caught.value)
+    assert "result" not in str(caught.value)  # a capacity curve quotes it where no error is to be had
+    assert "ask stability first" in " ".join(caught.value.__notes__)
     assert result.residuals.worst.value > 1e-6
 
 

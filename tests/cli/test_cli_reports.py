@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from portal_by_hand import JAMMED, PORTAL, run, solved
+from portal_by_hand import JAMMED, PORTAL, run, solved, stopped
 
 import limitblocks as lb
 
@@ -38,6 +38,22 @@ def test_report_does_without_bounds_where_dilating_joints_jam(solver, file):
     assert done.exit_code == 0
     assert "warning: no bounds: the live load can grow without limit" in done.stderr
     assert "unlimited" in file.with_suffix(".html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("option", ["--nonassociated", "--path"])
+def test_report_keeps_the_other_chapters_where_an_analysis_has_no_answer(solver, file, option):
+    """The bounds, the state reached and what to do are in it; the exit code says that it is not all."""
+    solver(stopped, stopped)
+    done = run("report", file, option)
+    page = file.with_suffix(".html")
+    assert (done.exit_code, done.stdout.strip()) == (3, str(page))
+    assert "error: not converged: flow residual 1e-3" in done.stderr
+    text = page.read_text(encoding="utf-8")
+    word = {"--nonassociated": "non-associated load factor", "--path": "load path"}[option]
+    assert f"No {word}: not converged: flow residual 1e-3" in text
+    assert "Associated bounds" in text
+    assert "Non-associated state, not converged" in text
+    assert "design with, upper estimate" in text
 
 
 def test_report_refuses_to_replace_what_it_reads(file, result):

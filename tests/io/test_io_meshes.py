@@ -263,6 +263,15 @@ def test_model_file_takes_no_arguments(tmp_path):
     assert lb.read(path).digest == STRUCTURES["portal"].digest
     with pytest.raises(lb.ModelError, match="a model file says joint, units itself"):
         lb.read(path, joint=JOINT, units="mm")
+    for name, given in {
+        "live": DIRECTION,
+        "dead": DIRECTION,
+        "gap": 1e-3,
+        "angle": 0.01,
+        "width": 0.0,
+    }.items():
+        with pytest.raises(lb.ModelError, match=f"a model file says {name} itself; .*replace"):
+            lb.read(path, **{name: given})
 
 
 def test_nothing_is_overwritten_without_being_asked(tmp_path):

@@ -213,6 +213,14 @@ def test_a_demand_gives_a_ratio_and_a_verdict(load_factor, demand, shown, reache
     assert ("is open" in upper) == (load_factor >= demand)
 
 
+def test_below_zero_no_demand_can_be_met():
+    for certified in (True, False):
+        found = verdict(Answer(-1.355, certified, ""), 0.1)
+        assert "-1.355 is below zero: in this state the structure falls" in found.text
+        assert "the demand 0.1 cannot be met" in found.text
+        assert "times" not in found.text
+
+
 def test_a_demand_is_in_json_and_a_wrong_one_is_refused(house, report, results):
     content = json.loads(report.json)
     assert content["demand"] == 0.1

@@ -27,6 +27,11 @@ UNCHECKED = (
     "confirmation as a fixed point were known, and check_mcp finds the first"
 )
 
+ASK_FIRST = (
+    "ask stability first, lb.stability(model) or limitblocks stability MODEL: where nothing but friction at "
+    "its sides holds a stone there is often no such load factor; docs/no-convergence.md says what to do next"
+)
+
 
 def end(flow: Flow, state: State) -> Iteration:
     """What the polished end tells the user."""
@@ -126,10 +131,10 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
     said = f"; {UNBOUNDED}" if result.astray else reached
-    return NotConverged(
-        f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}; the error's result holds that state",
-        result,
-    )
+    error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
+    if not interrupted:
+        error.add_note(ASK_FIRST)
+    return error
 
 
 def _status(flow: Flow, residuals: Residuals, how: str, tolerance: float) -> Status:
