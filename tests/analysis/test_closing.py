@@ -219,6 +219,22 @@ def test_of_a_large_model_one_half_comes_before_rounds(monkeypatch):
     assert lb.check_mcp(model, found).passed
 
 
+@pytest.mark.parametrize(("share", "half"), [(1e-6, True), (1e-2, False)])
+def test_a_half_that_is_just_above_the_tolerance_is_polished_in_the_whole(share, half, monkeypatch):
+    lift = Planar.lifted
+
+    def coarse(plane, state):
+        up = lift(plane, state)
+        return replace(up, x=(1.0 + share) * up.x)
+
+    model = symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", coarse)
+    found = lb.nonassociated(model, means=SECOND)
+    assert found.how.endswith("in one half") is half
+    assert lb.check_mcp(model, found).passed
+
+
 def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
     lift = Planar.lifted
 

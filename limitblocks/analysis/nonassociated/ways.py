@@ -66,7 +66,7 @@ def first_to_solve(
         ways = (_large_ways if large else _large_planar_ways)(flow, x0, scale, tolerance, record)
     else:
         ways = _ways(flow, x0, scale, means, tolerance, record)
-    for state, how in ways if len(means) == 1 else _then(ways, half):
+    for state, how in ways if len(means) == 1 else _then(ways, half, flow, tolerance):
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
@@ -78,12 +78,15 @@ def first_to_solve(
     return state, f"{way}, {INTERRUPTED}" if interrupted else way
 
 
-def _then(ways: Iterator[tuple[State, str]], half: Half) -> Iterator[tuple[State, str]]:
-    """The first way, then one half, then the other ways."""
+def _then(
+    ways: Iterator[tuple[State, str]], half: Half, flow: Flow, tolerance: float
+) -> Iterator[tuple[State, str]]:
+    """The first way, then one half, polished in the whole, then the other ways."""
     yield next(ways)
     found = half()
     if found is not None:
-        yield found
+        wanting = defect(flow, found[0]) > tolerance  # residuals of the half may double in the whole
+        yield _polished(flow, *found, tolerance) if wanting else found
     yield from ways
 
 
