@@ -5,11 +5,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
+from scipy.sparse import csr_array
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve
 from limitblocks.practice.displaced import assembly_of
-from limitblocks.practice.snapped import falls, snapped
+from limitblocks.practice.snapped import TIGHT, falls, linear_program, snapped
 from limitblocks.practice.touching import pressed_in
 
 QUARTER = np.array([[0.0, -1.0], [1.0, 0.0]])
@@ -112,3 +113,18 @@ def test_a_structure_that_is_held_does_not_snap():
     )
     assert not falls(there)
     assert snapped(there) == (there, ())
+
+
+def test_rows_that_differ_by_rounding_hold_nothing():
+    """Of four rows three are independent within 1e-10: x1 = x3 = -1 breaks the third by 2.5e-14 and falls."""
+    rows = [
+        [5.19311888e-9, 0.01, 0, 0],
+        [0, 0, 5.19309398e-9, 0.01],
+        [-8.30897676e-9, -0.01, 8.30897676e-9, 0.01],
+        [-0.04, -0.01, 0.04, 0.01],
+    ]
+    motion = [-1.0, 5.19311888e-7, -1.0, 5.19309398e-7]
+    assert np.abs(rows @ np.array(motion)).max() < 1e-13
+    held = csr_array(rows), np.zeros(4)
+    found = linear_program([1, 0, 1, 0], None, None, *held, (-1, 1), "highs", options=TIGHT)
+    assert found.fun == pytest.approx(-2.0, rel=1e-9)

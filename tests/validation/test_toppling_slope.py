@@ -56,3 +56,10 @@ def test_what_topples_by_hand_stands_by_the_static_theorem():
     if below:  # the solution by hand
         assert result.load_factor == pytest.approx(by_hand(0.7), rel=1e-6)
         assert "below zero" in lb.report(model, result).text.replace("\n", " ")
+
+
+def test_a_push_on_one_stiff_block_is_followed_from_the_first_increment():
+    """The lowest block slides alone, W = 1 MN: .9 cos 30 - sin 30, reached by increments below it."""
+    path = lb.load_path(slope(lb.PointContact(0.9)))
+    assert path.load_factor == pytest.approx(0.9 * math.cos(DIP) - math.sin(DIP), rel=1e-9)
+    assert sum(0.0 < step.load_factor < 0.2 for step in path.steps if step.kind != "polish") >= 3

@@ -220,16 +220,9 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
     used += walk.factorisations
     if not walk.arrived:
         return Tried(None, used, walk.returned)
-    visits = list(walk.visits(first))
-    for fold in _folds(visits):
-        for k in fold:
-            one = _without_barrier(path, weights, visits[k]._replace(rho=visits[fold[0]].rho), left)
-            used += one.factorisations
-            if one.increment is None:
-                return Tried(None, used)
-            visits[k] = one.increment.visits[0]._replace(point=one.increment.end)
+    visits = walk.visits(first)
     met = _without_barrier(path, weights, visits[-1], left)
-    whole = None if met.increment is None else replace(met.increment, visits=tuple(visits))
+    whole = None if met.increment is None else replace(met.increment, visits=visits)
     return Tried(whole, used + met.factorisations)
 
 

@@ -18,6 +18,7 @@ from limitblocks.analysis.nonassociated.start import (
     Start,
     flow_of,
     load_scale,
+    refuse_jammed,
     refuse_unlimited,
     start_stresses,
 )
@@ -90,6 +91,9 @@ def load_path(
         range, or `start` belongs to another model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
+    UnlimitedLoad
+        If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
+        without limit.
     NotConverged
         If the path ends above the tolerance, or the user interrupts it; carries the last state.
     """
@@ -97,6 +101,7 @@ def load_path(
         raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
     flow, enclosing = flow_of(model, dilatancy, turning)
     problem = flow.problem
+    refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     compliance = _compliance(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))

@@ -27,6 +27,7 @@ LEAST_THETA = 0.05  # part of theta that a move leaves
 MOST_THETA = 3.0  # and its largest growth
 WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
 FLOW = 0.05  # of theta: how far off the flow may be
+ROUNDING = 4.0 * float(np.finfo(float).eps)  # of the stresses: what the compliance makes of it is no error
 
 
 @dataclass(frozen=True)
@@ -152,7 +153,8 @@ def theta_slope(path: Path, z: Point) -> Equations:
 
 def distance(path: Path, z: Point, left: Equations) -> float:
     """Return how far a point is from the path, products by the slack F x + g; at most one is near."""
-    off = float(np.abs(left.flow).max()) / (FLOW * z.theta)
+    rounding = ROUNDING * path.rho(z.theta) * path.elastic * np.abs(z.x)
+    off = float((np.abs(left.flow) / (FLOW * z.theta + rounding)).max())
     return max(off, spread(path.cones, z.s + left.slack, z.y, path.target(z.theta)) / WIDE)
 
 
