@@ -29,10 +29,8 @@ def largest_in_rows(matrix: sparse.csr_array) -> Array:
 
 def positions(owner: Indices) -> Indices:
     """Running number of each entry among those of its owner, shape (len,)."""
-    order = np.argsort(owner, kind="stable")
-    first = np.searchsorted(owner[order], owner[order])
     position = np.empty(len(owner), dtype=np.int64)
-    position[order] = np.arange(len(owner)) - first
+    position[np.argsort(owner, kind="stable")] = repeated(np.bincount(owner))[1]
     return position
 
 

@@ -8,6 +8,7 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
+from scipy import sparse
 
 from limitblocks.arrays import Array, Indices, owned
 from limitblocks.problem.limit_problem import LimitProblem
@@ -72,36 +73,38 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     of_row = of_member[problem.cones.member]
     count = int(max(of_member.max(initial=-1), of_stress.max(initial=-1))) + 1
     columns, column = owned(of_stress, count)
-    rows, row = owned(of_row, count)
+    rows, _ = owned(of_row, count)
     for its, linear, cones in _alike(problem, of_member, of_stress, count):
         c, r = np.bincount(of_stress)[its[0]], linear + sum(cones)
-        dense = []
-        for matrix in (problem.F.tocoo(), problem.G.tocoo()):
-            index = np.full(count, -1)
-            index[its] = np.arange(len(its))
-            keep = index[of_stress[matrix.col]] >= 0
-            i, j, data = matrix.row[keep], matrix.col[keep], matrix.data[keep]
-            dense.append(np.zeros((len(its), r, c)))
-            dense[-1][index[of_stress[j]], row[i], column[j]] = data * problem.units.row[i]
-        own = columns[its, :c]
+        own, its_rows = columns[its, :c], rows[its, :r]
+        unit = problem.units.row[its_rows]
         at = strain[own].transpose(0, 2, 1, 3)
         yield Place(
             columns=own,
-            rows=rows[its, :r],
+            rows=its_rows,
             linear=linear,
             cones=cones,
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
             strain=at,
             middle=_means(at, problem.stress_interface[own[:, 0]]),
-            F=dense[0],
-            G=dense[1],
-            g=(problem.g * problem.units.row)[rows[its, :r]],
+            F=_dense(problem.F, its_rows, column)[..., :c] * unit[..., None],
+            G=_dense(problem.G, its_rows, column)[..., :c] * unit[..., None],
+            g=problem.g[its_rows] * unit,
         )
+
+
+def _dense(matrix: sparse.csr_array, rows: Indices, column: Indices) -> Array:
+    """Rows (K, r) of a matrix as an array (K, r, most), its columns at their positions `column` in places."""
+    own, most = matrix[rows.ravel()], int(column.max(initial=-1)) + 1
+    narrow = sparse.csr_array((own.data, column[own.indices], own.indptr), shape=(rows.size, most))
+    return np.asarray(narrow.toarray().reshape(*rows.shape, most))
 
 
 def _means(values: Array, of: Indices) -> Array:
     """Mean of values (K, ...) over all of the same number in `of` (K,), at each of them."""
     _, which, count = np.unique(of, return_inverse=True, return_counts=True)
+    if len(count) == len(of):
+        return values
     total = np.zeros((len(count), *values.shape[1:]))
     np.add.at(total, which, values)
     mean = total / count.reshape(-1, *[1] * (values.ndim - 1))
