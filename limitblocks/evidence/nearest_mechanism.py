@@ -47,7 +47,9 @@ def nearest_mechanism(
         share = _share(left, u)
         if share <= EXACT and not negative.any():
             return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
-        if share * (share / before) ** further > EXACT:  # at this rate not within the rounds
+        if (
+            share > EXACT and share * (share / before) ** further > EXACT
+        ):  # not within the rounds at this rate
             return None
         kept &= ~negative[may.ray]
     return None

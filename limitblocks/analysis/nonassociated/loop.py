@@ -15,12 +15,11 @@ from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
-    close_bounds,
     flow_of,
-    flowing_state,
     load_scale,
     refuse_jammed,
     refuse_unlimited,
+    solving_state,
 )
 from limitblocks.analysis.nonassociated.ways import Half, first_to_solve
 from limitblocks.analysis.one_thread import one_thread
@@ -111,9 +110,8 @@ def nonassociated(
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     history, record = recorder(progress)
-    given = close_bounds(model, enclosing, tolerance) if flow.associated and start is None else start
-    state = flowing_state(model, flow, given)
-    if state is not None and mcp_residuals(flow, state).worst.value <= tolerance:
+    state = solving_state(model, flow, enclosing, start, tolerance)
+    if state is not None:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
     elif (proven := state_without_solution(flow)) is not None:
         state, how = proven, "statics alone"

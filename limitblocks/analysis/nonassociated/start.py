@@ -18,12 +18,13 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError, SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.residuals import Residuals, static_residuals
+from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
+CLOSER = (0.1, 1e-3)  # of the tolerance: bounds that may solve where flow is associated
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
 
 TURNED = "with this turning a joint can give power, so that solutions may be lower than without friction"
@@ -81,21 +82,33 @@ def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flo
     return Flow(own_units(model, enclosing), slope, about), enclosing
 
 
-def close_bounds(model: Model, enclosing: Bracket, tolerance: float) -> Bounds | None:
-    """Bounds a tenth of the tolerance apart; those of the bracket where no solver comes as close."""
-    if enclosing.bounds is None:
+def solving_state(
+    model: Model, flow: Flow, enclosing: Bracket, given: Start | None, tolerance: float
+) -> State | None:
+    """What solves without a path, polished: a result given, or, where flow is associated, the bounds.
+
+    Their gap is a sum over the structure: a joint may need bounds that are closer than the tolerance.
+    """
+    if given is not None:
+        return solution(model, flow, given, tolerance)
+    if not flow.associated or enclosing.bounds is None:
         return None
-    try:
-        return bounds(model, tolerance=min(tolerance, enclosing.bounds.tolerance) / 10)
-    except SolverFailure:
-        return enclosing.bounds
+    for share in CLOSER:
+        try:
+            close = bounds(model, tolerance=share * min(tolerance, enclosing.bounds.tolerance))
+        except SolverFailure:
+            close = enclosing.bounds
+        if (state := solution(model, flow, close, tolerance)) is not None:
+            return state
+    return None
 
 
-def flowing_state(model: Model, flow: Flow, given: Start | None) -> State | None:
-    """A result as a state of the flow rule, polished: with associated flow bounds are a solution."""
+def solution(model: Model, flow: Flow, given: Start, tolerance: float) -> State | None:
+    """A result as a state of the flow rule, polished, if it is a solution within the tolerance."""
     if not isinstance(given, Nonassociated | Bounds) or given.digest != model.digest:
         return None
-    return polish(flow, state_of(model, flow.problem, given))
+    state = polish(flow, state_of(model, flow.problem, given))
+    return state if mcp_residuals(flow, state).worst.value <= tolerance else None
 
 
 def state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
