@@ -50,7 +50,7 @@ def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
     for delta in PROXIMAL:
         if least <= 0.01 * TOLERANCE:
             break
-        found = step(flow, now, delta, largest)
+        found = _step(flow, now, delta, largest)
         if found is None:
             break
         now = found
@@ -60,7 +60,7 @@ def pivoted(flow: Flow, state: State, largest: int = LARGEST) -> State:
     return best
 
 
-def step(flow: Flow, now: State, delta: float, largest: int) -> State | None:
+def _step(flow: Flow, now: State, delta: float, largest: int) -> State | None:
     """One step from a state, None where no pivots lead to its end or too many rows are not plain."""
     linear, found = _Linearised(flow, now, delta), None
     unsure = np.zeros(0, dtype=int)

@@ -21,7 +21,6 @@ from limitblocks.analysis.nonassociated.means import (
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
-from limitblocks.analysis.nonassociated.proximal import Still
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish, polished
@@ -182,7 +181,7 @@ def _large_planar_ways(
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models in a plane; rounds take off the compliance left, 1e-8 of flow."""
     for one in LARGE_PLANAR_MEANS:
-        end = _tracked(flow, x0, scale, one, record, closing=Still(flow))
+        end = _tracked(flow, x0, scale, one, record)
         yield end
     yield _in_rounds(Closing(flow, tolerance), *end)
     yield _increments(flow, x0, scale, tolerance, record)
@@ -195,7 +194,7 @@ def _tracked(
     one: Means,
     record: Callable[[Iteration], None],
     softening: float = SOFTENING,
-    closing: Closing | Still | None = None,
+    closing: Closing | None = None,
 ) -> tuple[State, str]:
     """The end of one path from stresses x, and which path it was."""
     problem = flow.problem
@@ -208,7 +207,7 @@ def _tracked(
         progress=lambda at: record(_point(problem, at)),
         closing=closing,
     )
-    how = f"{info.how}{closing.how}" if isinstance(closing, Closing) and closing.succeeded else info.how
+    how = f"{info.how}{closing.how}" if closing and closing.succeeded else info.how
     return state, f"{how}, {INTERRUPTED}" if info.interrupted else how
 
 
