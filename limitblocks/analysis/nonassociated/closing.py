@@ -30,12 +30,12 @@ Round = tuple[Array, Array]  # stresses after a round, and what it changed
 
 @dataclass
 class Closing:
-    """Rounds from a state; how many they were the last time, and whether they led to a solution."""
+    """Rounds from a state; how many they were the last time, and the solution they led to."""
 
     flow: Flow
     tolerance: float
     rounds: int = 0
-    succeeded: bool = False
+    solution: State | None = None
 
     def __post_init__(self) -> None:
         self.nearest = NearestStresses(self.flow.problem, self.flow.problem.compliance)
@@ -43,7 +43,7 @@ class Closing:
     def __call__(self, state: State) -> State:
         """Return the best state met."""
         best, self.rounds = closed(self.flow, self.nearest, state, self.tolerance)
-        self.succeeded = defect(self.flow, best) <= self.tolerance
+        self.solution = best if defect(self.flow, best) <= self.tolerance else None
         return best
 
     @property

@@ -207,7 +207,7 @@ def _tracked(
         progress=lambda at: record(_point(problem, at)),
         closing=closing,
     )
-    how = f"{info.how}{closing.how}" if closing and closing.succeeded else info.how
+    how = f"{info.how}{closing.how}" if closing and state is closing.solution else info.how
     return state, f"{how}, {INTERRUPTED}" if info.interrupted else how
 
 
