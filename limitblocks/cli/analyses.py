@@ -65,7 +65,8 @@ def each(
     """
     from limitblocks.evidence.ending import Status
 
-    found, failed = [], {}
+    found: list[Any] = []
+    failed: dict[str, SolveError] = {}
     for word, (solve, settings) in asked.items():
         try:
             result = solve(model, **settings)
