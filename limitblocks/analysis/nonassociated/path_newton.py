@@ -36,10 +36,10 @@ class Newton:
             np.add.at(H, places, t.data)
         parts, self.flexibility = layout.uncoupled(H), np.zeros_like(H)
         if self.turning is None:
-            inverse, self.determinants = inverses(parts)
+            layout.uncoupled(self.flexibility)[:], self.determinants = inverses(parts)
         else:  # pivots of Table 5 may be small
-            inverse, self.determinants = np.linalg.inv(parts), np.linalg.det(parts)
-        layout.uncoupled(self.flexibility)[:] = inverse
+            layout.uncoupled(self.flexibility)[:] = np.linalg.inv(parts)
+            self.determinants = np.asarray(np.linalg.det(parts))
         C = layout.compatibility
         self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
 
