@@ -44,6 +44,7 @@ from limitblocks.evidence.residuals import (
     nearest,
     static_residuals,
 )
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
@@ -92,6 +93,8 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
 
     Raises
     ------
+    ModelError
+        If the tolerance is no number above 0.
     NoEquilibrium
         If the dead loads alone cannot stand; names the blocks that fall.
     UnlimitedLoad
@@ -103,6 +106,7 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
     -----
     Solved once for each model and tolerance. Proven bounds of large models may be farther apart, and say so.
     """
+    number(tolerance, "tolerance", "", above=0.0)
     tell = progress or (lambda _: None)
     return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance, tell))
 

@@ -215,6 +215,8 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]
     else:
+        if isinstance(given, str) or len(given) != 2:
+            raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
     if not _pace(moving.assembly_of(model), control, rates) > STILL:
