@@ -47,9 +47,8 @@ def nearest_mechanism(
         share = _share(left, u)
         if share <= EXACT and not negative.any():
             return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
-        if (
-            share > EXACT and share * (share / before) ** further > EXACT
-        ):  # not within the rounds at this rate
+        # not within the rounds that are left at this rate
+        if share > EXACT and share * (share / before) ** further > EXACT:
             return None
         kept &= ~negative[may.ray]
     return None

@@ -24,7 +24,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     residuals,
     theta_slope,
 )
-from limitblocks.analysis.nonassociated.path_newton import Newton
+from limitblocks.analysis.nonassociated.path_newton import Newton, inverses
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.analysis.polish import defect, polish
@@ -251,6 +251,24 @@ def test_the_derivative_is_that_of_the_equations(joint, size, rule):
     products = [path.cones.product(point.s, point.y) for point in points]
     asked = path.cones.product(z.s, q.multiplier)
     np.testing.assert_allclose((products[0] - products[1]) / (2.0 * h), asked, atol=1e-6)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2, 3, 4, 5), (3, 0, 4, 1, 5, 2)])
+def test_parts_are_inverted_without_row_exchanges_where_one_half_does_not_depend_on_the_other(order):
+    """Definite halves [[A, B], [0, D]] of sizes 1e-9 to 1, in any order; a determinant may be negative."""
+    random = np.random.default_rng(0)
+    halves = np.zeros((2, 50, 6, 6))
+    for part in (slice(0, 3), slice(3, 6)):
+        root = random.normal(size=(2, 50, 3, 3)) * np.logspace(-4.5, 0.0, 50)[:, None, None]
+        halves[..., part, part] = root @ np.swapaxes(root, -1, -2)
+    halves[..., :3, 3:] = random.normal(size=(2, 50, 3, 3)) * np.logspace(-9.0, 0.0, 50)[:, None, None]
+    halves[1, :, :3] *= -1.0
+    matrices = halves[..., order, :][..., order]
+    inverse, determinants = inverses(matrices)
+    assert (determinants[0] == 1.0).all()
+    assert (determinants[1] == -1.0).all()
+    error = np.linalg.norm(inverse @ matrices - np.eye(6), axis=(2, 3))
+    assert (error <= 1e-14 * np.linalg.cond(matrices)).all()
 
 
 def test_a_point_that_ran_away_is_refused_without_a_word_on_the_terminal(capfd):

@@ -123,7 +123,8 @@ def _result(
     asked: tuple[int, int],
 ) -> LoadFactorRange:
     collected, flow, live = task.collected, task.flow, task.flow.problem.units.live
-    answers = [answer(task.model, flow, task.enclosing, task.permanent, one) for one in collected.all()]
+    states = collected.all(first.load_factor * live if first else np.nan)
+    answers = [answer(task.model, flow, task.enclosing, task.permanent, one) for one in states]
     answers = sorted([*answers, *([first] if first else [])], key=lambda one: one.load_factor)
     return LoadFactorRange(
         load_path=first,

@@ -28,7 +28,6 @@ from limitblocks.arrays import Array
 # Newton's method may find no first point so far from the elastic part
 SPANS = (10.0, 1000.0)
 ARRIVED = 1.01  # times the last theta
-REACHED = 1.0 + 1e-6  # times the theta of a fold
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
 SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
@@ -80,8 +79,7 @@ def _folds(at: Sequence[Visit]) -> tuple[tuple[int, int], ...]:
             fold = k - 1
             while at[fold + 1].rho < at[fold].rho:
                 fold += 1
-            back = REACHED * at[fold].rho
-            later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= back)
+            later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
             k = next(later, len(at) - 1)
             folds.append((fold, k))
         k += 1
@@ -140,7 +138,7 @@ class _Stretch(Walk):
                 self._retreat()
                 return
             self.fold = min(self.fold, self.base.point.theta, self.z.theta)
-        elif self.kept and sign == self.points[0].sign and self.z.theta <= REACHED * self.fold:
+        elif self.kept and sign == self.points[0].sign and self.z.theta <= self.fold:
             self.fold = np.inf
         self.kept.append(self.z)
         super()._accept(sign, correction, tangent)

@@ -34,15 +34,19 @@ class Newton:
             t = self.turning.tocoo()
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
-        self.stiffness, self.flexibility = layout.uncoupled(H), np.zeros_like(H)
-        layout.uncoupled(self.flexibility)[:] = np.linalg.inv(self.stiffness)
+        parts, self.flexibility = layout.uncoupled(H), np.zeros_like(H)
+        if self.turning is None:
+            layout.uncoupled(self.flexibility)[:], self.determinants = inverses(parts)
+        else:  # pivots of Table 5 may be small
+            layout.uncoupled(self.flexibility)[:] = np.linalg.inv(parts)
+            self.determinants = np.asarray(np.linalg.det(parts))
         C = layout.compatibility
         self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
 
     @property
     def sign(self) -> float:
         """Sign of det J, but for a factor that is the same all along the path."""
-        return float(np.prod(np.sign(np.linalg.det(self.stiffness)))) * _sign(self.lu)
+        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu)
 
     def solve(self, *sides: Equations) -> list[Point]:
         """Return the direction d with J d = q for each q, refined once far down the path.
@@ -91,6 +95,25 @@ class _Columns(NamedTuple):
     work: Array
     slack: Array
     multiplier: Array
+
+
+def inverses(matrices: Array) -> tuple[Array, Array]:
+    """Return the inverses of many small matrices (..., k, k), and the signs of their determinants (...).
+
+    By Gauss and Jordan without row exchanges, all at once, in a third of the time of LAPACK or less. It suits
+    flows of constant direction: what opens, closes and bends depends on no slip, and both are definite.
+    """
+    a = np.ascontiguousarray(np.moveaxis(matrices, (-2, -1), (0, 1)))
+    pivots = np.empty(a.shape[1:])
+    for i in range(len(a)):
+        pivots[i] = a[i, i]
+        row = a[i] / pivots[i]
+        row[i] = 1.0 / pivots[i]
+        column = a[:, i].copy()
+        column[i] = a[:, i] = a[i] = 0.0
+        a -= column[:, None] * row
+        a[i] = row
+    return np.moveaxis(a, (0, 1), (-2, -1)), np.prod(np.sign(pivots), axis=0)
 
 
 def _parts(q: Equations) -> tuple[Array | float, ...]:
