@@ -174,7 +174,7 @@ def test_rows_are_classed_by_their_numbers():
 
 
 def test_unlike_entries_of_one_sum_are_of_different_kinds():
-    """Entries are weighed by cosines a, b: those of sizes b and a at places 0 and 1 have one sum, a b = b a."""
+    """Entries are weighed by cosines a, b: those of sizes b and a, at places 0 and 1, have one sum."""
     a, b = np.cos(np.arange(2) ** 2 + 1.0)
     owner, place = np.array([0, 1, 2, 3, 3]), np.array([0, 1, 0, 0, 1])
     for data in ([b, a, b, b, 0.0], [1.0, 2.0, 1.0, 3.0, 4.0]):
