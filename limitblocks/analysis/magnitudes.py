@@ -87,6 +87,13 @@ def of_fill(weight: float, density: float = _OF_FILL) -> list[str]:
     return [f"fill or pressure: {question}" for question in asked]
 
 
+def of_passive(coefficient: float) -> list[str]:
+    """Return the question for a coefficient of passive earth pressure: Rankine's is one or more."""
+    if coefficient < 1.0:
+        return [f"coefficient of passive pressure is {coefficient:g}, below 1: that of active pressure?"]
+    return []
+
+
 def of_axles(axles: Sequence[float]) -> list[str]:
     """Return the question for the axle loads of a vehicle, N."""
     if (heaviest := max(axles)) < _LIGHT:

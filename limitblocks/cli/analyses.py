@@ -65,12 +65,18 @@ def each(
     """
     from limitblocks.evidence.ending import Status
 
-    found, failed = [], {}
+    found: list[Any] = []
+    failed: dict[str, SolveError] = {}
     for word, (solve, settings) in asked.items():
         try:
             result = solve(model, **settings)
         except SolveError as error:
             failed[word], result = error, getattr(error, "result", None)
+        except KeyboardInterrupt:
+            if not found:
+                raise
+            failed[word] = SolveError("interrupted before there was anything to write")
+            break
         found += [] if result is None else [result]
         if getattr(result, "status", None) is Status.INTERRUPTED:
             break

@@ -85,7 +85,7 @@ def backfill(
     with clean_errors():
         from dataclasses import replace
 
-        from limitblocks.analysis.magnitudes import of_fill
+        from limitblocks.analysis.magnitudes import of_fill, of_passive
         from limitblocks.io import read
         from limitblocks.loads import fill
         from limitblocks.practice import passive_fill, reinforced
@@ -93,7 +93,7 @@ def backfill(
 
         refuse_existing(output, force, model)
         structure = read(model)
-        for question in of_fill(unit_weight):
+        for question in (*of_fill(unit_weight), *of_passive(passive)):
             typer.echo(f"warning: {question}", err=True)
         held = passive_fill(
             structure, level, unit_weight=unit_weight, coefficient=passive, blocks=tuple(block or ())

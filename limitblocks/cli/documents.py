@@ -11,7 +11,7 @@ import typer
 
 from limitblocks.choices import Turning
 from limitblocks.cli import analyses
-from limitblocks.cli.errors import clean_errors, refuse_existing, with_notes
+from limitblocks.cli.errors import INTERRUPTED, clean_errors, interrupts, refuse_existing, with_notes
 from limitblocks.cli.options import (
     AsJson,
     Author,
@@ -84,7 +84,7 @@ def report(
     """Write a report of saved results, or of analyses: HTML, JSON, Markdown or PDF, as the suffix says.
 
     Without RESULT the bounds are found; with it nothing is but what is asked for. An analysis without an
-    answer is named in the report of the others, and the exit code is 3.
+    answer is named in the report of the others, and the exit code is 3; 130 after Ctrl-C.
     """
     with clean_errors():
         from limitblocks.io import read, read_result
@@ -109,13 +109,18 @@ def report(
             "load path": (with_path, analyses.path, flow),
         }
         asked_for = {word: (solve, settings) for word, (yes, solve, settings) in wanted.items() if yes}
-        more, failed = analyses.each(structure, asked_for)
+        with interrupts() as stopped:
+            more, failed = analyses.each(structure, asked_for)
         if found or more or not failed:
             said = [f"No {word}: {with_notes(error)}" for word, error in failed.items()]
             made = reported(structure, *found, *more, **labels, failed=said)
             typer.echo(str(made.save(file, overwrite=force)))
         for error in failed.values():
-            raise error
+            if not stopped:
+                raise error
+            typer.echo(f"error: {error}", err=True)
+        if stopped:
+            raise typer.Exit(INTERRUPTED)
 
 
 def export(

@@ -56,8 +56,9 @@ class ExactTorsion(Queries):
       bending and below it at a hinge. Outer: its convex hull, Eq. (30) and the plane through T0 and Table 4's
       A and C, exact at the corners of each quadrant. `bending_error` is the distance between the two over T0,
       15 to 18 % for aspect ratios 1 to 3, less beyond;
-    - other polygons under bending: inner, uniform pressure on the largest copy of the effective area at e = 0
-      that fits about the point of action; outer, Eq. (30) on the bounding rectangles along the sides;
+    - other polygons: inner, uniform pressure on the largest copy of the effective area at e = 0 that fits
+      about the point of action, without bending, too: exact there if half a turn leaves the area as it is,
+      24 % below torsion alone on a triangle; outer, Eq. (30) on the bounding rectangles along the sides;
     - shear and bending reduce torsion independently, as in the paper. With eccentricity e the shear force of
       pure sliding acts at e, so this errs on either side by up to mu |N| |e| in T;
     - no cohesion: it would act on an effective area that depends on the state.

@@ -18,6 +18,7 @@ from limitblocks.plots.views import canvas
 COLOURS = "RdBu"  # red lowers the load factor, blue raises it; told apart by the colour-blind
 WIDEST = 4.0  # line of the interface that matters most
 NONE = 1e-3  # of the largest: an interface that matters less is a thin line
+ROUNDING = 1e-6  # of the load factor: what bounds are known to, no change
 
 
 def sensitivity(
@@ -46,7 +47,10 @@ def sensitivity(
     if sensitivities.digest != model.digest:
         raise LimitBlocksError("these sensitivities belong to another model; give the model they are of")
     drawn = canvas(model, ax, plane)
-    blocks, joints = sensitivities.of_blocks, sensitivities.of_interfaces
+    blocks, joints = (
+        np.where(np.abs(values) > ROUNDING * abs(sensitivities.load_factor), values, 0.0)
+        for values in (sensitivities.of_blocks, sensitivities.of_interfaces)
+    )
     supports = [block.name in model.supports for block in model.blocks]
     colours = np.where(supports, SUPPORT, _colours(blocks))
     points = [block.vertices for block in model.blocks]
@@ -61,7 +65,8 @@ def sensitivity(
     drawn.frame(np.concatenate(points))
     most = [number(float(np.abs(v).max(initial=0.0))) for v in (blocks, joints)]
     drawn.title(
-        f"change of the load factor per relative change,\nunit weights up to {most[0]}, friction {most[1]}"
+        "change of the load factor per relative change, red less, blue more:\n"
+        f"unit weights up to {most[0]}, friction up to {most[1]}"
     )
     return drawn.ax
 

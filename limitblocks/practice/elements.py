@@ -105,7 +105,8 @@ def tie(
         raise ModelError(f"{word}: pull_out is {pull_out!r} N, expected a force > 0")
     if not 0.0 <= prestress < capacity:
         raise ModelError(
-            f"{word}: prestress is {prestress!r} N, expected 0 to less than the {capacity:g} N it can carry"
+            f"{word}: prestress is {prestress:g} N, expected 0 to less than the {capacity:g} N it can carry: "
+            "one that has nothing left to yield is a pair of forces"
         )
     return Element(
         Interface(

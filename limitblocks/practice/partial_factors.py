@@ -65,6 +65,6 @@ class PartialFactors:
             return "gamma_M", self.gamma_M
         if self.gamma_S is None:
             raise ModelError(
-                "the model has ties or dowels: give gamma_S, the factor that divides their strength"
+                "the model has ties or dowels: give gamma_S (--gamma-s), which divides their strength"
             )
         return "gamma_S", self.gamma_S

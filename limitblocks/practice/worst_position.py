@@ -119,7 +119,7 @@ def worst_position(
     Raises
     ------
     ModelError
-        If the interval is empty, or the vehicle is nowhere on the structure.
+        If the interval is empty, or the vehicle brings the structure down nowhere.
     """
     refuse_kind(vehicle, Vehicle, "vehicle")
     checked_count("positions", positions, 3)
@@ -139,7 +139,11 @@ def worst_position(
     try:
         factors = np.array([at(float(x)) for x in places])
         if not np.isfinite(factors).any():
-            raise ModelError(f"the vehicle loads the structure nowhere between {low:g} and {high:g} m")
+            where = f"with the first axle between {low:g} and {high:g} m"
+            raise ModelError(
+                f"{where} the vehicle stands off the structure, or any multiple of it only jams the blocks; "
+                "check its place and the level of the road"
+            )
         _search(at, places, factors)
     except KeyboardInterrupt:
         if not any(tried.values()):

@@ -17,6 +17,7 @@ from limitblocks.model import Model
 HEIGHT = 360.0  # user units of the SVG
 LEFT, RIGHT, TOP, BOTTOM = 110.0, 30.0, 20.0, 60.0
 AXES = "XYZ"
+COMPLIANT = ", for the compliance of the joints"
 SNAPPING = ("before snap", "unstable", "after snap")
 Ticks = Sequence[tuple[float, str]]
 
@@ -66,14 +67,16 @@ def path_curve(model: Model, path: LoadPath) -> Curve | None:
     if moved.max(initial=0.0) > 0.0:
         block, component = divmod(int(moved.argmax()), 3)
         x, loads = path.curve(block, component)
-        label = f"displacement of {model.blocks[block].name} along {AXES[component]}, m"
+        label = f"displacement of {model.blocks[block].name} along {AXES[component]}, m{COMPLIANT}"
     else:
         x, loads = np.arange(float(len(path.steps))), path.curve(0, 0)[1]
         label = "step"
-    title = f"Load factor against {label.removesuffix(', m')}"
+    title = f"Load factor against {label.removesuffix(f', m{COMPLIANT}')}"
     kinds = [f", {step.kind}" if step.kind in SNAPPING else "" for step in path.steps]
     said = [f"step {k}{kinds[k]}: load factor {value:.6g}" for k, value in enumerate(loads)]
-    caption = "a dot a step. The sizes of the displacements follow from the compliance chosen for the joints."
+    caption = (
+        "a dot a step. Where no stiffness of the joints was given the sizes of displacements are relative."
+    )
     words = (title, f"{title}, {caption}", label, "load factor")
     return line_curve(words, (x, loads), said, float(label == "step"))
 

@@ -49,7 +49,7 @@ def bounds_section(_model: Model, bounds: Bounds) -> Section:
         rates=bounds.displacement_rates,
         warnings=loose(bounds.tolerance, OF_BOUNDS),
         upper=bounds.upper,
-        compared=(("Associated", at_least(bounds.lower), ASSOCIATED),),
+        compared=(("Associated", at_most(bounds.upper), ASSOCIATED),),
     )
 
 

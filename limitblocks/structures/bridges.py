@@ -10,7 +10,6 @@ from limitblocks.arrays import Array
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads import fill as earth
 from limitblocks.model import Model
 from limitblocks.structures.build import (
     HORIZONTAL,
@@ -144,8 +143,7 @@ def _fill(
     """The dead and the live load of fill above the crown of the outermost ring."""
     refuse_fill(fill)
     level = float(ring.extrados[..., 1].max()) + fill.height
-    live = fill_loads(fill, tops, level, depth, direction)[1]
-    return earth(fill.unit_weight, level, earth_pressure=fill.pressure), live
+    return fill_loads(fill, tops, level, depth, direction)
 
 
 def _law(joint: Joint, between: Joint) -> Callable[[Block, Block], Joint]:

@@ -1,4 +1,4 @@
-"""Fill above an arch, as forces on what carries it."""
+"""Fill above an arch: its weight as such, its inertia as forces on what carries it."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.mechanics import Load
+from limitblocks.mechanics.loads import fill as earth
 from limitblocks.mechanics.loads import force, unit_vector
 from limitblocks.structures.build import refuse
 
@@ -56,7 +57,7 @@ def fill_loads(
         Direction of the live load.
     """
     push = fill.inertia * np.array(unit_vector(direction, "direction"))
-    dead, live = [], []
+    live = []
     for name, points in surfaces:
         for (x1, z1), (x2, z2) in pairwise(points.tolist()):
             top, end = level - z1, level - z2  # the fill over a facet is a trapezium
@@ -65,9 +66,9 @@ def fill_loads(
                 continue
             along = (top + 2 * end) / (3 * (top + end))
             at = (x1 + along * (x2 - x1), 0.0, z1 + along * (z2 - z1))
-            dead.append(force(name, (fill.pressure * mean * (z2 - z1), 0.0, -mean * (x2 - x1)), at))
             live.append(force(name, mean * (x2 - x1) * push, at))
-    return sum(dead, Load()), sum(live, Load()) if fill.inertia else Load()
+    dead = earth(fill.unit_weight, level, earth_pressure=fill.pressure)
+    return dead, sum(live, Load()) if fill.inertia else Load()
 
 
 def refuse_fill(fill: Fill) -> None:

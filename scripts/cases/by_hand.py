@@ -1,4 +1,4 @@
-"""What a hand calculation settles: a toppling slope, walls with a prop or water, a tower, two arches."""
+"""What a hand calculation settles: a slope, a frame, walls with a prop, water or soil, two arches."""
 
 import math
 from dataclasses import replace
@@ -11,7 +11,7 @@ import limitblocks as lb
 from cases.case import ANALYSES, JOINTS, Case, of_print
 from cases.statics import model_of
 from limitblocks.loads import pressure
-from limitblocks.practice import settlement
+from limitblocks.practice import capacity_curve, settlement
 from limitblocks.structures.cases import GOODMAN_BRAY
 from limitblocks.structures.convex import hull
 
@@ -103,6 +103,57 @@ def leaning_tower(joint):
     return model_of([block.moved(turn, np.zeros(3)) for block in (GROUND, *column(6, 2.4, 12.0))], joint)
 
 
+WIDE, HIGH = 0.4, 2.0  # m: a column of a frame
+
+
+def rocking_frame(joint):
+    """Three columns under a loose beam that weighs five times as much as one of them."""
+    columns = [
+        lb.Block.box(f"column {k}", (WIDE, 1, HIGH), (2 * k, 0, HIGH / 2), OWN) for k in (-1.0, 0.0, 1.0)
+    ]
+    beam = lb.Block.box("beam", (5, 1, 0.5), (0, 0, HIGH + 0.25), 5 * WIDE * HIGH * OWN / 2.5)
+    return model_of([GROUND, *columns, beam], joint)
+
+
+BACK, SOIL, ROUGH = (
+    math.radians(60),
+    math.radians(30),
+    math.radians(15),
+)  # failure plane, friction, of the wall
+
+
+def frame_falls(joint):
+    """Displacement of the beam, m, at no resistance: b (1 - cos a) + h sin a = b, tan a = b / h."""
+    return capacity_curve(rocking_frame(joint), steps=5).zero
+
+
+def soil_wedge(joint):
+    """A wall, 1.2 m x 3 m, that a wedge of soil pushes off; the load is the weight of the wedge."""
+    top = -3.0 / math.tan(BACK)
+    wall, soil = (
+        prism("wall", [(0, 0), (1.2, 0), (1.2, 3), (0, 3)], 24e3),
+        prism("soil", [(0, 0), (0, 3), (top, 3)]),
+    )
+    bank = prism("bank", [(0, 0), (top, 3), (top - 1, 3), (-1, 0)], None)
+    floor = lb.Block.box("floor", (6, 1, 1), (3, 0, -0.5))
+    angles = {"bank": SOIL, "wall": ROUGH}  # of the other side of the wedge
+
+    def law(a, b):
+        other = {a.name, b.name} - {"soil"}
+        return replace(joint, friction=math.tan(angles[other.pop()])) if len(other) == 1 else joint
+
+    own = [lb.loads.force(s.name, (0, 0, -s.weight), tuple(s.centroid)) for s in (wall, soil)]
+    blocks = [floor, bank, wall, soil]
+    return lb.Model(blocks, ["floor", "bank"], lb.find_interfaces(blocks, law), *own)
+
+
+def wedge_slides(friction):
+    """Coulomb's wedge: its triangle of forces has the thrust on the wall, which slides on its foot."""
+    over_weight = math.sin(BACK - SOIL) / math.cos(BACK - SOIL - ROUGH)
+    soil, wall = OWN * 4.5 / math.tan(BACK), 24e3 * 3.6
+    return friction * wall / (soil * over_weight * (math.cos(ROUGH) - friction * math.sin(ROUGH)))
+
+
 RIGHT = [(1.0, 0.0), (1.4, 0.0), (0.0, 2.6), (0.0, 2.0)]  # right stone of a triangular arch, m
 
 
@@ -144,6 +195,10 @@ def by_hand():
         ("wall that water pushes off", "mu W / (gamma h^2/2)", 0.3 * wall / (5e3 * 2.5**2 / 2), 0.3, dam),
         ("tower that leans by 4 degrees", "tan(atan(b / h) - lean)",
          math.tan(math.atan(0.2) - LEAN), 0.7, leaning_tower),
+        ("three columns under a heavy beam", "b / h: Makris & Vassiliou (2013)",
+         WIDE / HIGH, 0.7, rocking_frame),
+        ("wall that a wedge of soil pushes off", "mu W / (P (cos - mu sin)), P of Coulomb's wedge",
+         wedge_slides(0.5), 0.5, soil_wedge),
         ("triangular arch, its feet slide", "x / (x_foot - mu z) - 1", feet_slide(0.3), 0.3, triangular_arch),
     ]  # fmt: skip
     for name, kind in JOINTS.items():
@@ -158,3 +213,7 @@ def by_hand():
         yield Case(group, f"flat arch on an abutment that yields, {name}", "least thrust, N",
                    "moments about the springing: gamma (L^2/8 - (d tan)^2/6)", thrust, 1e-6 * thrust,
                    partial(flat_arch_spreads, kind(0.6)), quick=True)  # fmt: skip
+    for name, kind in JOINTS.items():
+        yield Case(group, f"three columns under a heavy beam, {name}", "displacement of no resistance, m",
+                   "b of a column", WIDE, 1e-6 * WIDE,
+                   partial(frame_falls, kind(0.7)))  # fmt: skip

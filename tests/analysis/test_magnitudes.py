@@ -17,6 +17,10 @@ def block(joint=None, **change):
     return structures.block(joint or lb.OrdunaLourenco(0.6), **settings)
 
 
+def arched(**change):
+    return structures.arch(lb.PointContact(0.7), radius=2.0, thickness=0.4, voussoirs=8, **change)
+
+
 @pytest.mark.parametrize(
     ("model", "question"),
     [
@@ -38,6 +42,7 @@ def block(joint=None, **change):
             block(lb.OrdunaLourenco(0.6, compressive_strength=1.5e9)),
             "compressive strength is 1.5e+09 Pa, more",
         ),
+        (arched(fill=(0.3, 18.0)), "fill or pressure: unit weight is 18 N/m3: kN/m3?"),
         (block(width=8000.0), "the structure is "),
         (block(width=0.01, height=0.01, depth=0.01), "the structure is "),
     ],

@@ -285,3 +285,19 @@ def test_bracket_with_bending_holds_the_effective_rectangle():
 def test_bad_settings_are_named(settings, message):
     with pytest.raises(lb.ModelError, match=message):
         lb.joints.ExactTorsion(**settings)
+
+
+def test_torsion_alone_of_a_triangle_is_that_of_its_effective_area():
+    """At e = 0 that is the hexagon on the thirds of the sides, of the same inradius r. The mean distance from
+    the centre of a regular polygon of n sides is (r / 3) (sec a + log(sec a + tan a) / tan a), a = pi / n."""
+    angle = 2 * np.pi * np.arange(3) / 3
+    inner, outer = sides()
+    interface = lb.joints.interface(np.column_stack([np.cos(angle), np.sin(angle)]), inner)
+    twist = {"direction": (0, 0, 0, 0, 0, 1), "given": (0, 0, -1.0, 0, 0, 0)}
+
+    def constant(n, inradius=0.5):
+        sec, tan = 1 / np.cos(np.pi / n), np.tan(np.pi / n)
+        return inradius / 3 * (sec + np.log(sec + tan) / tan)
+
+    assert outer.strength(interface, **twist) == pytest.approx(MU * constant(3), rel=1e-9)
+    assert inner.strength(interface, **twist) == pytest.approx(MU * constant(6), rel=1e-9)

@@ -105,6 +105,24 @@ def test_a_plate_and_a_stone_that_leans_over_cover_what_is_below_them():
     assert lb.loads.fill(GAMMA, 3.0, blocks="slab").on([slab, stone])[0, 2] == pytest.approx(-2 * GAMMA * 10)
 
 
+def test_what_is_above_the_level_covers_nothing():
+    """A storey above, the overhang of the block itself, and a leaning stone above where its underside,
+    x + z = 2, meets the level."""
+    slab = lb.Block.box("slab", (3, 4, 1), (-0.5, 0, 0.5), 1.0)
+    storey = lb.Block.box("storey", (9, 9, 1), (0, 0, 5.5), 1.0)
+    assert lb.loads.fill(GAMMA, 2.0).on([slab, storey])[:, 2] == pytest.approx([-GAMMA * 12, 0.0])
+    stone = lb.Block.prism("stone", [(2, 0), (3, 0), (0.2, 2), (0, 2)], (-1, 1), 1.0)
+    covered = (1.0 - 0.5) * 2  # from x = 2 - 1.5 to the end of the slab at 1, 2 deep
+    load = lb.loads.fill(GAMMA, 1.5, blocks="slab").on([slab, stone])[0, 2]
+    assert load == pytest.approx(-GAMMA * 0.5 * (12 - covered))
+    # a C whose upper jaw, from x = 2 on, is thinner in its lower half: 1.5 <= z < 2 from x = 2, above from 1
+    jaws = lb.Block.prism(
+        "C", [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2, 2), (2, 1.5), (3, 1.5), (3, 3), (0, 3)], (0, 1), 1.0
+    )
+    for level, free in ((1.5, 2.0), (1.8, 1.0)):  # lengths of the lower jaw with nothing up to the level
+        assert lb.loads.fill(1.0, level).on([jaws])[0, 2] == pytest.approx(-(level - 1.0) * free)
+
+
 def test_level_through_a_slope_fills_the_lower_part():
     """Slope from z = 0 at x = 2 to z = 1 at x = 0, level 0.5: a prism 1 long, 0.5 high, 3 deep."""
     wedge = lb.Block(

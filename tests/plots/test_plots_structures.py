@@ -1,6 +1,7 @@
 import subprocess
 import sys
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -219,3 +220,11 @@ def test_missing_matplotlib_is_named():
         "sys.exit(2)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_what_a_block_that_rocks_does_not_depend_on_has_no_colour():
+    """Its load factor is width over height, whatever its weight and friction: what is left is rounding."""
+    found = lb.sensitivities(rocking(), bounds(rocking))
+    noisy = replace(found, friction=found.friction + 1e-12, unit_weight=found.unit_weight - 1e-12 / 20e3)
+    title = lb.plots.sensitivity(rocking(), noisy).get_title()
+    assert title.endswith("unit weights up to 0, friction up to 0")

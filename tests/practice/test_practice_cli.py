@@ -223,6 +223,11 @@ def test_a_bridge_from_the_shell(tmp_path):
     done = run("backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 3, "-o", held)
     assert done.exit_code == 0, done.output
     assert "fill holds 12 blocks on 12 faces" in done.output  # all voussoirs but the two at the crowns
+    assert "active pressure" not in done.output
+    active = run(
+        "backfill", bare, "--level", level, "--unit-weight", 20e3, "--passive", 0.3, "-o", tmp_path / "a.json"
+    )
+    assert "coefficient of passive pressure is 0.3, below 1: that of active pressure?" in active.stderr
     words = ("--axles", "50e3,50e3", "--distances", "0,1.2", "--level", level, "--count", 5)
     found = json.loads(run("vehicle", bare, *words, "--json").stdout)
     x = [block.vertices[:, 0] for block in model.free_blocks]

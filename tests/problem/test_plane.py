@@ -166,6 +166,17 @@ def test_pieces_of_a_joint_that_mirror_each_other_are_planar():
             assert bounds.stress_resultants[0, 2] == pytest.approx(bounds.stress_resultants[1, 2])
 
 
+@pytest.mark.parametrize("name", JOINTS)
+def test_two_joints_between_the_same_blocks_are_told_apart(name):
+    """A stone in the corner of an L: with six stresses either joint fits the image of the other."""
+    corner = lb.Block.prism("L", [(-1, -0.2), (2, -0.2), (2, 0), (0, 0), (0, 0.4), (-1, 0.4)], (-0.5, 0.5))
+    stones = [corner, lb.Block.box("stone", (0.3, 1.0, 0.6), at=(0.15, 0.0, 0.3), unit_weight=20e3)]
+    joints = lb.find_interfaces(stones, JOINTS[name])
+    model = lb.Model(stones, ["L"], joints, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+    assert len(joints) == 2
+    assert mirror_of(model.problem).flat
+
+
 def test_mirrors_of_another_turn_of_the_plane():
     """A lone block pushed along x is symmetric about y = 0, whichever way its joint's axes lie."""
     model = structures.block(lb.OrdunaLourenco(0.3), width=1.0, height=1.0, depth=1.0)

@@ -96,10 +96,14 @@ class Collected:
         if self.greatest is None or value > self.greatest.state.load_factor:
             self.greatest = new
 
-    def all(self) -> list[Certified]:
-        """Distinct states, the ends among them, by load factor."""
-        ends = [one for one in (self.least, self.beyond or self.greatest) if one and one not in self.found]
-        return sorted([*self.found, *ends], key=lambda one: one.state.load_factor)
+    def all(self, known: float = np.nan) -> list[Certified]:
+        """Distinct states, by load factor; an end where it is farther than any, and than the one `known`."""
+        near, kept = TOLERANCE * self.scale, list(self.found)
+        for end in (self.least, self.beyond or self.greatest):
+            factors = [known, *(one.state.load_factor for one in kept)]
+            if end and not any(abs(factor - end.state.load_factor) <= near for factor in factors):
+                kept.append(end)
+        return sorted(kept, key=lambda one: one.state.load_factor)
 
 
 def merged(intervals: list[tuple[float, float]]) -> list[tuple[float, float]]:

@@ -148,7 +148,7 @@ class Fill:
                 corners = block.vertices[list(block.faces[face])]
                 under, _ = part_where(corners, self.level - corners[:, 2])
                 weight, first = 0.0, np.zeros(3)
-                for ring in open_to_the_sky(under, block, face, blocks, bounds):
+                for ring in open_to_the_sky(under, block, face, self.level, blocks, bounds):
                     stress = self.unit_weight * (self.level - ring[:, 2])
                     p, px = integrals(ring - block.centroid, stress, UP)
                     weight, first = weight + p, first + px
@@ -214,8 +214,8 @@ def fill(
 
     On each face that looks upwards rests the fill right above it, up to the level. Assumed: the weight goes
     straight down and does not spread; the fill has no strength and takes no load; its mass does not count in
-    mass-proportional loads. The parts of a face above the level or below another free block get none;
-    supports cover nothing. With an earth pressure coefficient K, the horizontal stress K
+    mass-proportional loads. The parts of a face above the level, or with a free block between it and
+    the level, get none; supports cover nothing. With an earth pressure coefficient K, the horizontal stress K
     times the vertical stress acts on the same faces, on their projections on vertical planes; a vertical face
     gets none, use :func:`pressure` for it. Resultants and moments are exact integrals.
 
