@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 import limitblocks as lb
+from limitblocks.practice import capacity_curve
 from limitblocks.reports.words import together
 
 
@@ -68,3 +69,27 @@ def test_notes_on_many_blocks_are_one():
     assert said[:2] == ["block 'a': is mended", "unit of length is mm"]
     shown = ", ".join(f"'b{k}'" for k in range(8))
     assert said[2:] == [f"9 blocks {shown} and 1 more: is turned"]
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda model: lb.nonassociated(model, dilatancy="0.1"), "dilatancy is '0.1', expected 0 to"),
+        (lambda model: lb.bounds(model, tolerance=0), "tolerance is 0, expected a finite number > 0"),
+        (lambda model: lb.nonassociated(model, tolerance="tight"), "tolerance is 'tight', expected"),
+        (lambda model: lb.load_path(model, tolerance=-1), "tolerance is -1, expected"),
+        (lambda model: lb.load_path(model, settings={"first": 0.1}), "settings is a dict, expected Settings"),
+        (lambda model: lb.load_factor_range(model, paths=2.5), "paths is 2.5, expected a whole number"),
+        (lambda model: lb.load_factor_range(model, time_limit=0), "time_limit is 0, expected more than 0 s"),
+        (lambda model: lb.sensitivities(model, model), "bounds is a Model, expected Bounds"),
+        (
+            lambda model: capacity_curve(model, control="wall 1.1"),
+            "control is 'wall 1.1', expected a block and",
+        ),
+        (lambda model: lb.studies.directions(model.live, 4), "model is a Load, expected a Model"),
+        (lambda model: lb.studies.moving_load("m.json", (0, 0, -1.0), [(0, 0)]), "model is a str, expected"),
+    ],
+)
+def test_arguments_of_an_analysis_are_refused_by_name(wall, ask, said):
+    with pytest.raises(lb.ModelError, match=said):
+        ask(wall)

@@ -23,17 +23,17 @@ from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import (
     ROUNDS,
-    jamming_program,
     kinematic_program,
     solved,
     solvers,
     static_program,
 )
-from limitblocks.analysis.scales import Scaled, balanced, repaired, scaled, unmoved
+from limitblocks.analysis.scales import Scaled, repaired, scaled, unmoved
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.analysis.stability import dead_load_state
+from limitblocks.analysis.unlimited import explain
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import SolverFailure, UnlimitedLoad
+from limitblocks.errors import SolverFailure
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import (
@@ -42,19 +42,14 @@ from limitblocks.evidence.residuals import (
     Residuals,
     bounds_residuals,
     nearest,
-    static_residuals,
 )
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 
-UNLIMITED = (
-    "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
-    "its direction, or use the non-associated analysis"
-)
 PER_BLOCK = 1e-10  # accuracy of a solution of many blocks: a polish costs more than it betters
 PAIRS = 4  # that pass the tolerance, tried for a proof where the load factor is small
 Tell = Callable[[str], None]
-CERTIFIED = 1e-7  # largest residual of a certificate that explains why there is no answer
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,6 +87,8 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
 
     Raises
     ------
+    ModelError
+        If the tolerance is no number above 0.
     NoEquilibrium
         If the dead loads alone cannot stand; names the blocks that fall.
     UnlimitedLoad
@@ -103,6 +100,7 @@ def bounds(model: Model, *, tolerance: float = OF_BOUNDS, progress: Tell | None 
     -----
     Solved once for each model and tolerance. Proven bounds of large models may be farther apart, and say so.
     """
+    number(tolerance, "tolerance", "", above=0.0)
     tell = progress or (lambda _: None)
     return known(model, ("bounds", tolerance), lambda: _bounds(model, tolerance, tell))
 
@@ -242,25 +240,3 @@ def _pairs(
                 state = polish(flow, measured.in_problem(state), until=tolerance / 10)
                 yield Pair(problem, state, solver.name)
             measured = measured.measured(polished)
-
-
-def explain(problem: LimitProblem, dead: Array) -> None:
-    """Raise UnlimitedLoad where stresses carry the live load alone, or with a little of the dead loads.
-
-    The stresses `dead` carry those: what the live load does not reach is judged by them, not by rounding.
-    """
-    pushed = replace(problem, dead=problem.live, g=np.zeros_like(problem.g))  # any multiple of the live load
-    loaded = replace(pushed, dead=problem.live + CERTIFIED * problem.dead)
-    for solver in solvers(bool(problem.cones.second_order)):
-        measured: Scaled | None = scaled(pushed)
-        for _ in range(ROUNDS):
-            if measured is None:
-                break
-            (x,) = solved(jamming_program(measured), solver).values
-            if not np.isfinite(x).all():
-                break
-            x = measured.stress * balanced(measured, measured.dead, x)
-            for loads, stresses in ((pushed, x), (loaded, x + CERTIFIED * dead)):
-                if Residuals(static_residuals(loads, 0.0, stresses)).worst.value <= CERTIFIED:
-                    raise UnlimitedLoad(UNLIMITED)
-            measured = measured.measured(unmoved(problem, 0.0, x))

@@ -11,18 +11,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse import linalg
 
+from limitblocks.analysis.definite import solver_of
 from limitblocks.arrays import Array, largest_in_rows
 from limitblocks.evidence.measure import ROUNDING, Measure
 from limitblocks.problem import Cones, LimitProblem, State, in_units, power_of_two
 
-REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
-ROUNDED = 1e-28  # of the largest diagonal: a square of rounding errors, such as out of the plane of an arch
 UNLOADED = 1e-3  # of what acts on the lesser block: the least unit of force of an interface
 IDLE = 1e-6  # of what acts on a block: the least unit of one of its equations
 COARSER = 16.0  # a unit off by more is changed, and the programs solved again
@@ -180,11 +177,11 @@ class Projection:
     def __init__(self, C: sparse.csr_array, weights: sparse.csr_array | None = None) -> None:
         self.weights = sparse.eye_array(C.shape[0]) if weights is None else weights
         self.spread, self.balance = self.weights @ C, C.T
-        self.lu = _factors(self.balance @ self.spread)
+        self.solve = solver_of(self.balance @ self.spread)
 
     def nearest(self, loads: Array, x: Array) -> tuple[Array, Array]:
         """Return the nearest stresses in equilibrium, and the rates that are the multipliers of it."""
-        v = self.lu.solve(loads - self.balance @ x)
+        v = self.solve(loads - self.balance @ x)
         return np.asarray(x + self.spread @ v), np.asarray(v)
 
     def onto(self, loads: Array, x: Array) -> Array:
@@ -201,7 +198,7 @@ def balanced(p: Scaled, loads: Array, x: Array) -> Array:
 
 def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | None = None) -> Array:
     """Return the nearest multipliers that follow the rates, brought into K; `solve` is for F^T F."""
-    solve = solve or _factors(p.F.T @ p.F).solve
+    solve = solve or solver_of(p.F.T @ p.F)
     for _ in range(2):
         y = y - p.F @ solve(p.C @ u + p.F.T @ y)
     return p.raised(y)
@@ -209,22 +206,12 @@ def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | 
 
 def compatible_with(F: sparse.csr_array, strain: Array) -> Array:
     """Return the smallest y with F^T y = strain, where there is one."""
-    lu = _factors(F.T @ F)
-    y = F @ lu.solve(strain)
-    return np.asarray(y + F @ lu.solve(strain - F.T @ y))
+    solve = solver_of(F.T @ F)
+    y = F @ solve(strain)
+    return np.asarray(y + F @ solve(strain - F.T @ y))
 
 
 def repaired(p: Scaled, state: State) -> State:
     """Return the state with stresses in equilibrium and multipliers that follow the rates."""
     a = state.load_factor
     return State(a, balanced(p, p.dead + a * p.live, state.x), state.u, compatible(p, state.u, state.y))
-
-
-def _factors(K: sparse.csr_array) -> linalg.SuperLU:
-    diagonal = K.diagonal()  # in units of a state its entries are far apart
-    real = diagonal > ROUNDED * diagonal.max(initial=0.0)
-    regular = sparse.diags_array(REGULAR * np.where(real, diagonal, 1.0))
-    symmetric: Any = {"SymmetricMode": True}  # definite: no exchange of rows, half the entries
-    return linalg.splu(
-        sparse.csc_array(K + regular), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric
-    )

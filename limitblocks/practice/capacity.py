@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from typing import Any
 
 import numpy as np
 
@@ -200,7 +201,7 @@ def _advanced(
     return goal, there.control, found
 
 
-def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[float]] | None) -> Control:
+def _control(model: Model, result: Nonassociated, given: Any) -> Control:
     """The point whose displacement is measured, along the sum of the live load."""
     push = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
     if not np.linalg.norm(push) > 0.0:
@@ -215,6 +216,8 @@ def _control(model: Model, result: Nonassociated, given: tuple[str, Sequence[flo
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]
     else:
+        if isinstance(given, str) or len(given) != 2:
+            raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)
     if not _pace(moving.assembly_of(model), control, rates) > STILL:

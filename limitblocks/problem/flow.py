@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from numbers import Real
 
 import numpy as np
 import numpy.typing as npt
@@ -22,7 +23,7 @@ def checked_dilatancy(problem: LimitProblem, dilatancy: float) -> float:
     """Return `dilatancy` if it is 0 to the least friction coefficient, else raise ModelError."""
     frictional = problem.friction[problem.friction > 0.0]  # ties and dowels have none
     least = float(frictional.min(initial=np.inf)) if len(frictional) else 0.0
-    if not 0.0 <= dilatancy <= least:
+    if not (isinstance(dilatancy, Real) and 0.0 <= dilatancy <= least):
         raise ModelError(
             f"dilatancy is {dilatancy!r}, expected 0 to the least friction coefficient, {least:g}"
         )

@@ -13,7 +13,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.studies.pool import Analysis, Outcome, Progress, analyse_all, failed
 from limitblocks.studies.results import Directions, MovingLoad, Sweep
 
@@ -54,6 +54,7 @@ def directions(
     ModelError
         If a direction is wrong, or the live load cannot be turned.
     """
+    checked_model(model)
     given = compass(directions) if isinstance(directions, int) else _table(directions, 3, "directions")
     units = [unit_vector(direction, "direction") for direction in given.tolist()]
     loads = live or (lambda direction: turned(model.live, direction))
@@ -94,6 +95,7 @@ def moving_load(
     ModelError
         If the force or a place is not made of finite numbers.
     """
+    checked_model(model)
     given = _table(positions, 2, "positions")
     places = [(x, y) for x, y in given.tolist()]
     at = load if callable(load) else (lambda place: top_force(load, place))

@@ -11,7 +11,7 @@ from scipy.linalg import null_space
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis import programs, scales
+from limitblocks.analysis import definite, programs
 from limitblocks.evidence.residuals import OF_BOUNDS, bounds_residuals, worth_of_violations
 from limitblocks.problem import ASSOCIATED, Flow, State
 
@@ -265,13 +265,20 @@ def test_proven_bounds_of_an_accurate_solution_are_returned_although_wider_than_
     assert "apart" not in str(reference)
 
 
-def test_numbers_far_apart_and_singular_are_factorised():
+@pytest.mark.parametrize("band", [definite.BAND, -1])
+def test_numbers_far_apart_and_singular_are_factorised(band, monkeypatch):
     """A block that moves freely, in units of a state: neither is regular without a shift of its own size."""
+    monkeypatch.setattr(definite, "BAND", band)
     free = np.ones((2, 2))
     matrix = sparse.block_diag([1e20 * free, 1e-20 * free, 0.0 * free], format="csr")
     right = matrix @ np.arange(6.0)
-    solution = scales._factors(sparse.csr_array(matrix)).solve(right)
+    solution = definite.solver_of(sparse.csr_array(matrix))(right)
     assert np.abs(matrix @ solution - right) == pytest.approx(0.0, abs=1e-6 * np.abs(right).max())
+
+
+def test_what_rounding_leaves_indefinite_is_factorised_without_roots():
+    matrix = sparse.csr_array(np.array([[1.0, 2.0, 0.0], [2.0, 1.0, 1.0], [0.0, 1.0, 3.0]]))
+    assert matrix @ definite.solver_of(matrix)(np.arange(3.0)) == pytest.approx(np.arange(3.0), abs=1e-9)
 
 
 def test_progress_is_told_of_every_stage():

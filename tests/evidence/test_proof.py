@@ -12,7 +12,7 @@ from limitblocks import structures
 from limitblocks.analysis.certified import RESERVE
 from limitblocks.arrays import same_rows
 from limitblocks.evidence.proof import Proof, proof_of
-from limitblocks.evidence.reach import Kinematic, Static
+from limitblocks.evidence.reach import Kinematic, Static, _alike
 from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.problem import State
@@ -171,6 +171,17 @@ def test_rows_are_classed_by_their_numbers():
     for within, expected in ((0.0, [0, 1, 0, 3, 4]), (1e-12, [0, 1, 0, 0, 4])):
         first, of = same_rows(rows, within)
         assert first[of].tolist() == expected
+
+
+def test_unlike_entries_of_one_sum_are_of_different_kinds():
+    """Entries are weighed by cosines a, b: those of sizes b and a, at places 0 and 1, have one sum."""
+    a, b = np.cos(np.arange(2) ** 2 + 1.0)
+    owner, place = np.array([0, 1, 2, 3, 3]), np.array([0, 1, 0, 0, 1])
+    for data in ([b, a, b, b, 0.0], [1.0, 2.0, 1.0, 3.0, 4.0]):
+        kind, matrix = _alike(owner, place, np.array(data), (4, 2))
+        expected = np.zeros((4, 2))
+        expected[owner, place] = data
+        np.testing.assert_array_equal(matrix[kind], expected)
 
 
 def test_what_is_made_up_is_bounded(model):

@@ -25,6 +25,7 @@ from limitblocks.evidence.range_answer import RangeAnswer
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
+from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning
 
@@ -80,11 +81,10 @@ def load_factor_range(
     NoEquilibrium, UnlimitedLoad
         As for :func:`limitblocks.nonassociated`.
     """
-    if paths < 1 or mechanisms < 0 or not time_limit > 0.0:
-        raise ModelError(
-            f"paths is {paths}, mechanisms {mechanisms}, time_limit {time_limit}; expected at least "
-            "1, at least 0 and more than 0 s"
-        )
+    checked_count("paths", paths, 1)
+    checked_count("mechanisms", mechanisms, 0)
+    if not time_limit > 0.0:
+        raise ModelError(f"time_limit is {time_limit!r}, expected more than 0 s")
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)

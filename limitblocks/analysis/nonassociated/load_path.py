@@ -24,11 +24,12 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.plane import Choice
@@ -99,6 +100,8 @@ def load_path(
     """
     if snaps not in ("across", "along"):
         raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
+    number(tolerance, "tolerance", "", above=0.0)
+    refuse_kind(settings or Settings(), Settings, "settings")
     flow, enclosing = flow_of(model, dilatancy, turning)
     problem = flow.problem
     refuse_jammed(enclosing)

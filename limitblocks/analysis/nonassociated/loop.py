@@ -28,6 +28,7 @@ from limitblocks.choices import Method, method_of
 from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.problem import Flow, State, Turning
 
@@ -93,8 +94,8 @@ def nonassociated(
     Raises
     ------
     ModelError
-        If the dilatancy is out of range, the method unknown, or `start` belongs to another model or is no
-        state of it.
+        If the dilatancy or the tolerance is out of range, the method unknown, or `start` belongs to another
+        model or is no state of it.
     NoEquilibrium
         If the dead loads alone cannot stand.
     UnlimitedLoad
@@ -106,6 +107,7 @@ def nonassociated(
     """
     way = method_of(method)
     limit = checked_limit(backward_error)
+    number(tolerance, "tolerance", "", above=0.0)
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)

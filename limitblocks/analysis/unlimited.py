@@ -1,0 +1,42 @@
+"""Why there is no load factor: stresses within the yield surface carry the live load alone."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from limitblocks.analysis.programs import ROUNDS, jamming_program, solved, solvers
+from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
+from limitblocks.arrays import Array
+from limitblocks.errors import UnlimitedLoad
+from limitblocks.evidence.residuals import Residuals, static_residuals
+from limitblocks.problem import LimitProblem
+
+UNLIMITED = (
+    "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
+    "its direction, or use the non-associated analysis"
+)
+CERTIFIED = 1e-7  # largest residual of stresses that explain why there is no answer
+
+
+def explain(problem: LimitProblem, dead: Array) -> None:
+    """Raise UnlimitedLoad where stresses carry the live load alone, or with a little of the dead loads.
+
+    The stresses `dead` carry those: what the live load does not reach is judged by them, not by rounding.
+    """
+    pushed = replace(problem, dead=problem.live, g=np.zeros_like(problem.g))  # any multiple of the live load
+    loaded = replace(pushed, dead=problem.live + CERTIFIED * problem.dead)
+    for solver in solvers(bool(problem.cones.second_order)):
+        measured: Scaled | None = scaled(pushed)
+        for _ in range(ROUNDS):
+            if measured is None:
+                break
+            (x,) = solved(jamming_program(measured), solver).values
+            if not np.isfinite(x).all():
+                break
+            x = measured.stress * balanced(measured, measured.dead, x)
+            for loads, stresses in ((pushed, x), (loaded, x + CERTIFIED * dead)):
+                if Residuals(static_residuals(loads, 0.0, stresses)).worst.value <= CERTIFIED:
+                    raise UnlimitedLoad(UNLIMITED)
+            measured = measured.measured(unmoved(problem, 0.0, x))
