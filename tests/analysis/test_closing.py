@@ -279,6 +279,21 @@ def test_a_half_that_is_interrupted_says_so(monkeypatch):
     assert caught.value.result.status is lb.results.Status.INTERRUPTED
 
 
+def test_a_polish_that_is_interrupted_gives_the_end_of_the_path(monkeypatch):
+    """Of a half that solves nothing in the whole: steps of least norm may take long."""
+
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    lift, model = Planar.lifted, symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", lambda *half: replace(lift(*half), x=(1 + 1e-6) * lift(*half).x))
+    monkeypatch.setattr(ways, "pivoted", pressed)
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(model, means=SECOND)
+    assert caught.value.result.how.endswith("in one half, interrupted")
+
+
 def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
     def pressed(*_):
         raise KeyboardInterrupt

@@ -144,9 +144,12 @@ def _polished(flow: Flow, state: State, how: str, tolerance: float) -> tuple[Sta
     left = defect(flow, state)
     if how.endswith(INTERRUPTED) or left <= tolerance / 10 or (flow.constant and left > NEAR):
         return state, how
-    if flow.constant and left > tolerance:
-        return polish(flow, pivoted(flow, state)), how
-    return polished(flow, state, left)[0], how
+    try:
+        if flow.constant and left > tolerance:
+            return polish(flow, pivoted(flow, state)), how
+        return polished(flow, state, left)[0], how
+    except KeyboardInterrupt:
+        return state, f"{how}, {INTERRUPTED}"
 
 
 def _in_space(flow: Flow) -> bool:
