@@ -85,7 +85,8 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
 def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float = STEP) -> float:
     """Return the derivative of the associated load factor as all points r move to r + t field(r), at t = 0.
 
-    The corners of blocks and of interfaces move with the field; loads that act at points given in space stay.
+    The corners of blocks and of interfaces move with the field, ties with their anchors; ties, strips, dowels
+    and fill keep their sections. Loads that act at points given in space stay, the prestress of ties as well.
     A field that is zero but at one point moves the vertices there alone. The derivative is taken by a central
     difference of the assembly, not of the load factor.
 

@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import centroids
+from limitblocks.joints import Backfill, Dowel, Tie
 from limitblocks.model import Model
 
 Field = Callable[[Array], Array]
@@ -25,18 +26,37 @@ def moved(model: Model, field: Field, t: float) -> Model:
 
 
 def _carried(interface: Interface, field: Field, t: float) -> Interface:
-    """The interface with its corners moved, its first axis turned as little as its plane."""
-    corners = interface.centroid + interface.polygon @ interface.axes[:2]
-    corners = corners + t * np.asarray(field(corners))
+    """The interface with its corners moved, its first axis turned as little as its plane.
+
+    A tie stays between its anchors; it keeps its section, as strips, dowels and fill do.
+    """
+
+    def at(points: Array) -> Array:
+        return points + t * np.asarray(field(points))
+
+    joint, old = interface.joint, interface.axes
+    if isinstance(joint, Tie) and joint.length:
+        ends = at(interface.centroid + np.outer((-0.5, 0.5), joint.length * old[2]))
+        axes, long = _turned(old[0], ends[1] - ends[0])
+        joint = replace(joint, length=long)
+        return replace(interface, centroid=ends.mean(axis=0), axes=axes, joint=joint)
+    corners = at(interface.centroid + interface.polygon @ old[:2])
     middle = corners.mean(axis=0)
     arms = corners - middle
-    normal = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
-    normal /= np.linalg.norm(normal)
-    first = interface.axes[0] - (interface.axes[0] @ normal) * normal
-    first /= np.linalg.norm(first)
-    axes = np.stack([first, np.cross(normal, first), normal])
+    axes, _ = _turned(old[0], np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0))
+    if isinstance(joint, Tie | Dowel):
+        return replace(interface, centroid=middle, axes=old if isinstance(joint, Backfill) else axes)
     flat = arms @ axes[:2].T
     centre = centroids(flat)
     return replace(
         interface, centroid=middle + centre @ axes[:2], axes=axes, polygon=read_only(flat - centre)
     )
+
+
+def _turned(first: Array, normal: Array) -> tuple[Array, float]:
+    """Axes about a normal of any length, the first one turned as little as may be, and that length."""
+    size = float(np.linalg.norm(normal))
+    normal = normal / size
+    first = first - (first @ normal) * normal
+    first = first / np.linalg.norm(first)
+    return np.stack([first, np.cross(normal, first), normal]), size

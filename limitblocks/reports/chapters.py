@@ -114,7 +114,7 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     if picture:
         caption = MECHANISM.format(picture.magnification)
         ties = tuple((f"tie-{state}", f"tie: {state}") for state in dict.fromkeys(t[0] for t in picture.ties))
-        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, (*LEGEND, *ties)))
+        parts.append(Figure(picture.sheet(f"Mechanism of {title}"), caption, (*LEGEND, *ties), played=True))
     if one.curve:
         parts.append(Figure(one.curve.sheet(), one.curve.caption))
     parts += [*interfaces, *one.parts]

@@ -81,11 +81,15 @@ class Table:
 
 @dataclass(frozen=True)
 class Figure:
-    """A drawing with its caption and its legend: style and word of each colour."""
+    """A drawing with its caption and its legend: style and word of each colour.
+
+    One that is `played` is in the viewer, too, whose picture takes its place on the screen.
+    """
 
     sheet: Sheet
     caption: str
     legend: tuple[tuple[str, str], ...] = ()
+    played: bool = False
 
 
 Part = Text | Items | Heading | Headline | Table | Figure

@@ -156,4 +156,6 @@ def _envelope(x: Any, factors: Any) -> Curve | None:
     title = "Load factor against the position of the first axle"
     said = [f"X = {a:.4g} m: load factor {b:.4g}" for a, b in zip(x, factors, strict=True)]
     gaps = " It has a gap where the load is unlimited." * bool(np.isnan(factors).any())
-    return line_curve((title, f"{title}, a dot a position.{gaps}", "X, m", "load factor"), (x, factors), said)
+    return line_curve(
+        (title, f"{title}, a dot a position.{gaps}", "first axle at X, m", "load factor"), (x, factors), said
+    )

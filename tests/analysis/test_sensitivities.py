@@ -9,6 +9,7 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.practice import reinforced, strip, tie
 from limitblocks.studies import shape_sensitivity
 
 WIDTH, HEIGHT, MU = 1.0, 2.0, 0.7
@@ -254,3 +255,29 @@ def test_a_dictionary_of_numbers_and_text():
     assert written["friction"] == pytest.approx([1.0])
     assert written["cohesion"] == [None]
     assert written["unique"] is found.unique
+
+
+def test_shape_moves_ties_with_their_anchors_and_keeps_their_sections():
+    """Facade b x h of weight W, held at z: a = (W b / 2 + F z cos) / (W h / 2), about the toe."""
+    b, h, z, W, F, away = 0.5, 5.0, 4.5, 45e3, 8e3, 5.75
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (b, 1, h), (0, 0, h / 2), W / (b * h)),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    rod = tie("wall", (-b / 2, 0, z), "ground", (-b / 2 - away, 0, z), area=1e-4, strength=1e9, pull_out=F)
+    tied = reinforced(wall, rod)
+    bounds = lb.bounds(tied)
+    held = F * z / (W * h / 2)
+    assert bounds.lower == pytest.approx(b / h + held)
+    higher = shape_sensitivity(tied, bounds, lambda r: r * [0, 0, 1])  # W, h and z grow as one
+    assert higher == pytest.approx(-bounds.lower, rel=1e-6)
+    deeper = shape_sensitivity(tied, bounds, lambda r: r * [0, 1, 0])  # W alone
+    assert deeper == pytest.approx(-held, rel=1e-6)
+    # the far anchor rises by t: the rod, away long, pulls up by t / away of its force, b before the toe
+    anchor = shape_sensitivity(tied, bounds, lambda r: (r[:, :1] < -3) * np.array([0, 0, 1.0]))
+    assert anchor == pytest.approx(-F * b / away / (W * h / 2), rel=1e-6)
+    bonded = reinforced(wall, strip(found[0], (-b / 2, 0, 0), width=0.1, capacity=F))
+    deeper = shape_sensitivity(bonded, lb.bounds(bonded), lambda r: r * [0, 1, 0])
+    assert deeper == pytest.approx(-F * b / (W * h / 2), rel=1e-6)

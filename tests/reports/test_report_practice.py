@@ -185,6 +185,13 @@ def test_the_json_follows_its_schema(reports):
         jsonschema.validate(json.loads(report.json, parse_constant=pytest.fail), lb.files.report_schema())
 
 
+def test_a_mechanism_that_the_viewer_does_not_play_is_on_the_screen_too(facade, reports):
+    """Of a vehicle and a settlement there is no other picture; that of bounds is for paper."""
+    assert reports[1].html.count("<figure>") > reports[1].html.count('<svg class="mechanism"') == 2
+    assert '<figure class="static">' not in reports[1].html
+    assert lb.report(facade, lb.bounds(facade)).html.count('<figure class="static">') == 1
+
+
 def test_answers_of_another_model_are_refused(facade, beam, answers, settled, vehicle):
     for model, own in ((beam, answers[1:]), (facade, (settled, vehicle))):
         for answer in own:
