@@ -146,7 +146,7 @@ def parameter_texts(doc: str) -> dict[str, str]:
     entries = re.findall(
         r"^(\w[^:\n]*) : [^\n]*\n((?:[ \t]+[^\n]*\n?|\n)*)", section[1] if section else "", re.M
     )
-    texts = {}
+    texts: dict[str, str] = {}
     for names, text in entries:
         which = f"{names.replace('_', '-')}: " if "," in names else ""  # of several that share a text
         texts |= dict.fromkeys(names.split(", "), which + " ".join(text.split()))
