@@ -86,7 +86,7 @@ class Cones:
             v, nearest = _stack(rows, index), _stack(near, index)
             t, norm = v[:, 0], lengths(v[:, 1:])
             nearest[:, 0] = head = np.where(norm <= t, t, np.maximum(t + norm, 0.0) / 2.0)
-            nearest[:, 1:] = v[:, 1:] * np.minimum(head / np.maximum(norm, TINY), 1.0)[:, None]
+            nearest[:, 1:] = v[:, 1:] * (head / np.maximum(np.maximum(norm, head), TINY))[:, None]
         return near
 
     def norm(self, rows: Array) -> Array:

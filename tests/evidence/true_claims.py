@@ -255,3 +255,13 @@ TRUE = {
 def true(name):
     """Model and true claim."""
     return TRUE[name]()
+
+
+def shaken(problem, state, size):
+    """The state with other stresses in equilibrium, and a mechanism that is as far off."""
+    random = np.random.default_rng(2)
+    shake = random.standard_normal(len(state.x)) * np.abs(state.x)
+    C = problem.C.T.toarray()
+    shake -= np.linalg.lstsq(C, C @ shake, rcond=None)[0]
+    u = state.u * (1.0 + size * random.standard_normal(len(state.u)))
+    return replace(state, x=state.x + size * shake, u=u)

@@ -171,3 +171,21 @@ def test_curvature_is_that_of_the_logarithmic_barrier(v, a):
     expected = (gradient(v + h * a) - gradient(v - h * a)) / (2.0 * h)
     size = np.abs(expected).max(initial=1.0)
     np.testing.assert_allclose(curvature(CONES, v, a), expected, atol=1e-6 * size)
+
+
+@given(VECTORS, st.sampled_from([1.0, 1e9]))
+def test_the_nearest_point_leaves_a_rest_in_the_polar_cone(v, size):
+    """Moreau: v = n + r with n in K, r in -K and n . r = 0; also where nothing flows beside a large head."""
+    v = v * size
+    n = CONES.nearest(v)
+    for part in PARTS:
+        r = v[part] - n[part]
+        least = 1e-12 * np.abs(v).max(initial=1.0)
+        assert np.linalg.norm(n[part][1:]) <= n[part][0] + least
+        assert np.linalg.norm(r[1:]) <= -r[0] + least
+        assert abs(n[part] @ r) <= least * np.abs(v).max(initial=1.0)
+
+
+def test_a_large_head_without_flow_is_its_own_nearest_point():
+    v = np.array([0.0, 0.0, 9.0, 0.0, 0.0, 9.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0])
+    assert (CONES.nearest(v) == v).all()
