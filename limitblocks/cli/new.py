@@ -146,7 +146,11 @@ def parameter_texts(doc: str) -> dict[str, str]:
     entries = re.findall(
         r"^(\w[^:\n]*) : [^\n]*\n((?:[ \t]+[^\n]*\n?|\n)*)", section[1] if section else "", re.M
     )
-    return {name: " ".join(text.split()) for names, text in entries for name in names.split(", ")}
+    texts: dict[str, str] = {}
+    for names, text in entries:
+        which = f"{names.replace('_', '-')}: " if "," in names else ""  # of several that share a text
+        texts |= dict.fromkeys(names.split(", "), which + " ".join(text.split()))
+    return texts
 
 
 def _texts(make: Callable[..., Any]) -> dict[str, str]:

@@ -9,6 +9,7 @@ import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.means import (
+    LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
     MEANS,
@@ -248,6 +249,21 @@ def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
     found = lb.nonassociated(model, means=SECOND)
     assert found.converged
     assert "half" not in found.how
+
+
+@pytest.mark.parametrize("longer", [True, False])
+def test_in_one_half_of_a_large_model_a_path_goes_on_while_theta_falls(longer, monkeypatch):
+    """With a thirtieth of the budgets: of this facade 20 factorisations are too few, in the whole as well."""
+    first, second = SECOND[0], LARGE_HALF_MEANS[1]
+    short = LARGE_MEANS[1]._replace(budget=LARGE_MEANS[1].budget // 30)
+    long = second._replace(budget=second.budget // 30, patience=second.patience // 30)
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (first, short))
+    monkeypatch.setattr(ways, "LARGE_HALF_MEANS", (first, long if longer else short))
+    monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
+    found = lb.nonassociated(symmetric_facade(), throw=False)
+    assert found.converged is longer
+    assert not longer or found.how.endswith("barrier 3 (large barrier), power 2, seed 1, in one half")
 
 
 def test_a_half_that_is_interrupted_says_so(monkeypatch):

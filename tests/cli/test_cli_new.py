@@ -136,5 +136,5 @@ def test_help_is_the_docstring():
 def test_parameter_texts():
     doc = "Return.\n\nParameters\n----------\na, b : float\n    Both, in\n    m.\nc : int\n    Count.\n"
     doc += "\nRaises\n------\nError\n    Never.\n"
-    assert parameter_texts(doc) == {"a": "Both, in m.", "b": "Both, in m.", "c": "Count."}
+    assert parameter_texts(doc) == {"a": "a, b: Both, in m.", "b": "a, b: Both, in m.", "c": "Count."}
     assert parameter_texts("Nothing.") == {}

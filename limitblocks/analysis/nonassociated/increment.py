@@ -20,6 +20,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner, moved
+from limitblocks.analysis.nonassociated.path_newton import REFINED
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array
 
@@ -32,7 +33,7 @@ SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root 
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
 FARTHER = (1.0, 2.0, 4.0)  # times tau
 TURN = 1e-5  # of tau: how near a fold is approached
-FADING = 5e-5  # theta where the barrier begins to fade: what the flow may be off by fades with it
+FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
 
 

@@ -11,7 +11,7 @@ from limitblocks.analysis.nonassociated.path_equations import Equations, Path, P
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.barrier import slope
 
-REFINED = 1e-6  # theta below which directions are refined: without it paths stall near 1e-8
+REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
 
 
 class Newton:

@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.analysis.nonassociated.closing import NEAR, Closing
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
+    LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
     MEANS,
@@ -32,6 +33,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
+Record = Callable[[Iteration], None]  # tells the user
 Half = Callable[[], tuple[State, str] | None]  # what is found in one half of a symmetric structure
 STEPS = Settings(growth=2.0, left=1e-5, budget=2500)  # the load path in larger and coarser increments
 
@@ -46,7 +48,7 @@ def first_to_solve(
     scale: float,
     means: Sequence[Means],
     tolerance: float,
-    record: Callable[[Iteration], None],
+    record: Record,
     enough: Callable[[State], bool] = lambda _: False,
     half: Half = no_half,
 ) -> tuple[State, str]:
@@ -62,8 +64,11 @@ def first_to_solve(
     large_in_plane = means is MEANS and blocks > LARGE_IN_PLANE and not in_space
     if means is MEANS and half is no_half:  # in a plane or one half points cost little
         means = tuple(one._replace(patience=None) for one in MEANS)
-    if large or large_in_plane:
-        ways = (_large_ways if large else _large_planar_ways)(flow, x0, scale, tolerance, record)
+    if large:
+        large_means = LARGE_HALF_MEANS if half is no_half else LARGE_MEANS
+        ways = _large_ways(flow, x0, scale, large_means, tolerance, record)
+    elif large_in_plane:
+        ways = _large_planar_ways(flow, x0, scale, tolerance, record)
     else:
         ways = _ways(flow, x0, scale, means, tolerance, record)
     for state, how in ways if len(means) == 1 else _then(ways, half, flow, tolerance):
@@ -91,12 +96,7 @@ def _then(
 
 
 def _ways(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
+    flow: Flow, x0: Array, scale: float, means: Sequence[Means], tolerance: float, record: Record
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of one way after the other, and which way it was."""
 
@@ -122,12 +122,7 @@ def _ways(
 
 
 def _from_centroid(
-    flow: Flow,
-    x0: Array,
-    scale: float,
-    means: Sequence[Means],
-    tolerance: float,
-    record: Callable[[Iteration], None],
+    flow: Flow, x0: Array, scale: float, means: Sequence[Means], tolerance: float, record: Record
 ) -> Iterator[tuple[State, str]]:
     """Polished ends of paths from the solution that twists about the centroid, and which they were."""
     centroid = replace(flow, turning=Turning.CENTROID)
@@ -163,24 +158,24 @@ def _in_space(flow: Flow) -> bool:
 
 
 def _large_ways(
-    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
+    flow: Flow, x0: Array, scale: float, means: Sequence[Means], tolerance: float, record: Record
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
 
     That of the first comes without rounds as well: one half costs less, and follows the load path.
     """
     closing = Closing(flow, tolerance)
-    for one in LARGE_MEANS:
+    for one in means:
         state, how = _tracked(flow, x0, scale, one, record, closing=closing)
         ended = how.endswith(INTERRUPTED) or defect(flow, state) <= tolerance
-        if ended or one is LARGE_MEANS[0]:
+        if ended or one is means[0]:
             yield state, how
         if not ended:
             yield _in_rounds(closing, state, how)
 
 
 def _large_planar_ways(
-    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
+    flow: Flow, x0: Array, scale: float, tolerance: float, record: Record
 ) -> Iterator[tuple[State, str]]:
     """Ends of the paths for large models in a plane; rounds take off the compliance left, 1e-8 of flow."""
     for one in LARGE_PLANAR_MEANS:
@@ -195,7 +190,7 @@ def _tracked(
     x: Array,
     scale: float,
     one: Means,
-    record: Callable[[Iteration], None],
+    record: Record,
     softening: float = SOFTENING,
     closing: Closing | None = None,
 ) -> tuple[State, str]:
@@ -222,9 +217,7 @@ def _in_rounds(closing: Closing, state: State, how: str) -> tuple[State, str]:
         return state, f"{how}, {INTERRUPTED}"
 
 
-def _increments(
-    flow: Flow, x0: Array, scale: float, tolerance: float, record: Callable[[Iteration], None]
-) -> tuple[State, str]:
+def _increments(flow: Flow, x0: Array, scale: float, tolerance: float, record: Record) -> tuple[State, str]:
     """The end of the load path, pushed increment by increment; the last one where the user stops it."""
     problem, how = flow.problem, "increments of the load path"
     met = [State(0.0, x0, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
