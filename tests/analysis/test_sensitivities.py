@@ -8,8 +8,9 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.shape import moved
 from limitblocks.errors import LimitBlocksError, ModelError
-from limitblocks.practice import reinforced, strip, tie
+from limitblocks.practice import passive_fill, reinforced, strip, tie
 from limitblocks.studies import shape_sensitivity
 
 WIDTH, HEIGHT, MU = 1.0, 2.0, 0.7
@@ -281,3 +282,19 @@ def test_shape_moves_ties_with_their_anchors_and_keeps_their_sections():
     bonded = reinforced(wall, strip(found[0], (-b / 2, 0, 0), width=0.1, capacity=F))
     deeper = shape_sensitivity(bonded, lb.bounds(bonded), lambda r: r * [0, 1, 0])
     assert deeper == pytest.approx(-F * b / (W * h / 2), rel=1e-6)
+
+
+def test_a_moved_tie_is_as_long_as_its_anchors_are_apart_and_fill_pushes_along_the_deck_still():
+    ring = structures.arch(lb.PointContact(0.6), radius=2.0, thickness=0.4, voussoirs=9)
+    block = ring.free_blocks[-1]
+    x, y, z = block.centroid
+    rod = tie(
+        block.name, (x, y, z), min(ring.supports), (x + 3, y, z - 4), area=1e-4, strength=1e9, pull_out=1e3
+    )
+    fill = passive_fill(ring, 3.0, unit_weight=1e4, coefficient=2.0)
+    held = reinforced(ring, rod, *fill)
+    lean = moved(held, lambda r: np.array([1.0, 0, 0]) * r[:, 2:], 0.5)  # X + Z / 2
+    (length,) = (one.joint.length for one in lean.interfaces if getattr(one.joint, "length", 0.0))
+    assert length == pytest.approx(np.hypot(3 - 2, 4))
+    axes = [[one.axes for one in each.interfaces[-len(fill) :]] for each in (held, lean)]
+    np.testing.assert_array_equal(*axes)
