@@ -215,6 +215,7 @@ def test_overlap_is_seen():
     plt = pytest.importorskip("matplotlib.pyplot")
     from overlap import collisions, covered, too_small
 
+    plt.style.use("default")  # not the style of what ran before
     figure, axis = plt.subplots()
     axis.set(xticks=[0, 1], xlabel="far from each other")
     assert collisions(figure) == []

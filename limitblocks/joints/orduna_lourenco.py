@@ -19,6 +19,7 @@ from limitblocks.joints.base import (
     checked_stress,
     friction_words,
     strength_words,
+    stress_words,
 )
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinging, shear_directions, stacked
@@ -95,7 +96,8 @@ class OrdunaLourenco(Queries):
         1 - cos(pi/sides), or too strong by up to 1/cos(pi/sides) - 1.
     cohesion, tensile_strength : float
         Pa; mu |N| becomes mu |N| + A cohesion in Eqs (23)-(30), and N becomes N - A tensile_strength in
-        hinging. With friction, tension is limited to A cohesion / mu, too.
+        hinging. With friction the tensile strength counts up to cohesion / mu, where Coulomb's law ends: none
+        without cohesion.
 
     Raises
     ------
@@ -141,6 +143,10 @@ class OrdunaLourenco(Queries):
             "on areas divided into convex pieces, as an L, by about as much."
         )
         cohesion = "Cohesion acts on the whole area whatever the eccentricity, which overestimates it."
+        tension = (
+            f"Of the tensile strength {stress_words(self._tension)} counts, cohesion over friction, where "
+            "Coulomb's law ends."
+        )
         return (
             "Joints slide, twist and hinge by the yield surface of Orduña & Lourenço (2005), Part I, "
             "Eqs (23)-(30) and (36) or (39).",
@@ -153,12 +159,18 @@ class OrdunaLourenco(Queries):
             "Shear and bending reduce torsion independently of each other.",
             crushing,
             *((cohesion,) if self.cohesion else ()),
+            *((tension,) if self._tension < self.tensile_strength else ()),
         )
+
+    @property
+    def _tension(self) -> float:
+        """Tensile strength that counts, Pa: beyond cohesion / mu no hinge would open, as Eq. (30) twists."""
+        return min(self.tensile_strength, self.cohesion / self.friction if self.friction else np.inf)
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""
         half_sides = equivalent_half_sides(polygons)
-        groups = [hinging(polygons, self.compressive_strength, self.tensile_strength, stress_unit)]
+        groups = [hinging(polygons, self.compressive_strength, self._tension, stress_unit)]
         shear = self.friction > 0.0 or self.cohesion > 0.0
         if shear:
             groups = self._frictional_rows(polygons, half_sides, stress_unit) + groups

@@ -134,18 +134,12 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
     assert "barrier 0.5 (large barrier), power 2, seed 3" in lb.nonassociated(corner(), means=own).how
 
 
-def test_the_last_path_of_a_large_model_has_a_smaller_barrier(monkeypatch):
-    """It closes what the others leave open: here they are stopped, and rounds close nothing."""
-    means = tuple(one._replace(budget=1) for one in LARGE_MEANS[:-1])
-    monkeypatch.setattr(ways, "LARGE", 10)
-    monkeypatch.setattr(ways, "LARGE_MEANS", (*means, LARGE_MEANS[-1]))
-    monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
-    found = lb.nonassociated(corner())
-    assert found.how.startswith("tracked path, barrier 0.2 (large barrier), power 2, seed 2")
-    assert lb.check_mcp(corner(), found).passed
-    monkeypatch.setattr(ways, "LARGE_MEANS", means)
-    with pytest.raises(lb.NotConverged):
-        lb.nonassociated(corner())
+def test_the_last_path_closes_a_facade_that_the_others_leave_open():
+    """160 blocks pushed out of their plane; nothing is scaled down or held back."""
+    model = lb.structures.facade(lb.OrdunaLourenco(0.6), direction=(0.0, 1.0, 0.0))
+    found = lb.nonassociated(model, confirm=False)
+    assert lb.check_mcp(model, found).passed
+    assert "barrier 0.2 (large barrier), power 2, seed 2" in found.how
 
 
 @pytest.mark.parametrize("rounds", [True, False])

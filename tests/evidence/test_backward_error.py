@@ -297,7 +297,7 @@ def test_the_proof_refuses_any_other_state(part):
 def test_strength_that_a_centric_force_needs_to_crush_and_to_crack():
     """Eq. (39) between fcef and ft: (A ft - N) / (A (fcef + ft)) of the strength is in use, both counted."""
     fc, ft, side = 2e5, 3e4, 0.5
-    joint = lb.OrdunaLourenco(0.6, compressive_strength=fc, tensile_strength=ft)
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=fc, tensile_strength=ft, cohesion=0.6 * ft)
     problem = lb.structures.block(joint, width=side, height=1.0, depth=side).problem
     weight, area = 20e3 * side**2, side**2
     x = problem.resultants.T @ (np.array([0, 0, -weight, 0, 0, 0]) / problem.units.resultants)

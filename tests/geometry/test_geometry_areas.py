@@ -201,6 +201,9 @@ def test_notch_larger_than_the_tolerance_divides_an_area():
         interfaces = find_interfaces(decks(notch), None)
         assert len(interfaces) == count
         assert sum(map(area, interfaces)) == pytest.approx(1 - depth / 2, rel=1e-3)
+        exact = find_interfaces(decks(notch), None, gap=1e-9)
+        assert len(exact) == 2
+        assert sum(map(area, exact)) == pytest.approx(1 - depth / 2, rel=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -189,3 +189,16 @@ def test_cohesion_and_tension():
     assert dry.strength(interface, (0, 0, 1, 0, 0, 0)) == 0
     sticky = lb.OrdunaLourenco(0.0, cohesion=c)
     assert sticky.strength(interface, (1, 0, 0, 0, 0, 0), COMPRESSION) == pytest.approx(c * AREA, rel=1e-12)
+
+
+@pytest.mark.parametrize("c", [0.0, 3e3])
+def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
+    """Coulomb's law allows no tension beyond c / mu: a hinge forms at M1 = L2 (A c / mu - N)."""
+    joint, interface = (
+        lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=1e6),
+        lb.joints.interface(RECTANGLE, None),
+    )
+    moment = joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
+    assert moment == pytest.approx(L2 * (AREA * c / MU - N), rel=1e-9)
+    assert any(f"tensile strength {c / MU / 1e3:.4g} kPa counts" in line for line in joint.assumed())
+    assert not any("tensile" in line for line in SLIPS["bonded"].assumed())

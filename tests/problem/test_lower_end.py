@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks import structures
 from limitblocks.analysis.nonassociated import without_shear
 from limitblocks.problem import Flow, Turning
 
@@ -152,6 +153,18 @@ def test_glue_holds_a_stone_without_shear():
     result = lb.nonassociated(model)
     assert result.load_factor == pytest.approx(1.5 - MU)
     assert result.frictionless == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("c", [0.0, 3e3])
+def test_a_stone_tips_where_friction_ends_its_tension(c):
+    """Tension ends at c / mu: W b / 2 + A (c / mu) b / 2 = a W h / 2; beyond it no hinge would open."""
+    b, h = 1.0, 4.0
+    joint = lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=1e6)
+    model = structures.block(joint, width=b, height=h)
+    (stone,) = model.free_blocks
+    expected = (1.0 + stone.volume / h * c / (MU * stone.weight)) * b / h
+    assert lb.bounds(model).upper == pytest.approx(expected)
+    assert lb.nonassociated(model).load_factor == pytest.approx(expected)
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(MU), lb.PointContact(MU)], ids=repr)
