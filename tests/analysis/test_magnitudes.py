@@ -30,6 +30,10 @@ def arched(**change):
             block(lb.OrdunaLourenco(0.6, compressive_strength=2.0)),
             "compressive strength is 2 Pa: MPa? 2 MPa = 2e+06 Pa",
         ),
+        (
+            block(lb.OrdunaLourenco(0.6, cohesion=3e3, tensile_strength=5.1e3)),
+            "tensile strength is 5100 Pa: of it 5e+03 Pa counts, cohesion / friction; more cohesion?",
+        ),
         (block(lb.OrdunaLourenco(0.6, cohesion=0.1)), "cohesion is 0.1 Pa: MPa? 0.1 MPa = 100000 Pa"),
         (block(unit_weight=20.0), "unit weight is 20 N/m3: kN/m3? 20 kN/m3 = 20000 N/m3"),
         (block(unit_weight=2000.0), "unit weight is 2000 N/m3: kg/m3? 2000 kg/m3 weigh 1.962e+04 N/m3"),
@@ -81,6 +85,10 @@ def test_unit_weights_of_fill_and_of_what_presses_a_face_are_asked_about(weight,
 @pytest.mark.parametrize("name", structures.EXAMPLES)
 def test_plausible_models_raise_no_question(name):
     assert questions(structures.EXAMPLES[name](lb.OrdunaLourenco(0.8, compressive_strength=3e5))) == []
+
+
+def test_tensile_strength_up_to_cohesion_over_friction_is_not_asked_about():
+    assert questions(block(lb.OrdunaLourenco(0.7, cohesion=0.7 * 5.1e3, tensile_strength=5.1e3))) == []
 
 
 def test_questions_reach_whoever_imports_and_reports(tmp_path, caplog):
