@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.geometry import Block
+from limitblocks.joints import OrdunaLourenco
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
 from limitblocks.mechanics.loads.load import Load, some, triple
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
@@ -18,8 +19,6 @@ from limitblocks.shown import many
 _STEEP = 3.0
 #: Strengths and cohesions, Pa, below which they may be in MPa: mud mortar has 1e4 and 1e3.
 _WEAK = {"compressive_strength": 1e4, "tensile_strength": 1e2, "cohesion": 1e2}
-#: Relative: what cohesion / friction may be off by.
-_ROUNDING = 1e-9
 #: Unit weights, N/m3, below which they may be in kN/m3, or densities in kg/m3: cork has 1200, pumice 5000.
 _KILO, _DENSITY = 5e2, 5e3
 #: Unit weight, N/m3, and strength, Pa, that no masonry has: platinum weighs 2.1e5, basalt bears 4e8.
@@ -143,10 +142,9 @@ def _of_joint(joint: Any) -> Iterator[str]:
             yield f"{name.replace('_', ' ')} is {value:g} Pa: MPa? {value:g} MPa = {1e6 * value:g} Pa"
         if value and _STRONG < value < np.inf:
             yield f"{name.replace('_', ' ')} is {value:g} Pa, more than any stone bears: in Pa? see units"
-    tension, cohesion = getattr(joint, "tensile_strength", 0.0), getattr(joint, "cohesion", 0.0)
-    if friction * tension > cohesion * (1.0 + _ROUNDING):
-        counts = f"of it {cohesion / friction:.3g} Pa counts, cohesion / friction"
-        yield f"tensile strength is {tension:g} Pa: {counts}; more cohesion?"
+    if isinstance(joint, OrdunaLourenco) and joint.counted_tension < joint.tensile_strength:
+        counts = f"of it {joint.counted_tension:.3g} Pa counts, cohesion / friction"
+        yield f"tensile strength is {joint.tensile_strength:g} Pa: {counts}; more cohesion?"
 
 
 def _of_weight(weight: float) -> list[str]:

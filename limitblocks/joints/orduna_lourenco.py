@@ -30,6 +30,7 @@ SIGNS = (1.0, -1.0)
 TWIST = np.array([(0, 0, 1, 0, 0, t) for t in SIGNS])  # Eq. (23)
 MOMENT_TWIST = np.array([(0, 0, 1, a, b, t) for a, b, t in product(SIGNS, SIGNS, SIGNS)])  # Eq. (30)
 SLIP_FORCE = 1.3  # of V0: where the planes (27)-(29) meet the axis T = 0
+ROUNDING = 1e-9  # relative: what a cohesion, friction times tension, may be off by
 
 
 _SLIP_WORDS = {
@@ -144,8 +145,8 @@ class OrdunaLourenco(Queries):
         )
         cohesion = "Cohesion acts on the whole area whatever the eccentricity, which overestimates it."
         tension = (
-            f"Of the tensile strength {stress_words(self._tension)} counts, cohesion over friction, where "
-            "Coulomb's law ends."
+            f"Of the tensile strength {stress_words(self.counted_tension)} counts, cohesion over friction, "
+            "where Coulomb's law ends."
         )
         return (
             "Joints slide, twist and hinge by the yield surface of Orduña & Lourenço (2005), Part I, "
@@ -159,18 +160,19 @@ class OrdunaLourenco(Queries):
             "Shear and bending reduce torsion independently of each other.",
             crushing,
             *((cohesion,) if self.cohesion else ()),
-            *((tension,) if self._tension < self.tensile_strength else ()),
+            *((tension,) if self.counted_tension < self.tensile_strength else ()),
         )
 
     @property
-    def _tension(self) -> float:
+    def counted_tension(self) -> float:
         """Tensile strength that counts, Pa: beyond cohesion / mu no hinge would open, as Eq. (30) twists."""
-        return min(self.tensile_strength, self.cohesion / self.friction if self.friction else np.inf)
+        less = self.friction * self.tensile_strength > self.cohesion * (1.0 + ROUNDING)
+        return self.cohesion / self.friction if less else self.tensile_strength
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:
         """Return the rows for polygons of shape (m, n, 2); see :class:`~limitblocks.joints.base.Joint`."""
         half_sides = equivalent_half_sides(polygons)
-        groups = [hinging(polygons, self.compressive_strength, self._tension, stress_unit)]
+        groups = [hinging(polygons, self.compressive_strength, self.counted_tension, stress_unit)]
         shear = self.friction > 0.0 or self.cohesion > 0.0
         if shear:
             groups = self._frictional_rows(polygons, half_sides, stress_unit) + groups
