@@ -155,6 +155,14 @@ def _said(fault: Any, form: type[Document]) -> str:
             return str(context["error"])
         case "less_than" | "greater_than":
             return f"expected a number less than 1e30 in size, not {_value(fault['input'])}"
+        case "literal_error" if fault["loc"] == ("schema_version",):
+            newer = isinstance(fault["input"], int) and fault["input"] > 1
+            whose = ": the file was written by a newer version of limitblocks, which reads it" if newer else ""
+            return f"expected 1, not {_value(fault['input'])}{whose}"
+        case "too_long":
+            return f"expected at most {context['max_length']} entries, not {_value(fault['input'])}"
+        case "too_short":
+            return f"expected at least {context['min_length']} entries, not {_value(fault['input'])}"
         case "tuple_type" | "list_type":
             return f"expected a list [...], not {_value(fault['input'])}"
         case "model_type" | "model_attributes_type" | "dict_type":
