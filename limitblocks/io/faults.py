@@ -157,7 +157,9 @@ def _said(fault: Any, form: type[Document]) -> str:
             return f"expected a number less than 1e30 in size, not {_value(fault['input'])}"
         case "literal_error" if fault["loc"] == ("schema_version",):
             newer = isinstance(fault["input"], int) and fault["input"] > 1
-            whose = ": the file was written by a newer version of limitblocks, which reads it" if newer else ""
+            whose = (
+                ": the file was written by a newer version of limitblocks, which reads it" if newer else ""
+            )
             return f"expected 1, not {_value(fault['input'])}{whose}"
         case "too_long":
             return f"expected at most {context['max_length']} entries, not {_value(fault['input'])}"
