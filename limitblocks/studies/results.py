@@ -198,5 +198,5 @@ def in_short(value: Any) -> str:
 
 
 def row_in_short(row: dict[str, Any]) -> list[str]:
-    """Return the cells of a row of a study as text, residuals with the two digits that they have everywhere."""
+    """Return the cells of a row of a study as text, residuals with two digits as everywhere."""
     return [f"{v:.1e}" if name == "worst_residual" else in_short(v) for name, v in row.items()]
