@@ -102,7 +102,8 @@ def test_pivots_close_rounds_near_a_solution(monkeypatch):
 
     def in_rounds():
         walls = [
-            lb.structures.EXAMPLES["buttressed_wall"](lb.OrdunaLourenco(mu)) for mu in (0.58, 0.62, 0.66, 0.68)
+            lb.structures.EXAMPLES["buttressed_wall"](lb.OrdunaLourenco(mu))
+            for mu in (0.58, 0.62, 0.66, 0.68)
         ]
         found = [lb.nonassociated(wall) for wall in walls]
         assert all(one.converged for one in found)
