@@ -92,7 +92,7 @@ def number(
 ) -> float:
     """Return `value` as a float; ModelError where it is not finite, too small or too large."""
     try:
-        real = np.nan if isinstance(value, str) else float(value)
+        real = float(1.0 * value)  # text is no number
     except (TypeError, ValueError):
         real = np.nan
     if np.isfinite(real) and most >= real >= least and real > above:
