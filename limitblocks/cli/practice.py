@@ -60,7 +60,10 @@ Friction = Annotated[
     float | None, typer.Option("--gamma-phi", help="Divides the friction coefficient [default: gamma-m].")
 ]
 Ties = Annotated[
-    float | None, typer.Option("--gamma-s", help="Divides the strength of ties and dowels, if there are any.")
+    float | None,
+    typer.Option(
+        "--gamma-s", help="Divides the strength of ties, dowels and passive fill, if there are any."
+    ),
 ]
 Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
 
