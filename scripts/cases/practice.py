@@ -114,6 +114,19 @@ def spread(voussoirs, ratio):
     return (way.stands_to + way.falls) / 2
 
 
+def slides_away():
+    """Settlement at which a beam has lost its bearing of .2 m; less than 1e-3 block lengths is no contact."""
+    stones = [
+        lb.Block.box("left", (0.1, 1, 1), (-1.95, 0, -0.5)),
+        lb.Block.box("right", (0.2, 1, 1), (1.5, 0, -0.5)),
+        lb.Block.box("beam", (4.0, 1, 0.5), (-0.4, 0, 0.25), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.5))
+    beam = lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    way = settlement_to_collapse(beam, "right", (1, 0, 0), step=0.1, accuracy=1e-3)
+    return way.falls
+
+
 def point_load():
     """Intrados radius 1.806 m, thickness .1661 of it, depth .25 m, 1530 kg/m3; kN at joint 8 of 27."""
     inner, t = 1.806, 0.1661 * 1.806
@@ -266,6 +279,8 @@ def practice():
                    "settlement at collapse / R", f"{ANOTHER}spreading_arch.py",
                    spreading_arch.fourth_hinge(voussoirs, ratio), SPREAD,
                    partial(spread, voussoirs, ratio))  # fmt: skip
+    yield Case(GROUP, "beam whose support slides away below its end", "settlement at collapse, m",
+               "length of its bearing", 0.2, 2e-3, slides_away)  # fmt: skip
     yield case("facade with a floor", "non-associated", "moments about toe", rocking(),
                lambda: nonassociated(facade()))  # fmt: skip
     yield case("facade, tie of 8 kN at 4.5 m", "non-associated", "moments about toe", rocking(8e3, 4.5),
