@@ -77,6 +77,8 @@ def test_notes_on_many_blocks_are_one():
         (lambda model: lb.nonassociated(model, dilatancy="0.1"), "dilatancy is '0.1', expected 0 to"),
         (lambda model: lb.bounds(model, tolerance=0), "tolerance is 0, expected a finite number > 0"),
         (lambda model: lb.nonassociated(model, tolerance="tight"), "tolerance is 'tight', expected"),
+        (lambda model: lb.nonassociated(model, tolerance="1e-8"), "tolerance is '1e-8', expected"),
+        (lambda model: lb.bounds(replace(model, dead=float("nan") * model.dead)), "factor of a load is nan"),
         (lambda model: lb.load_path(model, tolerance=-1), "tolerance is -1, expected"),
         (lambda model: lb.load_path(model, settings={"first": 0.1}), "settings is a dict, expected Settings"),
         (lambda model: lb.load_factor_range(model, paths=2.5), "paths is 2.5, expected a whole number"),

@@ -13,7 +13,6 @@ from scipy.sparse import csgraph, linalg
 from limitblocks.arrays import Array, Indices
 
 REGULAR = 1e-12  # blocks that can move freely make the matrix of equilibrium singular
-ROUNDED = 1e-28  # of the largest diagonal: a square of rounding errors, such as out of the plane of an arch
 BAND = 512  # widest that is factorised as a band: docs/solvers.md
 
 
@@ -23,8 +22,7 @@ def solver_of(K: sparse.csr_array) -> Callable[[Array], Array]:
     A narrow band of entries (Cuthill & McKee 1969) is factorised by LAPACK, in dense arithmetic.
     """
     diagonal = K.diagonal()  # in units of a state its entries are far apart
-    real = diagonal > ROUNDED * diagonal.max(initial=0.0)
-    A = sparse.csc_array(K + sparse.diags_array(REGULAR * np.where(real, diagonal, 1.0)))
+    A = sparse.csc_array(K + sparse.diags_array(REGULAR * np.where(diagonal > 0.0, diagonal, 1.0)))
     order = csgraph.reverse_cuthill_mckee(A, symmetric_mode=True).astype(np.int64)
     place = np.empty_like(order)
     place[order] = np.arange(len(order))

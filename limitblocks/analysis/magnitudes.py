@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from limitblocks.geometry import Block
-from limitblocks.joints import OrdunaLourenco
-from limitblocks.mechanics.loads.forces import AddedMass, MassProportional
+from limitblocks.geometry.polygon import areas
+from limitblocks.joints import OrdunaLourenco, Tie
+from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some, triple
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
 from limitblocks.model import Model
@@ -32,6 +33,12 @@ _HEAVY_FILL = 3e4
 _LIGHT = 1e3
 #: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
 _CALM = 0.49
+#: Dead force on a block, N and over its weight, below which it may be in kN: a hand pulls with more.
+_FAINT, _FAINT_SHARE = 1e2, 1e-2
+#: Strength of a tie, Pa, below which it may be in MPa or its force in kN: oak has 5e7.
+_SOFT = 1e6
+#: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
+_THICK = 5e-2
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
@@ -45,7 +52,8 @@ def questions(model: Model) -> list[str]:
     for weight in sorted({block.unit_weight for block in model.free_blocks if block.unit_weight}):
         asked += _of_weight(weight)
     corners = np.concatenate([block.vertices for block in model.blocks])
-    return asked + of_size(float(np.ptp(corners, axis=0).max()))
+    size = float(np.ptp(corners, axis=0).max())
+    return [*asked, *_of_forces(model, size), *_of_ties(model), *of_size(size)]
 
 
 def weightless(model: Model) -> list[str]:
@@ -125,6 +133,40 @@ def _of_loads(model: Model) -> Iterator[str]:
             for block, at in sorted(loads[one] - loads[other]):
                 where = f"the mass fixed to {block!r} at {triple(at)} m"
                 yield f"{where} acts in the {one} load alone: give it in the {other} load, too"
+
+
+def _of_forces(model: Model, size: float) -> Iterator[str]:
+    """What is asked about forces and masses on the blocks of a structure of this size, m."""
+    blocks = {block.name: block for block in model.blocks}
+    for load, word in ((model.dead, "dead"), (model.live, "live")):
+        for factor, term in load.terms:
+            if not isinstance(term, AddedMass | PointForce):
+                continue
+            block, on = blocks[term.block], f"the {word} load has {term.in_words()}"
+            force = np.multiply(term.direction, term.weight) if isinstance(term, AddedMass) else term.force
+            most = float(np.linalg.norm(force))
+            acts = abs(factor) * most
+            if word == "dead" and 0.0 < acts < min(_FAINT, _FAINT_SHARE * block.weight):
+                yield f"{on}: {acts:.3g} N on a block of {block.weight:.3g} N; kN? see units"
+            arm = np.subtract(term.at, block.centroid)
+            if isinstance(term, PointForce) and most:  # where on its line it acts makes no difference
+                arm = np.cross(arm, force) / most
+            if (away := float(np.linalg.norm(arm))) > size:
+                whole = f"the structure is {size:.4g} m large"
+                yield f"{on}: that is {away:.4g} m off the centroid of the block, {whole}; see units"
+
+
+def _of_ties(model: Model) -> Iterator[str]:
+    """What is asked about the sections of ties and what they carry."""
+    for tie in model.interfaces:
+        if isinstance(tie.joint, Tie) and tie.joint.length:
+            section, strength = float(areas(tie.polygon)), tie.joint.strength
+            if section > _THICK:
+                small = f"{section:.4g} mm2 = {section / 1e6:.4g} m2"
+                yield f"{tie.name}: its section is {section:.4g} m2: mm2? {small}"
+            if strength < _SOFT:
+                what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
+                yield f"{tie.name}: {what}: MPa, or kN?"
 
 
 def _masses(load: Load) -> set[tuple[str, tuple[float, ...]]]:

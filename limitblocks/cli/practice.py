@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -59,7 +60,10 @@ Friction = Annotated[
     float | None, typer.Option("--gamma-phi", help="Divides the friction coefficient [default: gamma-m].")
 ]
 Ties = Annotated[
-    float | None, typer.Option("--gamma-s", help="Divides the strength of ties and dowels, if there are any.")
+    float | None,
+    typer.Option(
+        "--gamma-s", help="Divides the strength of ties, dowels and passive fill, if there are any."
+    ),
 ]
 Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
 
@@ -130,14 +134,16 @@ def verify(
         demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
         demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
         demands |= {"elastic_period": elastic_period}
-        curve = None if linear else analyses.capacity(structure)
         solved = analyses.nonassociated(structure)
-        beside.extend((solved, curve) if curve else (solved,))
-        whole = curve if curve and curve.zero is not None else None
-        found = verification(
-            structure, solved, site, q=behaviour, confidence=confidence, curve=whole, **demands
+        verified = partial(
+            verification, structure, solved, site, q=behaviour, confidence=confidence, **demands
         )
-        return found if whole or not curve else without_curve(found, curve.ended)
+        alone = verified()  # refuses what is out of range before a curve is drawn
+        curve = None if linear else analyses.capacity(structure)
+        beside.extend((solved, curve) if curve else (solved,))
+        if not curve:
+            return alone
+        return without_curve(alone, curve.ended) if curve.zero is None else verified(curve=curve)
 
     with clean_errors():
         from limitblocks.practice import Spectrum, verification

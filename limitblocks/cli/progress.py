@@ -25,7 +25,7 @@ Tell = Callable[[str, float | None], None]
 def of_iterations(verb: str) -> Iterator[Callable[[Iteration], None]]:
     """Give a callback for the iterations of an analysis."""
     with _told(verb) as tell:
-        yield lambda one: tell(f"{one.kind}: load factor {one.load_factor:.6g}", _share(one))
+        yield lambda one: tell(f"{one.kind}: {_in_words(one.load_factor)}", _share(one))
 
 
 @contextmanager
@@ -53,7 +53,7 @@ def of_settlement(verb: str) -> Iterator[Callable[[SettlementPoint], None]]:
 def of_places(verb: str) -> Iterator[Callable[[float, float], None]]:
     """Give a callback for the places of a vehicle."""
     with _told(verb) as tell:
-        yield lambda x, factor: tell(f"X = {x:.6g} m: load factor {factor:.6g}", None)
+        yield lambda x, factor: tell(f"X = {x:.6g} m: {_in_words(factor)}", None)
 
 
 @contextmanager
@@ -116,3 +116,10 @@ def _lines(verb: str) -> Iterator[Tell]:
     finally:
         ended.set()
         thread.join()
+
+
+def _in_words(load_factor: float) -> str:
+    """Return a load factor as text; NaN is none, infinity is that of a load that only jams."""
+    if math.isnan(load_factor):
+        return "no load factor"
+    return "unlimited" if math.isinf(load_factor) else f"load factor {load_factor:.6g}"

@@ -105,7 +105,7 @@ def _tell(study: Study, asked: Asked) -> None:
     from limitblocks.io.result_file import result_text
     from limitblocks.reports.terminal import print_table, print_warnings
     from limitblocks.studies.pool import INTERRUPTED
-    from limitblocks.studies.results import in_short
+    from limitblocks.studies.results import row_in_short
 
     if asked.csv:
         study.write_csv(asked.csv, overwrite=asked.force)
@@ -118,7 +118,7 @@ def _tell(study: Study, asked: Asked) -> None:
         errors = [row.pop("error") for row in rows]
         words = [study.head(key).replace("_", " ") for key in rows[0]]
         heads = tuple(word[0].upper() + word[1:] for word in words)
-        print_table("", heads, [[*map(in_short, row.values())] for row in rows])
+        print_table("", heads, [row_in_short(row) for row in rows])
         print_warnings(_grouped(errors))
         typer.echo(f"\n{study}")
     if INTERRUPTED in study.errors:

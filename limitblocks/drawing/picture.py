@@ -97,7 +97,7 @@ class Picture:
             arms.append(Group("live" if name == "live" else "axis", "", (arm,)))
             side, off = ("start axis", 10.0) if x >= 0.0 else ("end axis", -10.0)
             labels.append(Label(float(tip[0]) + off, float(tip[1]) - 4.0, name, side))
-        text = f"Axonometric drawing. {self.summary} Dashed: the moving blocks before they moved."
+        text = f"Axonometric drawing. {self.summary}"
         return Sheet("mechanism", title, text, self.height + _FOOT, (*groups, *arms), tuple(labels))
 
 

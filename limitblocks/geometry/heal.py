@@ -111,7 +111,8 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     if size is None:
         raise ModelError(
             "how accurate the faces are is not known, too few of them touch: heal(blocks, accuracy=...) "
-            "takes a length in m; or leave them as they are and widen the gap that counts as touching"
+            "takes a length in m; or leave them as they are and widen the gap that counts as touching "
+            "(import --gap)"
         )
     if not 0.0 <= size < np.inf:
         raise ModelError(f"accuracy is {accuracy!r}; a length in m is needed")

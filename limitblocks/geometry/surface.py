@@ -129,12 +129,12 @@ def _shell_fault(points: Array, edges: Mesh, sides: tuple[Indices, Indices]) -> 
                 "block is one piece, and the faces of a cavity point into the cavity"
             )
         others = shell[face] != k
-        if _winding(points[corners[~others][0, 0]], points[corners[others]]) != 1:
+        if winding(points[corners[~others][0, 0]], points[corners[others]]) != 1:
             return f"face {first} belongs to a cavity that is not inside the block alone"
     return ""
 
 
-def _winding(place: Array, corners: Array) -> int:
+def winding(place: Array, corners: Array) -> int:
     """Return how often closed triangles (t, 3, 3) wind round a place: their solid angles over 4 pi.
 
     Van Oosterom & Strackee (1983), IEEE Transactions on Biomedical Engineering 30, 125-126, Eq. (8).

@@ -25,6 +25,10 @@ _LONGEST_LINE = 500
 #: Faults after which no more are counted.
 _COUNTED = 10_000
 _MORE = re.compile(r"and \d+ more faults")
+_COUNTS = {
+    "too_long": "expected at most {max_length} entries",
+    "too_short": "expected at least {min_length} entries",
+}
 D = TypeVar("D", bound="Document")
 
 
@@ -160,9 +164,21 @@ def _said(fault: Any, form: type[Document]) -> str:
         case "model_type" | "model_attributes_type" | "dict_type":
             return f"expected an object {{...}}, not {_value(fault['input'])}"
         case _:
-            said = fault["msg"].partition(", unable to parse")[0]
-            said = said.replace("Input should be", "expected").replace(" valid", "")
-            return f"{said}, not {_value(fault['input'])}"
+            return f"{_expected(fault)}, not {_value(fault['input'])}{_newer(fault)}"
+
+
+def _expected(fault: Any) -> str:
+    """What pydantic expected; its own words where a user knows them."""
+    if fault["type"] in _COUNTS:
+        return _COUNTS[fault["type"]].format(**fault["ctx"])
+    said = fault["msg"].partition(", unable to parse")[0]
+    return str(said.replace("Input should be", "expected").replace(" valid", ""))
+
+
+def _newer(fault: Any) -> str:
+    """Why a version is none that can be read, where it is a later one."""
+    later = fault["loc"] == ("schema_version",) and isinstance(fault["input"], int) and fault["input"] > 1
+    return ": written by a newer version of limitblocks, which reads it" * later
 
 
 @cache

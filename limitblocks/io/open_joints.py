@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.geometry.accuracy import millimetres
 from limitblocks.model import Model
 from limitblocks.shown import many
 
@@ -24,13 +25,13 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
         if tied > 0:
             apart = _distance(wide, blocks, set(contacts.isolated))
             drawn = (
-                f"are the joints drawn open? They are typically {1e3 * apart:.2g} mm wide"
+                f"are the joints drawn open? They are typically {millimetres(apart)} wide"
                 if apart >= 0.0
-                else f"the blocks typically overlap by {-1e3 * apart:.2g} mm"
+                else f"the blocks typically overlap by {millimetres(-apart)}"
             )
             return [
                 f"{many(tied, 'block')} without any interface would touch with gap={gap:g} (block lengths, "
-                f"{1e3 * gap * wide.length:.2g} mm; import --gap {gap:g}): {drawn}"
+                f"{millimetres(gap * wide.length)}; import --gap {gap:g}): {drawn}"
             ]
     return []
 

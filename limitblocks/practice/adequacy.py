@@ -126,7 +126,8 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     Raises
     ------
     ModelError
-        If a joint has no friction or strength that could be factored, or a model with ties no `gamma_S`.
+        If a joint has no friction or strength that could be factored, or a model with ties, dowels or passive
+        fill no `gamma_S`.
     LimitBlocksError
         As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
     """
@@ -147,7 +148,7 @@ def design_model(model: Model, factors: PartialFactors) -> Model:
     Raises
     ------
     ModelError
-        If a joint has no strengths that the factors divide, or a tie or dowel has no gamma_S.
+        If a joint has no strengths that the factors divide, or a tie, a dowel or passive fill has no gamma_S.
     """
     made = {joint: _design(joint, factors) for joint in _joints(model)}
     interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]

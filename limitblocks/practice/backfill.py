@@ -34,7 +34,7 @@ def passive_fill(
     projection of its faces that lie under the fill; one that moves away meets nothing. Rigid-plastic,
     associated, mobilised at once, no friction between fill and masonry. The resistance of each face holds the
     block from behind, on the line of its resultant, and is held by the first support, or another at rest
-    where that one settles.
+    where that one settles. Upright faces, as the back of an abutment, meet nothing: no fill is above them.
 
     Fill over a pier between two spans leans on the other span, not on the ground: name in `blocks` those of
     the end spans that push towards an abutment, unless backing or spandrel walls hold the rest.

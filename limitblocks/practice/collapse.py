@@ -110,7 +110,9 @@ def _way(
         if point.displacement >= largest * (1.0 - 1e-12):
             yield None, f"the settlement {largest:g} m is reached"
             return
-        if not point.reaction > CLOSED * point.found.settling.unit:
+        if not (
+            point.reaction > CLOSED * point.found.settling.unit or _bears(assembly, control, point.found)
+        ):
             yield None, f"nothing rests on the support any more at {point.displacement:.6g} m"
             return
         while True:
@@ -135,6 +137,17 @@ def _way(
         assembly, control = there.assembly, there.control
         point = _point(at, answer, there)
         step = min(GROWTH * step, longest) if falls is None else (falls - at) / 2.0
+
+
+def _bears(assembly: Assembly, control: Control, found: Settlement) -> bool:
+    """Whether blocks press the support, across its way if not along it: a beam on one that slides away."""
+    forces = (found.result or found.bounds).stress_resultants
+    resultant = np.zeros(3)
+    for own, force in zip(assembly.contacts, forces, strict=False):  # the guide comes last
+        ends = own.interface.block_i, own.interface.block_j
+        if control.block in ends:
+            resultant += force[:3] @ own.interface.axes * (1.0 if control.block == ends[0] else -1.0)
+    return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit
 
 
 def _point(at: float, answer: Settlement, there: Advanced) -> SettlementPoint:

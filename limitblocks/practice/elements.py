@@ -17,6 +17,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model
+from limitblocks.practice.anchors import anchors_off
 
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
 
@@ -68,9 +69,9 @@ def tie(
     Parameters
     ----------
     block_i, block_j : str
-        Blocks that hold the anchors; a support stands for the ground. The anchors may lie outside of them.
+        Blocks that hold the anchors; a support stands for the ground.
     at_i, at_j : sequence of float
-        Anchors, global axes, m.
+        Anchors, global axes, m: in or on a block that can move; that of a support may lie anywhere.
     area : float
         Cross-section of one tie, m2.
     strength : float
@@ -190,7 +191,8 @@ def reinforced(model: Model, *elements: Element) -> Model:
     Raises
     ------
     ModelError
-        If an element names a block that the model does not have, or joins two supports.
+        If an element names a block that the model does not have, or joins two supports, or an anchor of a
+        tie is off a block that can move.
     """
     for element in elements:
         refuse_kind(element, Element, "what a structure is reinforced with")
@@ -202,6 +204,7 @@ def reinforced(model: Model, *elements: Element) -> Model:
         problems += [f"{own.name}: {name!r} is not a block of the model" for name in sorted(ends - known)]
         if ends <= supports:
             problems.append(f"{own.name}: both ends are in supports, which do not move")
+        problems += anchors_off(model, own)
     if problems:
         raise ModelError(*problems)
     free = {block.name for block in model.free_blocks}

@@ -24,7 +24,8 @@ class PartialFactors:
     gamma_phi : float, optional
         Divides the friction coefficient, the tangent of the friction angle; `gamma_M` unless given.
     gamma_S : float, optional
-        Divides the strength of ties, strips and dowels; needed where the model has any.
+        Divides the strength of ties, strips and dowels, and the resistance of passive fill; needed where the
+        model has any.
 
     Raises
     ------
@@ -59,12 +60,13 @@ class PartialFactors:
         Raises
         ------
         ModelError
-            A tie or dowel without gamma_S.
+            A tie, dowel or passive fill without gamma_S.
         """
         if not isinstance(joint, Tie | Dowel):
             return "gamma_M", self.gamma_M
         if self.gamma_S is None:
             raise ModelError(
-                "the model has ties or dowels: give gamma_S (--gamma-s), which divides their strength"
+                "the model has ties, dowels or passive fill: give gamma_S (--gamma-s), which divides their "
+                "strength"
             )
         return "gamma_S", self.gamma_S

@@ -12,6 +12,7 @@ from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import covered, tops
 from limitblocks.model import Model
+from limitblocks.shown import many
 
 SUNK = 1e-6  # of the size of a block: how far a road may lie below it
 
@@ -47,7 +48,10 @@ class Vehicle:
         axles = tuple(number(load, "axle load", "N", above=0.0) for load in self.axles)
         distances = tuple(number(way, "distance of an axle", "m") for way in self.distances)
         if not axles or len(axles) != len(distances):
-            raise ModelError(f"a vehicle with {len(axles)} axle loads has {len(distances)} distances")
+            raise ModelError(
+                f"a vehicle of {many(len(axles), 'axle')} has {many(len(distances), 'distance')}, expected "
+                "one for each axle, from the first, which is at 0"
+            )
         number(self.contact, "contact length", "m", above=0.0)
         object.__setattr__(self, "axles", axles)
         object.__setattr__(self, "distances", distances)

@@ -11,10 +11,10 @@ from limitblocks.reports.words import at_least, at_most, rounded_down, with_unit
 FACTORED = (
     "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "
     "loads, gamma_M divides strengths and cohesion of the joints, gamma_phi (gamma_M where it is not given) "
-    "their friction coefficient, gamma_S the strength of ties and dowels (EN 1990, Eqs (6.1), (6.3); EN "
-    "1997-1, Table A.4, for friction). An adequacy factor of one is E_d = R_d, Eq. (6.8), for the loads and "
-    "factors given; which factors a code asks for is not judged here. Where dead loads help, the answer with "
-    "a gamma_G of 1 or less counts as well."
+    "their friction coefficient, gamma_S the strength of ties, dowels and passive fill (EN 1990, Eqs (6.1), "
+    "(6.3); EN 1997-1, Table A.4, for friction). An adequacy factor of one is E_d = R_d, Eq. (6.8), for the "
+    "loads and factors given; which factors a code asks for is not judged here. Where dead loads help, the "
+    "answer with a gamma_G of 1 or less counts as well."
 )
 
 

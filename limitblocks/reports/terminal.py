@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from io import StringIO
-from typing import Any
+from typing import Any, Literal
 
 from rich.console import Console
 from rich.table import Table as RichTable
@@ -18,6 +19,7 @@ from limitblocks.reports.sections import section
 
 _TO_THE_RIGHT = ("Value", "Step", "Load factor")
 _WIDTH = 100  # of the report as text
+_NUMBER = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?")
 
 
 def text(document: Document, width: int = _WIDTH) -> str:
@@ -32,7 +34,7 @@ def text(document: Document, width: int = _WIDTH) -> str:
     for one in document.chapters:
         console.print(Text(f"\n{one.title}\n{'=' * len(one.title)}", style="bold"))
         for part in one.parts:
-            console.print(_renderable(part))
+            console.print(_renderable(part), crop=False)
     return stream.getvalue()
 
 
@@ -43,7 +45,7 @@ def print_result(model: Model, result: Any) -> None:
     Console(soft_wrap=True).print(headline, highlight=False)
     for part in chapter(said, None, "").parts:
         if isinstance(part, Table):
-            Console().print(_table(part))
+            Console().print(_table(part), crop=False)
     print_warnings(said.warnings)
 
 
@@ -56,7 +58,7 @@ def print_warnings(warnings: Iterable[str]) -> None:
 def print_table(title: str, heads: tuple[str, ...], rows: Any) -> None:
     """Print rows of text in columns; without heads, the first column is the name of each row."""
     right = tuple(k for k, head in enumerate(heads) if head in _TO_THE_RIGHT)
-    Console().print(_table(Table.of(title, heads, rows, right)))
+    Console().print(_table(Table.of(title, heads, rows, right)), crop=False)
 
 
 def _renderable(part: Part) -> Any:
@@ -85,10 +87,17 @@ def _table(part: Table) -> RichTable:
         pad_edge=False,
     )
     for k, head in enumerate(part.heads):
-        table.add_column(head, justify="right" if k in part.right else "left", overflow="fold")
+        justify: Literal["left", "right"] = "right" if k in part.right else "left"
+        table.add_column(head, justify=justify, overflow="fold", min_width=_longest_number(part, k))
     if not part.heads:
         table.add_column(no_wrap=True)
         table.add_column(overflow="fold")
     for row in part.rows:
         table.add_row(*(Text(cell.text) for cell in row))  # Text: a name in brackets is not markup
     return table
+
+
+def _longest_number(part: Table, column: int) -> int | None:
+    """Letters of the longest cell that is a number: half of 2.5e-09 on a line of its own reads as another."""
+    words = (row[column].text for row in part.rows)
+    return max((len(word) for word in words if _NUMBER.fullmatch(word)), default=None)

@@ -30,7 +30,7 @@ class Rows(Saved):
     def table(self) -> str:
         """Return the rows as lines of text in columns."""
         rows = self.rows()
-        cells = [[*map(self.head, rows[0])]] + [[*map(in_short, row.values())] for row in rows]
+        cells = [[*map(self.head, rows[0])]] + [row_in_short(row) for row in rows]
         widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
         lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
         return "\n".join("  ".join(line).rstrip() for line in lines)
@@ -195,3 +195,8 @@ def _answer(load_factor: float, result: Result | None, error: str, analysis: str
 def in_short(value: Any) -> str:
     """Return a cell as text, numbers with six digits."""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def row_in_short(row: dict[str, Any]) -> list[str]:
+    """Return the cells of a row of a study as text, residuals with two digits as everywhere."""
+    return [f"{v:.1e}" if name == "worst_residual" else in_short(v) for name, v in row.items()]

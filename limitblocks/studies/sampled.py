@@ -129,7 +129,7 @@ def _head(
 
 def _kept(file: Path | None, head: Row) -> dict[int, Row]:
     """Rows that a file of this study has; a last line that was cut off is left out."""
-    if file is None or not file.exists():
+    if file is None or _is_new(file):
         return {}
     first, *lines = file.read_text(encoding="utf-8").split("\n")
     try:
@@ -150,11 +150,16 @@ def _kept(file: Path | None, head: Row) -> dict[int, Row]:
     return rows
 
 
+def _is_new(file: Path) -> bool:
+    """Whether nothing is in the file: a process that was killed may leave it empty."""
+    return not file.exists() or file.stat().st_size == 0
+
+
 def _keep(file: Path | None, head: Row, row: Row) -> None:
     """Add a row to the file, after its head where it is new; each on a line of its own."""
     if file is None:
         return
-    new = not file.exists()
+    new = _is_new(file)
     number = row["load_factor"]
     written = row | {"load_factor": None if np.isnan(number) else str(number) if np.isinf(number) else number}
     try:

@@ -10,6 +10,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.cli import app
+from limitblocks.practice import reinforced, tie
 
 
 def block(joint=None, **change):
@@ -151,3 +152,51 @@ def test_blocks_without_weight_are_asked_about():
     assert questions(replace(model, blocks=light, dead=loads[0], live=loads[1])) == [
         "without weight: block 'block 1'"
     ]
+
+
+@pytest.mark.parametrize(
+    ("dead", "asked"),
+    [
+        (
+            lb.loads.force("block 1", (0.0, 0.0, -20.0), (0.0, 0.0, 1.0)),
+            "20 N on a block of 1e+04 N; kN? see units",
+        ),
+        (lb.loads.force("block 1", (0.0, 0.0, -20e3), (0.0, 0.0, 1.0)), ""),
+        (20e3 * lb.loads.force("block 1", (0.0, 0.0, -1.0), (0.0, 0.0, 1.0)), ""),
+        (lb.loads.force("block 1", (5e3, 0.0, 0.0), (0.0, 0.0, 1000.0)), "that is 999.5 m off the centroid"),
+        (lb.loads.force("block 1", (0.0, 0.0, -5e3), (0.0, 0.0, 1000.0)), ""),  # on its line all are one
+    ],
+)
+def test_forces_in_other_units_are_asked_about(dead, asked):
+    """A block of .5 m x 1 m x 1 m and 10 kN: kN for N, and mm for m, were silent."""
+    said = questions(replace(model := block(), dead=model.dead + dead))
+    assert len(said) == bool(asked)
+    assert not asked or asked in said[0]
+
+
+def test_a_live_force_of_one_newton_is_none_to_ask_about():
+    assert questions(replace(block(), live=lb.loads.force("block 1", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))) == []
+
+
+def test_a_mass_in_millimetres_is_asked_about():
+    model, roof = block(), lb.loads.added_mass("block 1", at=(0.0, 0.0, 1000.0), weight=5e3)
+    loads = lb.self_weight([roof]), lb.mass_proportional((1, 0, 0), [roof])
+    said = questions(replace(model, dead=loads[0], live=loads[1]))
+    assert len(said) == 2
+    assert all("that is 999.5 m off the centroid" in one for one in said)
+
+
+@pytest.mark.parametrize(
+    ("settings", "asked"),
+    [
+        ({"area": 314.0, "strength": 235e6}, "its section is 314 m2: mm2? 314 mm2 = 0.000314 m2"),
+        ({"area": 314e-6, "strength": 235.0}, "it carries 0.07379 N, 235 Pa on its section: MPa, or kN?"),
+        ({"area": 314e-6, "strength": 235e6, "pull_out": 8.0}, "it carries 8 N"),
+        ({"area": 314e-6, "strength": 235e6, "pull_out": 8e3}, ""),
+    ],
+)
+def test_ties_in_other_units_are_asked_about(settings, asked):
+    rod = tie("block 1", (0.0, 0.0, 0.9), "base", (-3.0, 0.0, 0.9), **settings)
+    said = questions(reinforced(block(), rod))
+    assert len(said) == bool(asked)
+    assert not asked or asked in said[0]

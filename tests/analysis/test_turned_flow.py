@@ -1,6 +1,7 @@
 """Table 5: where it has no solution, and what leads to one."""
 
 from dataclasses import replace
+from itertools import product
 
 import pytest
 
@@ -72,27 +73,20 @@ def test_no_proof_where_statics_alone_does_not_give_the_stresses_or_nothing_hold
     assert state_without_solution(Flow(stands_on_edge.problem)) is None  # slides under its dead loads
 
 
-@pytest.fixture(scope="module")
-def corner():
-    """Two walls that meet, pushed out of the plane of one: paths from the permanent loads wind."""
-    joint = lb.OrdunaLourenco(0.6)
-    model = structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0, 1, 0))
-    return model, lb.nonassociated(model)
-
-
-@pytest.mark.parametrize(("softening", "solved"), [(TURNED_SOFTENING, True), (SOFTENING, False)])
-def test_from_the_solution_about_the_centroid_a_path_leads_to_one_of_table_5(corner, softening, solved):
-    model, about_centroid = corner
-    enclosing = bracket(model)
-    problem = own_units(model, enclosing)
-    flow = Flow(problem, 0.0, Turning.PRESSURE)
-    x0 = start_stresses(model, problem, problem.compliance, about_centroid)
-    state, _ = follow(
-        replace(flow, softening=softening),
-        x0,
-        problem.compliance,
-        means=[TURNED_MEANS[1]],
-        power=load_scale(problem, enclosing.associated) / len(problem.blocks),
-    )
-    worst = mcp_residuals(flow, polish(flow, state)).worst.value
-    assert (worst <= TOLERANCE) == solved
+def test_paths_from_the_solution_about_the_centroid_lead_to_ones_of_table_5():
+    """Of eight about three; with the softening of paths from the permanent loads next to none."""
+    closed = {TURNED_SOFTENING: 0, SOFTENING: 0}
+    for friction in (0.6, 0.62):  # two walls that meet, pushed out of the plane of one
+        model = structures.corner(
+            lb.OrdunaLourenco(friction), length=2.4, return_length=2.4, courses=4, direction=(0, 1, 0)
+        )
+        enclosing = bracket(model)
+        problem = own_units(model, enclosing)
+        flow = Flow(problem, 0.0, Turning.PRESSURE)
+        x0 = start_stresses(model, problem, problem.compliance, lb.nonassociated(model))
+        power = load_scale(problem, enclosing.associated) / len(problem.blocks)
+        for softening, means in product(closed, TURNED_MEANS[:4]):
+            softened = replace(flow, softening=softening)
+            state, _ = follow(softened, x0, problem.compliance, means=[means], power=power)
+            closed[softening] += mcp_residuals(flow, polish(flow, state)).worst.value <= TOLERANCE
+    assert closed[TURNED_SOFTENING] > 2 * closed[SOFTENING]

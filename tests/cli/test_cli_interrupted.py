@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import numpy as np
 import pytest
 from portal_by_hand import run, stopped
 
@@ -56,6 +57,17 @@ def test_progress_is_lines_without_a_terminal_and_a_bar_on_one(file, monkeypatch
     captured = capsys.readouterr()
     assert "step: load factor 0.25" in captured.err
     assert captured.out == ""
+
+
+@pytest.mark.parametrize(
+    ("factor", "said"), [(0.25, "load factor 0.25"), (np.nan, "no load factor"), (np.inf, "unlimited")]
+)
+def test_progress_says_no_nan_and_no_inf(factor, said, monkeypatch, capsys):
+    monkeypatch.setattr(progress, "EVERY", 0.01)
+    with progress.of_places("vehicle") as show:
+        show(1.5, factor)
+        time.sleep(0.2)
+    assert capsys.readouterr().err.splitlines()[-1] == f"vehicle: 0 s, X = 1.5 m: {said}"
 
 
 def test_an_interrupted_analysis_writes_its_best_state_or_says_there_is_none(solver, file, tmp_path):

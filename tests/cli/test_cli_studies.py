@@ -85,3 +85,12 @@ def test_a_live_load_that_does_not_turn_is_code_2(file, tmp_path):
     done = run("directions", other, "--workers", 1)
     assert (done.exit_code, done.stdout) == (2, "")
     assert "Moment" in done.stderr
+
+
+def test_no_number_of_a_table_is_broken_in_two(file):
+    """Half of 2.5e-09 on a line of its own reads as 2.5."""
+    line = ["directions", str(file), "--count", "8", "--workers", "1"]
+    done = CliRunner().invoke(cli.app, ["study", *line], env={"COLUMNS": "70"})
+    rows = [row.split() for row in done.stdout.splitlines() if row[:1].isdigit()][:8]
+    assert [len(row) for row in rows] == [8] * 8
+    assert all(float(row[-1]) <= 1e-6 for row in rows)

@@ -223,7 +223,7 @@ def test_a_pair_of_blocks_that_nearly_touches_is_named_once():
     [
         ((0, 0, 0), 0.0, ""),
         ((0, 0, 5e-4), 5e-4, ""),  # within gap and angle
-        ((0, 0, 0.25), 0.0, "2.5e+02 mm and 0 rad off the faces of 'ground'"),
+        ((0, 0, 0.25), 0.0, "0.25 m and 0 rad off the faces of 'ground'"),
         ((0, 0, 0), 0.2, "99 mm and 0.2 rad off the faces of 'left'"),
         ((3, 0, 0), 0.0, "3 m and 0 rad off the faces of 'left'"),
     ],

@@ -120,7 +120,11 @@ FAULTS = {
         ["blocks[1].unitweight: unknown key; did you mean 'unit_weight'"],
     ),
     "unknown key at the top": (find("suports", to=[]), ["suports: unknown key; did you mean 'supports'"]),
-    "later version": (find("schema_version", to=2), ["schema_version: expected 1, not 2"]),
+    "later version": (find("schema_version", to=2), ["schema_version: expected 1, not 2", "newer version"]),
+    "decimal comma": (
+        find("blocks", 1, "box", "size", to=[0, 5, 1, 2]),
+        ["blocks[1].box.size: expected at most 3 entries, not [0, 5, 1, 2]"],
+    ),
     "huge number": (find("blocks", 1, "box", "at", 0, to=1e300), ["blocks[1].box.at[0]"]),
     "huge friction": (find("joints", "dry", "friction", to=1e300), ["joints.dry.friction"]),
     "huge direction": (find("live", 0, "direction", 2, to=1e300), ["live[0].direction[2]"]),

@@ -23,6 +23,18 @@ def test_torsion_is_mu_n_times_half_the_diagonal(ratio, excess):
     assert torsion / (-MU * N * rectangle_torsion_constant(ratio, 1)) == pytest.approx(excess, abs=0.01)
 
 
+@pytest.mark.parametrize(("sides", "excess"), [(3, 2.17), (6, 1.64)])
+def test_torsion_of_a_regular_polygon(sides, excess):
+    """mu N R at its corners; under uniform pressure Eq. (11) over the half sectors of legs a and b."""
+    angles = 2 * np.pi * np.arange(sides) / sides
+    interface = lb.joints.interface(np.stack([np.cos(angles), np.sin(angles)], axis=1), None)
+    torsion = lb.PointContact(MU).strength(interface, TORSION, COMPRESSION)
+    a, b = np.cos(np.pi / sides), np.sin(np.pi / sides)
+    uniform = (1 + a**2 / b * np.log((b + 1) / a)) / 3
+    assert torsion == pytest.approx(-MU * N, rel=1e-9)
+    assert torsion / (-MU * N * uniform) == pytest.approx(excess, abs=0.005)
+
+
 @pytest.mark.parametrize("points", [2, 3, 5])
 def test_refining_changes_nothing(points):
     corners, finer = lb.PointContact(MU), lb.PointContact(MU, points=points)

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import limitblocks as lb
 from limitblocks.cli import app
 from limitblocks.joints import Dowel, Tie
-from limitblocks.practice import PartialFactors, adequacy, design_model, dowel, reinforced, tie
+from limitblocks.practice import PartialFactors, adequacy, design_model, dowel, passive_fill, reinforced, tie
 
 G, Q, M, PHI, S = 1.35, 1.5, 2.2, 1.25, 1.15
 
@@ -99,6 +99,22 @@ def test_dowel_is_divided():
     found = adequacy(held, PartialFactors(1.0, 1.0, M, 1.0, S))
     assert found.factor == pytest.approx(0.3 + 0.05 / S, rel=1e-6)
     assert isinstance(found.model.interfaces[1].joint, Dowel)
+
+
+def test_passive_fill_is_divided_as_a_tie():
+    """gamma_Q alpha W = gamma_G mu W / gamma_phi + K_p gamma h^2 / 2 / gamma_S."""
+    stones = [
+        lb.Block.box("ground", (8, 1, 1), (0, 0, -0.5)),
+        lb.Block.prism("wedge", [(0, 0), (2, 0), (1, 1), (0, 1)], (-0.5, 0.5), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.4))
+    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    held = reinforced(model, *passive_fill(model, 1.0, unit_weight=18e3, coefficient=3.0))
+    with pytest.raises(lb.ModelError, match="passive fill: give gamma_S"):
+        adequacy(held, PartialFactors(G, Q, M))
+    found = adequacy(held, PartialFactors(G, Q, M, PHI, S))
+    weight, fill = model.free_blocks[0].weight, 3.0 * 18e3 / 2
+    assert found.factor == pytest.approx((G * 0.4 * weight / PHI + fill / S) / (Q * weight), rel=1e-6)
 
 
 def test_factors_of_one_change_nothing():

@@ -165,6 +165,36 @@ def test_a_ladder_whose_head_slides_down_a_wall_and_whose_foot_then_slides(slope
     assert curve.falls - curve.stands_to <= 2e-2
 
 
+def beam_on(supports, ends, joint):
+    """A beam between two `ends`, m, on supports from x to x."""
+    stones = [lb.Block.box(name, (b - a, 1, 1), ((a + b) / 2, 0, -0.5)) for name, (a, b) in supports.items()]
+    a, b = ends
+    stones.append(lb.Block.box("beam", (b - a, 1, 0.5), ((a + b) / 2, 0, 0.25), WEIGHT))
+    joints = lb.find_interfaces(stones, joint)
+    return lb.Model(stones, list(supports), joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact(0.5), lb.OrdunaLourenco(0.3)], ids=["points", "planes"])
+def test_a_beam_rests_on_a_support_that_slides_away_until_its_bearing_is_used_up(joint):
+    """Bearing of .2 m; friction drags the support back by mu N, N from moments about where the beam bears."""
+    model = beam_on({"left": (-2.0, -1.9), "right": (1.4, 1.6)}, (-2.4, 1.6), joint)
+    curve = settlement_to_collapse(model, "right", SPREAD, step=0.1, accuracy=1e-3)
+    weight, middle, edge = model.free_blocks[0].weight, -0.4, 1.4 + curve.displacements
+    least = weight * (middle + 1.9) / (1.6 + 1.9)
+    most = weight * (middle + 2.0) / (edge + 2.0)
+    assert (-curve.reactions >= joint.friction * least * (1 - 1e-6)).all()
+    assert (-curve.reactions <= joint.friction * most * (1 + 1e-6)).all()
+    assert curve.ended.startswith("the structure falls between")
+    assert 0.2 - 2e-3 < curve.stands_to < curve.falls < 0.2 + 1e-3  # a bearing of 1 mm is too narrow
+
+
+def test_nothing_rests_on_a_support_that_the_others_spare():
+    model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
+    curve = settlement_to_collapse(model, "b", (0, 0, -1))
+    assert curve.ended == "nothing rests on the support any more at 0 m"
+    assert curve.reactions == pytest.approx([0.0], abs=1e-3)
+
+
 def test_it_ends_where_it_is_told_to():
     ring, _ = arch(2, 0.3)
     told = []

@@ -217,6 +217,37 @@ def test_misuse(make, words):
     assert "\n" not in str(caught.value)
 
 
+def test_an_anchor_off_its_block_is_refused_with_the_distance():
+    """A slip in a coordinate gave the tie another lever arm, and was not said."""
+
+    def anchored(x, y, z):
+        return reinforced(facade(), tie("wall", (x, y, z), "ground", (-6, 0, z), area=1e-4, strength=2e8))
+
+    with pytest.raises(lb.ModelError, match=r"tie wall\|ground: its anchor .* is 40 m off block 'wall'"):
+        anchored(-T / 2, 0, H + 40.0)
+    with pytest.raises(lb.ModelError, match="4000 m off"):  # not 4e+03
+        anchored(-T / 2, 0, H + 4000.0)
+    with pytest.raises(lb.ModelError, match="5 m off"):  # 3 beside, 4 above the corner
+        anchored(-T / 2 - 3.0, 0, H + 4.0)
+    with pytest.raises(lb.ModelError, match="30 mm off"):
+        anchored(-T / 2 - 0.03, 0, 1.0)
+    for x in (-T / 2 - 1e-4, -T / 2, 0.0):  # on the face, as far as drawings are good, and in the wall
+        assert len(anchored(x, 0, 1.0).interfaces) == 2
+
+
+def test_an_anchor_in_the_hollow_of_a_block_is_off_it():
+    """In the middle of the recess of a U, 0.5 m from its sides and 0.4 m above its floor."""
+    outline = [(-1, 0), (1, 0), (1, 2), (0.5, 2), (0.5, 1), (-0.5, 1), (-0.5, 2), (-1, 2)]
+    blocks = [
+        lb.Block.box("ground", (4, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.prism("u", outline, (-0.5, 0.5), 2e4),
+    ]
+    contacts = lb.find_interfaces(blocks, lb.PointContact(0.6))
+    model = lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    with pytest.raises(lb.ModelError, match="m off block 'u'"):
+        reinforced(model, tie("u", (0, 0, 1.4), "ground", (-6, 0, 1.4), area=1e-4, strength=2e8))
+
+
 def test_a_guide_holds_forces_by_its_area_and_moments_by_that_times_its_root():
     """2 m x 3 m and 7 Pa: 42 N, 42 sqrt(6) N m, of either sign; V1 alone is free."""
     rows = Guide(7.0).yield_rows(np.array([[(-1, -1.5), (1, -1.5), (1, 1.5), (-1, 1.5)]], dtype=float))

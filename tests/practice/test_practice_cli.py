@@ -106,6 +106,20 @@ def test_verify(block, tmp_path):
     assert "F0 is 1.0" in run("verify", block, *site[:4], "--f0", 1, *site[6:]).output
 
 
+def test_verify_refuses_a_slip_before_it_draws_a_curve(block, monkeypatch):
+    """A curve may take minutes, and what is wrong was said after it."""
+    monkeypatch.setattr("limitblocks.cli.analyses.capacity", lambda _: pytest.fail("a curve was drawn"))
+    site = {"--a-g": 0.25, "--soil": 1.2, "--f0": 2.5, "--t-c": 0.5, "--q": 2}
+    for wrong, said in (
+        ({"--a-g": 2.5}, "2.5 g"),
+        ({"--q": 0.5}, "q is 0.5"),
+        ({"--confidence": 9}, "FC is 9"),
+    ):
+        done = run("verify", block, *(word for pair in (site | wrong).items() for word in pair))
+        assert done.exit_code == 2
+        assert said in done.output
+
+
 def test_verify_files_a_report(block, tmp_path):
     """The PDF has symbols and numbers: a0* = .2 g / 1.35, M* = the mass, ratio .2 / 1.35 / .15 = .98765."""
     pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")

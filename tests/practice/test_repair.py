@@ -285,7 +285,7 @@ def test_eurocode_and_housner():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Vehicle((1.0, 2.0), (0.0,)), "2 axle loads has 1 distances"),
+        (lambda: Vehicle((1.0, 2.0), (0.0,)), "2 axles has 1 distance, expected one for each"),
         (lambda: Vehicle((-1.0,)), "axle load is -1.0"),
         (lambda: Deck(1.0, spread=-1.0), "spread is -1.0"),
         (lambda: uplift(wall(), 1.0, share=2.0), "share of the water pressure is 2.0"),

@@ -208,3 +208,17 @@ def test_a_stone_on_a_slope_has_no_lower_end(monkeypatch, spoilt):
         else "without friction the dead loads do not stand"
     )
     assert result.unclaimed.startswith(said)
+
+
+def test_a_solver_that_runs_away_claims_no_lower_end(monkeypatch):
+    """Near where the dead loads begin to fall Clarabel may end in numbers that are not finite."""
+    solution = without_shear.solution
+
+    def astray(*given):
+        found = solution(*given)
+        return SimpleNamespace(status="NumericalError", x=found.x, z=np.full(len(found.z), np.inf))
+
+    monkeypatch.setattr(without_shear, "solution", astray)
+    result = lb.nonassociated(stone(lb.OrdunaLourenco(MU)))
+    assert np.isnan(result.frictionless)
+    assert result.unclaimed.startswith("the load factor without friction was not")

@@ -209,3 +209,9 @@ def test_curve_falls_back_on_steps_and_needs_two():
     back = curve.path_curve(MODEL, load_path(scale=-1.0))
     assert {tick.text for tick in back.x_ticks} >= {"0"}
     assert "<svg" in lb.report(MODEL, load_path((0.0,))).html
+
+
+def test_a_figure_says_once_what_is_dashed():
+    """Its text and its caption said so both, which Markdown and the terminal print one after the other."""
+    block = lb.structures.block(lb.PointContact(0.6), width=0.4, height=1.0)
+    assert lb.report(block, lb.bounds(block)).text.count("Dashed") == 1

@@ -55,6 +55,14 @@ def test_samples_are_those_of_the_seed_and_fill_the_interval(sampler, monkeypatc
     assert runs[0].values.mean() == pytest.approx(2.0, abs=0.2)
 
 
+def test_a_study_that_was_killed_before_its_first_line_begins_anew(tmp_path):
+    ask, empty, new = {"friction": (0.2, 0.6)}, tmp_path / "empty.jsonl", tmp_path / "new.jsonl"
+    empty.touch()
+    for file in (empty, new):
+        lb.study(block, ask, 2, file=file)
+    assert empty.read_bytes() == new.read_bytes()
+
+
 def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypatch):
     file, calls, own = tmp_path / "study.jsonl", [], sampled.one_row
 

@@ -50,6 +50,8 @@ def _best(p: LimitProblem, most: float | None) -> tuple[float, str]:
         found = solution(program, DIRECT.settings | FIXED | TIGHT)
     except (ValueError, ArithmeticError):
         return np.nan, UNSOLVED
+    if not np.isfinite([*found.x, *found.z]).all():  # it may run away where nothing is strictly within yield
+        return np.nan, UNSOLVED
     if _nothing_meets(program, np.array(found.z)):
         return np.nan, FALLS
     load_factor, x = found.x[0], np.zeros(p.C.shape[0])

@@ -38,7 +38,8 @@ class Load:
         return Load(self.terms + other.terms)
 
     def __mul__(self, factor: float) -> Load:
-        return Load(tuple((factor * own, term) for own, term in self.terms))
+        times = number(factor, "factor of a load", "")
+        return Load(tuple((times * own, term) for own, term in self.terms))
 
     __rmul__ = __mul__
 
@@ -91,7 +92,7 @@ def number(
 ) -> float:
     """Return `value` as a float; ModelError where it is not finite, too small or too large."""
     try:
-        real = float(value)
+        real = float(1.0 * value)  # text is no number
     except (TypeError, ValueError):
         real = np.nan
     if np.isfinite(real) and most >= real >= least and real > above:

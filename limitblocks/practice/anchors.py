@@ -1,0 +1,51 @@
+"""Anchors of ties: in or on the blocks that hold them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import shapely
+
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.accuracy import block_length, millimetres
+from limitblocks.geometry.surface import winding
+from limitblocks.joints import Tie
+from limitblocks.model import Model
+
+
+def anchors_off(model: Model, tie: Interface) -> Iterator[str]:
+    """Yield a sentence for each anchor of a tie that is off its free block by more than the gap of contacts.
+
+    An end in a support stands for the ground, a rock or a frame that is not drawn, and may lie anywhere.
+    """
+    joint = tie.joint
+    if not isinstance(joint, Tie) or not joint.length:
+        return
+    used = model.tolerances or Tolerances()
+    most = used.gap * block_length(model.blocks)
+    half = joint.length / 2.0 * tie.axes[2]
+    ends = {tie.block_i: tie.centroid - half, tie.block_j: tie.centroid + half}
+    for block in model.free_blocks:
+        if block.name in ends and (away := distance(block, ends[block.name])) > most:
+            at = ", ".join(f"{x:.4g}" for x in ends[block.name])
+            yield (
+                f"{tie.name}: its anchor at ({at}) is {millimetres(away)} off block {block.name!r}, expected "
+                f"in or on it, within {millimetres(most)}; in a support it may lie anywhere"
+            )
+
+
+def distance(block: Block, point: Array) -> float:
+    """Distance of a point from a block, m; zero within it."""
+    if winding(point, block.vertices[block.triangles]):
+        return 0.0
+    flat = (_in_plane(block, k, point) for k in range(len(block.faces)))
+    return float(np.hypot(block.normals @ point - block.offsets, list(flat)).min())
+
+
+def _in_plane(block: Block, face: int, point: Array) -> float:
+    """Distance from a face, convex or not, along its plane."""
+    plane = np.linalg.svd(block.normals[[face]])[2][1:]
+    outline = shapely.Polygon(block.vertices[list(block.faces[face])] @ plane.T)
+    return float(shapely.distance(outline, shapely.Point(plane @ point)))

@@ -1,0 +1,186 @@
+"""How far exact states may lie from computed ones: rounding errors, ways to the supports, multipliers."""
+
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from lintels import JOINTS, lintel
+from scipy import sparse
+
+import limitblocks as lb
+from limitblocks import structures
+from limitblocks.arrays import same_rows
+from limitblocks.evidence.reach import Kinematic, Static, _alike
+from limitblocks.evidence.rounding import Products, products, scalar_product
+from limitblocks.evidence.spanning_tree import spanning_tree
+
+RANDOM = np.random.default_rng(7)
+
+
+def exact(row, vector):
+    return sum(
+        (Fraction(float(a)) * Fraction(float(b)) for a, b in zip(row, vector, strict=True)), Fraction(0)
+    )
+
+
+def scattered(*shape):
+    """Numbers over 20 orders of magnitude, some of them zero."""
+    numbers = RANDOM.normal(size=shape) * 10.0 ** RANDOM.uniform(-10, 10, size=shape)
+    return np.where(RANDOM.random(shape) < 0.2, 0.0, numbers)
+
+
+def test_error_of_a_product_is_bounded():
+    for _ in range(40):
+        A, v, w = scattered(5, 17), scattered(17), scattered(5)
+        value, off = Products((sparse.csr_array(A),)).of((v,), w)
+        for k in range(5):
+            error = abs(exact(A[k], v) + Fraction(w[k]) - Fraction(value[k]))
+            assert error <= Fraction(off[k])
+        a, b = scattered(50), scattered(50)
+        total, more = scalar_product(a, b)
+        assert abs(exact(a, b) - Fraction(total)) <= Fraction(more)
+
+
+def test_error_of_small_matrices_is_bounded():
+    A, B = scattered(8, 3, 5), scattered(8, 5, 4)
+    value, off = products(A, B)
+    for k, i, j in np.ndindex(value.shape):
+        error = abs(exact(A[k, i], B[k, :, j]) - Fraction(value[k, i, j]))
+        assert error <= Fraction(off[k, i, j])
+
+
+def test_cancelling_product_is_not_called_exact():
+    A = sparse.csr_array(np.array([[1e16, 1.0, -1e16]]))
+    value, off = Products((A,)).of((np.ones(3),))
+    assert abs(value[0] - 1.0) <= off[0]
+    assert off[0] > 0.0
+
+
+def test_a_product_that_underflows_is_not_called_exact():
+    value, off = Products((sparse.csr_array(np.array([[1e-200]])),)).of((np.array([1e-200]),))
+    assert value[0] == 0.0
+    assert off[0] > 0.0
+
+
+def test_product_of_nothing_is_exact():
+    value, off = Products((sparse.csr_array(np.array([[1.0, 0.0]])),)).of((np.array([0.0, 3.0]),))
+    assert value[0] == off[0] == 0.0
+
+
+@pytest.fixture(scope="module", params=JOINTS)
+def model(request):
+    return lintel(request.param)
+
+
+def test_tree_leads_every_block_to_a_support(model):
+    p = model.problem
+    tree = spanning_tree(p, RANDOM.random(len(p.interfaces)))
+    for k in range(len(p.blocks)):
+        assert set(p.ends[tree.interface[k]]) == {k, tree.parent[k]}
+    assert (depth_of(tree) <= len(p.blocks)).all()
+
+
+def depth_of(tree):
+    """Number of interfaces on the way of each block; more than there are blocks on a circle."""
+    depth, behind = np.ones(len(tree.parent), dtype=int), tree.parent
+    for _ in depth:
+        depth, behind = depth + (behind >= 0), np.where(behind >= 0, tree.parent[behind], -1)
+    return depth
+
+
+def ways(tree, length):
+    """Length of the way of each block to the supports."""
+    total = np.zeros(len(tree.parent))
+    for k in np.argsort(depth_of(tree)):
+        total[k] = length[tree.interface[k]] + (total[tree.parent[k]] if tree.parent[k] >= 0 else 0.0)
+    return total
+
+
+def test_tree_takes_short_ways_with_much_room(model):
+    p = model.problem
+    room = RANDOM.random(len(p.interfaces)) + 1e-3
+    shortest = ways(spanning_tree(p, room), 1.0 / room)
+    for _ in range(20):
+        assert (shortest <= ways(spanning_tree(p, RANDOM.random(len(room))), 1.0 / room) * (1 + 1e-12)).all()
+
+
+@pytest.fixture(scope="module", params=["lintel", "long way"])
+def carrying(request, model):
+    """A structure, and one of many steps to the supports."""
+    joint = model.interfaces[0].joint
+    return (
+        model
+        if request.param == "lintel"
+        else structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=27)
+    )
+
+
+def test_what_is_carried_to_the_supports_is_bounded(carrying):
+    p = carrying.problem
+    tree = spanning_tree(p, RANDOM.random(len(p.interfaces)))
+    own = np.isin(p.stress_interface, tree.interface)
+    C = p.C.toarray()[own]
+    for _ in range(20):
+        unbalanced = np.abs(scattered(len(p.blocks), 6))
+        load = (unbalanced * RANDOM.uniform(-1, 1, unbalanced.shape)).ravel()
+        found = Static(p, tree).carried(unbalanced)
+        assert not found[~own].any()
+        exact_change = along_tree(p, C, own, tree, load)
+        assert (np.abs(exact_change) <= found[own] * (1 + 1e-9)).all()
+
+
+def along_tree(p, C, own, tree, load):
+    """Stresses on the tree of least norm at each interface that balance the load; leaves first."""
+    rest, change = load.copy(), np.zeros(own.sum())
+    interface = p.stress_interface[own]
+    for k in np.argsort(-depth_of(tree)):
+        rows = interface == tree.interface[k]
+        part = np.linalg.pinv(C[rows][:, 6 * k : 6 * k + 6].T) @ rest[6 * k : 6 * k + 6]
+        change[rows] = part
+        rest = rest - C[rows].T @ part
+    assert np.abs(rest).max() <= 1e-9 * np.abs(load).max()
+    return change
+
+
+def test_what_leads_over_a_joint_that_carries_nothing_is_not_bounded():
+    p = structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=9).problem
+    tree = spanning_tree(p, np.ones(len(p.interfaces)))
+    last = int(np.flatnonzero(depth_of(tree) == 2)[0])
+    broken = replace(
+        p, C=sparse.csr_array(sparse.diags_array(1.0 * (p.stress_interface != tree.interface[last])) @ p.C)
+    )
+    behind = next(k for k in range(len(p.blocks)) if tree.parent[k] == last)
+    for block, bounded in ((behind, False), (last, False), (int(tree.parent[last]), True)):
+        unbalanced = np.zeros((len(p.blocks), 6))
+        unbalanced[block, 2] = 1.0
+        assert np.isfinite(Static(p, tree).carried(unbalanced)).all()
+        assert np.isfinite(Static(broken, tree).carried(unbalanced)).all() == bounded
+
+
+def test_rows_are_classed_by_their_numbers():
+    rows = np.array([[0.0, 1.0], [1.0, 0.0], [0.0, 1.0], [0.0, 1.0 + 1e-13], [2.0, 0.5]])
+    for within, expected in ((0.0, [0, 1, 0, 3, 4]), (1e-12, [0, 1, 0, 0, 4])):
+        first, of = same_rows(rows, within)
+        assert first[of].tolist() == expected
+
+
+def test_unlike_entries_of_one_sum_are_of_different_kinds():
+    """Entries are weighed by cosines a, b: those of sizes b and a, at places 0 and 1, have one sum."""
+    a, b = np.cos(np.arange(2) ** 2 + 1.0)
+    owner, place = np.array([0, 1, 2, 3, 3]), np.array([0, 1, 0, 0, 1])
+    for data in ([b, a, b, b, 0.0], [1.0, 2.0, 1.0, 3.0, 4.0]):
+        kind, matrix = _alike(owner, place, np.array(data), (4, 2))
+        expected = np.zeros((4, 2))
+        expected[owner, place] = data
+        np.testing.assert_array_equal(matrix[kind], expected)
+
+
+def test_what_is_made_up_is_bounded(model):
+    p = model.problem
+    for _ in range(20):
+        defect = np.abs(scattered(p.F.shape[1]))
+        strain = defect * RANDOM.uniform(-1, 1, defect.shape)
+        found = Kinematic(p).made_up(defect)
+        needed = np.linalg.pinv(p.F.toarray().T) @ strain
+        assert (np.abs(needed) <= found * (1 + 1e-9) + 1e-9 * np.abs(needed).max()).all()
