@@ -175,8 +175,8 @@ def map_in_cone(
 
     constraints: list[cp.Constraint] = [taken(slice(cones.linear)) >= 0] if cones.linear else []
     for places in cones.groups:
-        head, *rest = places.T
-        constraints.append(cp.SOC(taken(head), cp.vstack([taken(rows) for rows in rest])))
+        tails = cp.reshape(taken(places[:, 1:].ravel()), places[:, 1:].T.shape, order="F")
+        constraints.append(cp.SOC(taken(places[:, 0]), tails))
     return constraints
 
 

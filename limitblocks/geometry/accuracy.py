@@ -72,7 +72,7 @@ class Tolerances:
 
 def millimetres(length: float) -> str:
     """Return a length in m as text, in mm where two digits are enough."""
-    return f"{1e3 * length:.2g} mm" if length < 0.0995 else f"{length:.3g} m"
+    return f"{1e3 * length:.2g} mm" if length < 0.0995 else f"{length:.4g} m"
 
 
 def block_length(blocks: Sequence[Block]) -> float:

@@ -43,9 +43,11 @@ def central(cones: Cones, v: Array, products: Array) -> tuple[Array, Array]:
         w, product = v.take(index.T), products.take(index[:, 0])
         size = np.sqrt((w[1:] * w[1:]).sum(axis=0))
         axis = w[1:] / np.where(size > 0.0, size, 1.0)
-        large, small = _halves(w[0] + size, product), _halves(w[0] - size, product)
-        for vector, a, b in zip((s, y), large, small, strict=True):
-            vector[index.T] = np.vstack([(a + b) / 2.0, (a - b) / 2.0 * axis])
+        for vector, (a, b) in zip(
+            (s, y), _halves(np.array([w[0] + size, w[0] - size]), product), strict=True
+        ):
+            rows = vector[index[0, 0] : index[-1, -1] + 1].reshape(index.shape)
+            rows[:, 0], rows[:, 1:] = (a + b) / 2.0, ((a - b) / 2.0 * axis).T
     return s, y
 
 

@@ -225,6 +225,8 @@ def test_an_anchor_off_its_block_is_refused_with_the_distance():
 
     with pytest.raises(lb.ModelError, match=r"tie wall\|ground: its anchor .* is 40 m off block 'wall'"):
         anchored(-T / 2, 0, H + 40.0)
+    with pytest.raises(lb.ModelError, match="4000 m off"):  # not 4e+03
+        anchored(-T / 2, 0, H + 4000.0)
     with pytest.raises(lb.ModelError, match="5 m off"):  # 3 beside, 4 above the corner
         anchored(-T / 2 - 3.0, 0, H + 4.0)
     with pytest.raises(lb.ModelError, match="30 mm off"):

@@ -41,14 +41,14 @@ class Layout:
 
     def _potentials(self, x: Array) -> tuple[sparse.csr_array, Array]:
         G = self.flow.matrix(x)
-        return sparse.csr_array(G.T), np.swapaxes(self.by_interface(self.rows(G)), 1, 2)
+        return sparse.csr_array(G.T), np.swapaxes(self.by_cell(self.rows(G)), 1, 2)
 
     def potential(self, x: Array) -> sparse.csr_array:
         """Return G(x)^T, shape (s, R)."""
         return (self._constant if self.flow.constant else self._potentials(x))[0]
 
     def potential_parts(self, x: Array) -> Array:
-        """Return G(x)^T of each interface, shape (m, k, r)."""
+        """Return G(x)^T of each cell, shape (cells, size, r)."""
         return (self._constant if self.flow.constant else self._potentials(x))[1]
 
     @cached_property
@@ -71,60 +71,71 @@ class Layout:
         return self._owned_stresses[1]
 
     @cached_property
-    def padding(self) -> Array:
-        """Ones on the diagonals of places without a stress, shape (m, k, k)."""
-        empty = self.stresses == len(self.stress_place)
-        return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
-
-    @cached_property
     def coupled(self) -> int:
-        """Number of stresses in turn that rows couple: 3 where all are those of contact points, else k."""
-        k, cones = int(self.stresses.shape[1]), self.problem.cones
+        """Size of a cell, stresses in turn that rows couple: 3 where all are of contact points, else k."""
+        k = int(self.stresses.shape[1])
         if not self.flow.constant:
             return k
-        acts = (self.yield_rows != 0.0) | (
-            self.rows(self.flow.matrix(np.zeros(len(self.stress_place)))) != 0.0
-        )
-        first, last = np.full(cones.degree, k), np.zeros(cones.degree, dtype=int)
-        row, place = np.nonzero(acts)
-        np.minimum.at(first, cones.member[row], place)
-        np.maximum.at(last, cones.member[row], place)
+        first, last = self._reach
         sizes = (size for size in range(1, k) if k % size == 0 and (last // size <= first // size).all())
         return next(sizes, k)
 
-    def uncoupled(self, parts: Array) -> Array:
-        """Return the diagonal blocks of parts (m, k, k) that rows couple, not copied, (b, m, size, size)."""
-        size, k = self.coupled, parts.shape[1]
-        each = parts.reshape(len(parts), k // size, size, k // size, size)
-        return np.asarray(np.einsum("mbibj->bmij", each))
+    @cached_property
+    def _reach(self) -> tuple[Indices, Indices]:
+        """First and last place in its interface that each row or cone acts on, shapes (degree,)."""
+        cones, k = self.problem.cones, int(self.stresses.shape[1])
+        first, last = np.full(cones.degree, k), np.zeros(cones.degree, dtype=int)
+        for matrix in (self.problem.F, self.flow.matrix(np.zeros(len(self.stress_place)))):
+            entries = matrix.tocoo()
+            acts = entries.data != 0.0
+            member, place = cones.member[entries.row[acts]], self.stress_place[entries.col[acts]]
+            np.minimum.at(first, member, place)
+            np.maximum.at(last, member, place)
+        return np.minimum(first, last), last
 
     @cached_property
-    def _owned_rows(self) -> tuple[Indices, Indices]:
-        return owned(self.problem.row_interface, self.interfaces)
+    def _cell_stresses(self) -> Indices:
+        return self.stresses.reshape(-1, self.coupled)
 
-    @property
-    def interface_rows(self) -> Indices:
-        """Rows of each interface, shape (m, r); R where there is none."""
-        return self._owned_rows[0]
+    @cached_property
+    def padding(self) -> Array:
+        """Ones on the diagonals of places without a stress, shape (cells, size, size)."""
+        empty = self._cell_stresses == len(self.stress_place)
+        return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
 
-    @property
-    def row_place(self) -> Indices:
-        """Place of each row in its interface, shape (R,)."""
-        return self._owned_rows[1]
+    @cached_property
+    def _cell_rows(self) -> Indices:
+        """Rows of each cell, shape (cells, r); R where there is none."""
+        per_interface = self.stresses.shape[1] // self.coupled
+        inside = (self._reach[0] // self.coupled)[self.problem.cones.member] if per_interface > 1 else 0
+        cell = self.problem.row_interface * per_interface + inside
+        return owned(cell, len(self._cell_stresses))[0]
 
     def rows(self, matrix: sparse.csr_array) -> Array:
-        """Return the rows of a (R, s) matrix in the places of their own interface, shape (R, k)."""
-        local, entries = np.zeros((matrix.shape[0], self.stresses.shape[1])), matrix.tocoo()
-        local[entries.row, self.stress_place[entries.col]] = entries.data
+        """Return the rows of a (R, s) matrix in the places of their own cell, shape (R, size)."""
+        local, entries = np.zeros((matrix.shape[0], self.coupled)), matrix.tocoo()
+        acts = entries.data != 0.0
+        local[entries.row[acts], self.stress_place[entries.col[acts]] % self.coupled] = entries.data[acts]
         return local
 
-    def by_interface(self, rows: Array) -> Array:
-        """Return rows (R, k) gathered by interface, shape (m, r, k)."""
-        return np.concatenate([rows, np.zeros_like(rows[:1])]).take(self.interface_rows, axis=0)
+    def by_cell(self, rows: Array) -> Array:
+        """Return rows (R, size) gathered by cell, shape (cells, r, size)."""
+        return np.concatenate([rows, np.zeros_like(rows[:1])]).take(self._cell_rows, axis=0)
+
+    def per_cell(self, x: Array) -> Array:
+        """Return stresses (s,) by cell, shape (cells, size)."""
+        return np.append(x, 0.0).take(self._cell_stresses)
+
+    def by_interface(self, cells: Array) -> Array:
+        """Return matrices of cells (cells, size, size) as diagonal blocks of interfaces, shape (m, k, k)."""
+        m, k, size = self.interfaces, self.stresses.shape[1], self.coupled
+        blocks = np.zeros((m, k // size, size, k // size, size))
+        np.einsum("mbibj->mbij", blocks)[:] = cells.reshape(m, -1, size, size)
+        return blocks.reshape(m, k, k)
 
     @cached_property
     def yield_rows(self) -> Array:
-        """Rows of F, shape (R, k)."""
+        """Rows of F, shape (R, size)."""
         return self.rows(self.problem.F)
 
     @cached_property
@@ -149,28 +160,28 @@ class Layout:
         return parts
 
     @cached_property
-    def _pattern(self) -> tuple[Any, Indices, Indices, Indices, Indices, Indices]:
-        """Ordered pattern of [[-K, live], [live^T, 0]], places of K's parts and live in it, the ordering.
+    def _pattern(self) -> tuple[Any, sparse.csr_array, Indices]:
+        """[[0, live], [live^T, 0]] in the order of elimination, what takes parts of K to its data, the order.
 
-        And those on the diagonal of rates that move nothing, out of the plane of a planar problem.
+        Rates that move nothing, out of the plane of a planar problem, have -1 on the diagonal.
         """
-        n, d = self.problem.C.shape[1], self.rates.shape[1]
+        live, n, d = self.problem.live, self.problem.C.shape[1], self.rates.shape[1]
         shape = (self.interfaces, d, d)
         i = np.broadcast_to(self.rates[:, :, None], shape).ravel()
         j = np.broadcast_to(self.rates[:, None, :], shape).ravel()
         inside = np.flatnonzero((i < n) & (j < n))
-        loaded = np.flatnonzero(self.problem.live)
+        loaded, still = np.flatnonzero(live), np.ones(n, dtype=bool)
+        still[self.problem.C.indices[self.problem.C.data != 0.0]] = False
         end = np.full(len(loaded), n)
-        row = np.concatenate([i[inside], np.arange(n + 1), loaded, end])
-        column = np.concatenate([j[inside], np.arange(n + 1), end, loaded])
+        row = np.concatenate([np.arange(n + 1), loaded, end, i[inside]])
+        column = np.concatenate([np.arange(n + 1), end, loaded, j[inside]])
         order = self._ordering(row, column)
         places, at = np.unique(order[column] * (n + 1) + order[row], return_inverse=True)
-        pattern = sparse.csc_array(
-            (np.ones(len(places)), (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1)
-        )
-        still = np.setdiff1d(np.arange(n), self.problem.C.indices[self.problem.C.data != 0.0])
-        border = at[len(inside) + n + 1 :]
-        return pattern, inside, at[: len(inside)], border, at[len(inside) + still], order
+        constant = np.concatenate([np.append(-1.0 * still, 0.0), live[loaded], live[loaded]])
+        data, at = np.bincount(at[: len(constant)], constant, len(places)), at[len(constant) :]
+        pattern = sparse.csc_array((data, (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1))
+        assembly = sparse.csr_array((np.ones(len(at)), (at, inside)), shape=(len(places), i.size))
+        return pattern, assembly, order
 
     def _ordering(self, row: Indices, column: Indices) -> Indices:
         """Where each unknown goes so that factors stay sparse, found once for all points of a path."""
@@ -181,11 +192,8 @@ class Layout:
 
     def factors(self, parts: Array) -> Any:
         """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
-        pattern, inside, at, border, idle, _ = self._pattern
-        data = -np.bincount(at, weights=parts.ravel()[inside], minlength=pattern.nnz)
-        live = self.problem.live[self.problem.live != 0.0]
-        data[border] = np.concatenate([live, live])
-        data[idle] = -1.0
+        pattern, assembly, _ = self._pattern
+        data = pattern.data - assembly @ parts.ravel()
         if not np.isfinite(data).all():  # BLAS would print that it is illegal
             raise np.linalg.LinAlgError("the stiffness of a point that ran away is not finite")
         matrix = copy(pattern)  # which is checked once
@@ -203,22 +211,10 @@ class Layout:
     def _stress_at(self) -> Indices:
         return np.asarray(self.problem.stress_interface * self.stresses.shape[1] + self.stress_place)
 
-    @cached_property
-    def _row_at(self) -> Indices:
-        return np.asarray(self.problem.row_interface * self.interface_rows.shape[1] + self.row_place)
-
     def per_interface(self, x: Array) -> Array:
         """Return stresses (s,) or (s, c) by interface, shape (m, k) or (m, k, c)."""
         return np.concatenate([x, np.zeros_like(x[:1])]).take(self.stresses, axis=0)
 
     def per_stress(self, blocks: Array) -> Array:
         """Return what stands by interface (m, k, c) as stresses (s, c)."""
-        return _flat(blocks).take(self._stress_at, axis=0)
-
-    def per_row(self, blocks: Array) -> Array:
-        """Return what stands by interface (m, r, c) as rows (R, c)."""
-        return _flat(blocks).take(self._row_at, axis=0)
-
-
-def _flat(blocks: Array) -> Array:
-    return blocks.reshape(-1, blocks.shape[2])
+        return blocks.reshape(-1, blocks.shape[2]).take(self._stress_at, axis=0)

@@ -25,22 +25,19 @@ class Newton:
         p, layout = path.flow.problem, path.layout
         self.GT = layout.potential(z.x)
         self.fall = slope(p.cones, z.s, z.y)
-        self.slopes = layout.by_interface(self.fall(layout.yield_rows))
-        H = layout.padding + layout.potential_parts(z.x) @ self.slopes
+        slopes = layout.by_cell(self.fall(layout.yield_rows))
+        H = layout.padding + layout.potential_parts(z.x) @ slopes
         self.elastic = path.rho(z.theta) * path.elastic
-        np.einsum("mii->mi", H)[:] += layout.per_interface(self.elastic)
+        np.einsum("cii->ci", H)[:] += layout.per_cell(self.elastic)
         self.turning = None if path.flow.constant else path.flow.derivative(z.x, z.y)
-        if self.turning is not None:
+        if self.turning is None:
+            flexibility, self.determinants = inverses(H)
+        else:  # pivots of Table 5 may be small
             t = self.turning.tocoo()
             places = p.stress_interface[t.row], layout.stress_place[t.row], layout.stress_place[t.col]
             np.add.at(H, places, t.data)
-        parts, self.flexibility = layout.uncoupled(H), np.zeros_like(H)
-        if self.turning is None:
-            layout.uncoupled(self.flexibility)[:], self.determinants = inverses(parts)
-        else:  # pivots of Table 5 may be small
-            layout.uncoupled(self.flexibility)[:] = np.linalg.inv(parts)
-            self.determinants = np.asarray(np.linalg.det(parts))
-        C = layout.compatibility
+            flexibility, self.determinants = np.asarray(np.linalg.inv(H)), np.asarray(np.linalg.det(H))
+        self.flexibility, C = layout.by_interface(flexibility), layout.compatibility
         self.lu = layout.factors(np.swapaxes(C, 1, 2) @ (self.flexibility @ C))
 
     @property
@@ -54,33 +51,35 @@ class Newton:
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
         q = _Columns(*(np.stack(parts, axis=-1) for parts in zip(*map(_parts, sides), strict=True)))
-        d = self._eliminated(q)
+        F, multiplier = self.path.flow.problem.F, q.multiplier + self.fall(q.slack)
+        x, w = self._eliminated(q.flow + self.GT @ multiplier, np.concatenate([q.balance, q.work[None]]))
+        slack = F @ x - q.slack
+        y = q.multiplier - self.fall(slack)
         if self.z.theta < REFINED:
-            again = self._eliminated(self._left(q, d))
-            d = _Columns(*(a + b for a, b in zip(d, again, strict=True)))
+            again = self._eliminated(*self._left(q, x, w, y))
+            x, w = x + again[0], w + again[1]
+            slack = F @ x - q.slack
+            y = q.multiplier - self.fall(slack)
+        d = x, w[:-1], w[-1], slack, y
         own = zip(*(np.ascontiguousarray(part.T) for part in d), strict=True)
         return [Point(x, u, float(load_factor), s, y, 0.0) for x, u, load_factor, s, y in own]
 
-    def _eliminated(self, q: _Columns) -> _Columns:
-        """Directions x, u, load factor, s and y in place of the right-hand sides of their equations."""
-        p, layout = self.path.flow.problem, self.path.layout
-        multiplier = q.multiplier + self.fall(q.slack)
-        free = self._flexed(q.flow + self.GT @ multiplier)
-        w = layout.solved(self.lu, np.concatenate([q.balance + layout.balance @ free, q.work[None]]))
-        dx = free + self._flexed(p.C @ w[:-1])
-        fall = layout.per_row(self.slopes @ layout.per_interface(dx))
-        return _Columns(dx, w[:-1], w[-1], p.F @ dx - q.slack, multiplier - fall)
+    def _eliminated(self, flow: Array, loads: Array) -> tuple[Array, Array]:
+        """Directions x, and u with the load factor, for right-hand sides of flow, balance and work."""
+        layout, right = self.path.layout, loads.copy()
+        free = self._flexed(flow)
+        right[:-1] += layout.balance @ free
+        w = layout.solved(self.lu, right)
+        return free + self._flexed(self.path.flow.problem.C @ w[:-1]), w
 
-    def _left(self, q: _Columns, d: _Columns) -> _Columns:
-        """What directions leave of q; slacks and products are exact."""
-        p, layout = self.path.flow.problem, self.path.layout
-        x, u, load_factor, _, y = d
+    def _left(self, q: _Columns, x: Array, w: Array, y: Array) -> tuple[Array, Array]:
+        """What directions leave of flow, and of balance and work; slacks and products are exact."""
+        p, layout, u = self.path.flow.problem, self.path.layout, w[:-1]
         flow = q.flow - self.elastic[:, None] * x + p.C @ u + self.GT @ y
         if self.turning is not None:
             flow -= self.turning @ x
-        balance = q.balance + layout.balance @ x - p.live[:, None] * load_factor
-        none = np.zeros_like(q.slack)
-        return _Columns(flow, balance, q.work - p.live @ u, none, none)
+        balance = q.balance + layout.balance @ x - p.live[:, None] * w[-1]
+        return flow, np.concatenate([balance, (q.work - p.live @ u)[None]])
 
     def _flexed(self, v: Array) -> Array:
         layout = self.path.layout
@@ -88,7 +87,7 @@ class Newton:
 
 
 class _Columns(NamedTuple):
-    """The parts of :class:`Equations`, or of directions in their place, with a column for each side."""
+    """The parts of :class:`Equations` with a column for each side."""
 
     flow: Array
     balance: Array

@@ -52,11 +52,8 @@ def path_from(
         Of the barrier, in each row: of rows that stand for several more than one.
     """
     p, layout = flow.problem, Layout(flow)
-    stiffness = layout.padding.copy()
-    diagonal = np.arange(stiffness.shape[1])
-    stiffness[:, diagonal, diagonal] += layout.per_interface(1.0 / weights)
     C = layout.compatibility
-    lu = layout.factors(np.swapaxes(C, 1, 2) @ stiffness @ C)
+    lu = layout.factors(np.swapaxes(C, 1, 2) @ (layout.per_interface(1.0 / weights)[:, :, None] * C))
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
     rho0 = float(layout.solved(lu, np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
     logarithms = np.zeros(p.cones.degree)
