@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.geometry import Block
+from limitblocks.arrays import Array
+from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry.accuracy import block_length, millimetres
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints import OrdunaLourenco, Tie
+from limitblocks.joints import Backfill, Dowel, OrdunaLourenco, Tie
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some, triple
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
@@ -53,7 +55,7 @@ def questions(model: Model) -> list[str]:
         asked += _of_weight(weight)
     corners = np.concatenate([block.vertices for block in model.blocks])
     size = float(np.ptp(corners, axis=0).max())
-    return [*asked, *_of_forces(model, size), *_of_ties(model), *of_size(size)]
+    return [*asked, *_of_forces(model, size), *_of_ties(model), *_of_ties_twice(model), *of_size(size)]
 
 
 def weightless(model: Model) -> list[str]:
@@ -167,6 +169,29 @@ def _of_ties(model: Model) -> Iterator[str]:
             if strength < _SOFT:
                 what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
                 yield f"{tie.name}: {what}: MPa, or kN?"
+
+
+def _of_ties_twice(model: Model) -> Iterator[str]:
+    """What is asked about ties, strips or dowels of the same blocks and anchors: they add up."""
+    gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
+    met: dict[tuple[str, tuple[str, ...]], list[Array]] = {}
+    for one in model.interfaces:
+        if not isinstance(one.joint, Tie | Dowel) or isinstance(one.joint, Backfill):
+            continue  # faces of a block that lean both ways have fill at one point
+        ends = sorted([one.block_i, one.block_j])
+        others, own = met.setdefault((one.joint.word, tuple(ends)), []), _anchors(one)
+        if any(np.linalg.norm(own - other, axis=1).max() <= gap for other in others):
+            where = " and ".join(triple(at) for at in np.unique(own, axis=0).tolist())
+            same = f"as another between the same blocks, within {millimetres(gap)}"
+            yield f"{one.name}: it is at {where} m, {same}: given twice? they add up"
+        others.append(own)
+
+
+def _anchors(one: Interface) -> Array:
+    """Anchors (2, 3) of a tie, or twice the centroid, in the order of the names of its blocks."""
+    half = getattr(one.joint, "length", 0.0) / 2.0 * one.axes[2]
+    ends = np.array([one.centroid - half, one.centroid + half])
+    return ends if one.block_i < one.block_j else ends[::-1]
 
 
 def _masses(load: Load) -> set[tuple[str, tuple[float, ...]]]:

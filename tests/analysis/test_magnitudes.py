@@ -10,7 +10,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.cli import app
-from limitblocks.practice import reinforced, tie
+from limitblocks.practice import dowel, passive_fill, reinforced, strip, tie
 
 
 def block(joint=None, **change):
@@ -200,3 +200,40 @@ def test_ties_in_other_units_are_asked_about(settings, asked):
     said = questions(reinforced(block(), rod))
     assert len(said) == bool(asked)
     assert not asked or asked in said[0]
+
+
+@pytest.mark.parametrize(
+    ("off", "number", "turned"), [(0.0, 1, False), (0.0005, 1, True), (0.01, 0, False), (0.0, 0, None)]
+)
+def test_a_tie_given_twice_is_asked_about(off, number, turned):
+    """Anchors within the gap, a thousandth of a block's length, are the same ones, whichever comes first."""
+    bar = {"area": 314e-6, "strength": 235e6}
+    ends = [("block 1", (0.0, 0.0, 0.9 + off)), ("base", (-3.0, 0.0, 0.9))]
+    if turned:
+        ends.reverse()
+    first = tie("block 1", (0.0, 0.0, 0.9), "base", (-3.0, 0.0, 0.9), **bar)
+    second = [] if turned is None else [tie(*ends[0], *ends[1], **bar)]
+    said = questions(reinforced(block(), first, *second))
+    assert len(said) == number
+    assert all("given twice? they add up" in one for one in said)
+
+
+def test_a_dowel_in_a_strip_is_no_strip_given_twice():
+    model = block()
+    (joint,) = model.interfaces
+    held = strip(joint, joint.centroid, width=0.1, capacity=2e3)
+    pin = dowel(joint, joint.centroid, diameter=0.02, capacity=2e3)
+    assert questions(reinforced(model, held, pin)) == []
+    assert len(questions(reinforced(model, held, pin, held))) == 1
+
+
+def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
+    """Both faces of a symmetric gable have the resultant at one height: fill at one point, both ways."""
+    outline = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0)]
+    gable = lb.Block.prism("block", outline, (0.0, 1.0), axis="y", unit_weight=20e3)
+    ground = lb.Block.box("ground", size=(2.0, 1.0, 0.2), at=(1.0, 0.5, -0.1))
+    joints = lb.find_interfaces([gable, ground], lb.PointContact(0.6))
+    model = lb.Model([gable, ground], ["ground"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    fill = passive_fill(model, 2.0, unit_weight=18e3, coefficient=3.0)
+    assert len(fill) == 2
+    assert questions(reinforced(model, *fill)) == []
