@@ -230,7 +230,7 @@ def test_a_dowel_in_a_strip_is_no_strip_given_twice():
 def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
     """Both faces of a symmetric gable have the resultant at one height: fill at one point, both ways."""
     outline = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0)]
-    gable = lb.Block.prism("block", outline, (0.0, 1.0), axis="y", unit_weight=20e3)
+    gable = lb.Block.prism("block", outline, (0.0, 1.0), unit_weight=20e3)
     ground = lb.Block.box("ground", size=(2.0, 1.0, 0.2), at=(1.0, 0.5, -0.1))
     joints = lb.find_interfaces([gable, ground], lb.PointContact(0.6))
     model = lb.Model([gable, ground], ["ground"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
