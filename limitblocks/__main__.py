@@ -1,5 +1,24 @@
-"""Run the command line as `python -m limitblocks`."""
+"""Run the command line as `limitblocks` or `python -m limitblocks`."""
 
-from limitblocks.cli import main
+import os
+import signal
+from types import FrameType
 
-main()
+
+def main() -> None:
+    """Run the command line; Ctrl-C ends it without a word while it is imported: there is nothing to lose."""
+    usual = signal.getsignal(signal.SIGINT)
+    if usual is signal.default_int_handler:  # else it is ignored, as by nohup
+        signal.signal(signal.SIGINT, _end)
+    from limitblocks.cli import main as run
+
+    signal.signal(signal.SIGINT, usual)
+    run()
+
+
+def _end(number: int, _frame: FrameType | None) -> None:
+    os._exit(128 + number)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,11 +1,12 @@
 """The command line: the verbs of the library on model files.
 
 Exit codes: 0 done, 1 a check failed or the structure does not stand by itself, 2 the model (or the usage) is
-wrong, 3 no solution found, 130 interrupted.
+wrong, 3 no solution found, 130 interrupted, 141 nobody reads what is printed any more.
 """
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from contextlib import suppress
@@ -40,6 +41,9 @@ for _name, _group in {"study": studies, "new": _new, "examples": examples}.items
     app.add_typer(_group, name=_name)
 
 
+PIPE_CLOSED = 141  # as shells say it: 128 and the number of the signal
+
+
 def main() -> None:
     """Run the command line."""
     for stream in (sys.stdout, sys.stderr):  # a letter that the console lacks is no reason to crash
@@ -47,13 +51,25 @@ def main() -> None:
             stream.reconfigure(errors="replace")
     try:
         app(prog_name="limitblocks")
+    except SystemExit as end:
+        if isinstance(end.__context__, BrokenPipeError):  # typer makes it 1, a check failed
+            _say_no_more()
+            sys.exit(PIPE_CLOSED)
+        raise
     except OSError as error:
         if error.filename is not None:
             raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # else leaving tries once more
+        _say_no_more()
+        if error.errno == errno.EINVAL:  # as Windows says that nobody reads any more
+            sys.exit(PIPE_CLOSED)
         with suppress(OSError):  # stderr may be as full
             typer.echo(f"error: cannot write what there is to print: {error.strerror}", err=True)
         sys.exit(2)
+
+
+def _say_no_more() -> None:
+    """Print to nowhere what is left to print: leaving tries once more."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @app.callback(invoke_without_command=True)

@@ -1,6 +1,8 @@
 """Commands that are stopped: what they say on the way, and what they leave."""
 
+import errno
 import importlib
+import os
 import signal
 import subprocess
 import sys
@@ -11,6 +13,7 @@ import pytest
 from portal_by_hand import run, stopped
 
 import limitblocks as lb
+from limitblocks import cli
 from limitblocks.cli import progress
 from limitblocks.evidence.results import Iteration
 
@@ -150,3 +153,45 @@ def test_a_report_whose_path_the_user_stops_has_what_there_was_and_the_code_of_a
     code, said = _interrupted(("report", model, "--bounds", "--path", "-o", output), "path:")
     assert code == 130, said
     assert "Associated bounds" in output.read_text(encoding="utf-8")
+
+
+def test_a_pipe_that_nobody_reads_any_more_is_no_check_that_failed(file):
+    read, write = os.pipe()
+    os.close(read)
+    words = [sys.executable, "-m", "limitblocks", "info", str(file)]
+    done = subprocess.run(words, stdout=write, stderr=subprocess.PIPE, text=True, check=False)
+    os.close(write)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_windows_says_otherwise_that_nobody_reads_any_more(monkeypatch, capfd):
+    def closed(**_):
+        raise OSError(errno.EINVAL, "Invalid argument")
+
+    monkeypatch.setattr(cli, "app", closed)
+    monkeypatch.setattr(cli, "_say_no_more", lambda: None)
+    with pytest.raises(SystemExit, match="141"):
+        cli.main()
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.parametrize(("usual", "code"), [("default_int_handler", 130), ("SIG_IGN", 0)])
+def test_an_interruption_of_the_imports_ends_without_a_word(usual, code):
+    """At the first import of the command line; where it is ignored, as by nohup, it stays so."""
+    script = f"""
+import signal, sys
+from importlib.abc import MetaPathFinder
+
+class Interrupting(MetaPathFinder):
+    def find_spec(self, name, *_):
+        if name == "typer":
+            signal.raise_signal(signal.SIGINT)
+
+sys.meta_path.insert(0, Interrupting())
+signal.signal(signal.SIGINT, signal.{usual})
+sys.argv = ["limitblocks", "--version"]
+from limitblocks.__main__ import main
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (code, "")
