@@ -10,7 +10,7 @@ from scipy import sparse
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.given_state import Given
-from limitblocks.evidence.limits import Flags
+from limitblocks.evidence.limits import ROUNDING, Flags
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.multipliers import near_yield
@@ -114,7 +114,7 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     """Stresses (s,), place by place as they are, moved to where what flows yields, or none at all.
 
     Each costs the largest change of limits, flow and loads of the place that it asks for; loads change only
-    where the place carries little.
+    where the place carries little, or by rounding of what acts on the lesser block.
     """
     members, stresses = given.places
     moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
@@ -123,7 +123,7 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     for x in choices:
         at = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
-        slight = (by == 0.0) | (given.force <= SLIGHT)
+        slight = (by <= ROUNDING) | (given.force <= SLIGHT)
         cost = np.maximum(at.angle, np.where(slight, by, np.inf))
         np.maximum.at(cost, members, np.abs(at.change))
         costs.append(cost)

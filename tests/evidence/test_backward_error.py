@@ -13,6 +13,7 @@ from limitblocks.evidence.backward_error import backward_error
 from limitblocks.evidence.given_state import Given
 from limitblocks.evidence.limits import Limits
 from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.practice import reinforced, tie
 from limitblocks.problem import Flow, State, turning_of
 
 PARTS = ("limits", "flow", "loads", "mechanism")
@@ -84,6 +85,24 @@ def test_a_block_that_rocks_about_another_edge(share, compressive_strength):
     assert error.limits.value == pytest.approx(edge, rel=1e-6)
     if compressive_strength is None:
         assert error.value == error.limits.value == pytest.approx(abs(share - 1), rel=1e-6)
+
+
+@pytest.mark.parametrize("anchor", [(0.0, -5.0, H / 2), (5.0, 0.0, H / 2)])
+@pytest.mark.parametrize("share", [2e-16, -2e-16, -1e-6])
+def test_a_slack_tie_carries_what_the_loads_round_to_and_no_less(anchor, share):
+    """A sliding block with a tie across the way, or that goes slack: N is rounding of the weight, or not."""
+    plain, _ = sliding(lb.OrdunaLourenco(MU))
+    (block,) = plain.free_blocks
+    rod = tie(block.name, (0.0, 0.0, H / 2), plain.supports[0], anchor, area=1e-3, strength=1e9)
+    model = reinforced(plain, rod)
+    p, found = model.problem, lb.nonassociated(model)
+    assert found.load_factor == pytest.approx(MU)
+    state = state_of(model, found)
+    (own,) = np.flatnonzero(p.stress_interface == 1)
+    x = state.x.copy()
+    x[own] = share * block.weight / p.stress_units[own]
+    error = backward_error(Flow(p), replace(state, x=x))
+    assert (error.value <= 1e-12) is (share > -1e-9)
 
 
 @pytest.mark.parametrize("angle", [1e-6, 1e-3, 0.1])
