@@ -91,7 +91,7 @@ class LoadPath(Result):
         the live load at load factor one (N m; relative to the compliance), load factor. Increments follow
         one another; at the end of each the barrier fades, which may move the load factor a little.
     tracked : float
-        What the tracked path of :func:`limitblocks.nonassociated` with a small barrier ends at, NaN where it
+        What the first path of :func:`limitblocks.nonassociated`, from the same `start`, ends at; NaN where it
         does not end at a solution.
     remarks : tuple of str
         Whether the two agree, and why if they do not.

@@ -43,6 +43,15 @@ def test_a_block_between_floor_and_ceiling_keeps_the_press_it_starts_with():
     assert remark in str(path)
 
 
+@pytest.mark.parametrize("options", [{}, {"stiffness": (1e9, 5e8)}])
+def test_the_tracked_path_is_that_of_nonassociated(options):
+    """In the plane, with the rows that flow: it was that of all rows, .35601 instead of .35586."""
+    model = structures.ferris_tin_loi_wall(3, lb.OrdunaLourenco(0.65))
+    found = lb.nonassociated(model)
+    assert found.how == "tracked path, small barrier, power 1, seed 1, in the plane"
+    assert lb.load_path(model, **options).tracked == pytest.approx(found.load_factor, rel=1e-9)
+
+
 def test_a_wall_leaves_its_loose_buttress_at_b_over_h():
     change = {"length": 2.0, "courses": 6, "buttress_length": 0.8, "bonded": False, "direction": (0, -1, 0)}
     path = lb.load_path(structures.buttressed_wall(lb.PointContact(0.7), **change))

@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
-from limitblocks.analysis.nonassociated.loop import small_barrier
+from limitblocks.analysis.nonassociated.loop import end_of_first_path
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -113,8 +113,8 @@ def load_path(
 
     def load(at: Flow, x0: Array, own: Array) -> _Loaded:
         scale = load_scale(at.problem, enclosing.associated)
-        judge = None if at is flow else planar
-        return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, judge)
+        share = 1.0 if at is flow or planar is None else planar.share
+        return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
     found = (
@@ -126,7 +126,7 @@ def load_path(
     collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
-    tracked = found.tracked()
+    tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
     remarks = _remarks(collapse.load_factor, tracked)
     if any(one.increment.rounded for one in found.pushes):
         remarks += (ROUNDED,)
@@ -134,13 +134,12 @@ def load_path(
 
 
 class _Loaded(NamedTuple):
-    """Stresses at the start, increments, the last state, how they were found, and the tracked path's end."""
+    """Stresses at the start, increments, the last state, and how they were found."""
 
     x0: Array
     pushes: tuple[Pushed, ...]
     last: State
     how: str
-    tracked: Callable[[], float]
 
 
 def _loaded(
@@ -151,7 +150,7 @@ def _loaded(
     settings: Settings,
     scale: float,
     record: Callable[[Iteration], None],
-    planar: InPlane | None,
+    share: Array | float,
 ) -> _Loaded:
     """Push from x0 to collapse, or to where the user stops it."""
     met: list[Pushed] = []
@@ -163,14 +162,13 @@ def _loaded(
         record(one.told(flow.problem.units.live))
 
     how = "increments of the load path"
-    share = 1.0 if planar is None else planar.share
     try:
         pushes, last = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
     except KeyboardInterrupt:
         if not met:
             raise
         pushes, last, how = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}"
-    return _Loaded(x0, pushes, last, how, lambda: small_barrier(flow, x0, scale, tolerance, planar))
+    return _Loaded(x0, pushes, last, how)
 
 
 def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
@@ -180,7 +178,7 @@ def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None
     pushes = tuple(planar.pushed(one) for one in found.pushes)
     if last is None or not admissible(pushes):
         return None
-    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how), found.tracked)
+    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how))
 
 
 def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:

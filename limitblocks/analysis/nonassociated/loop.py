@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
 from limitblocks.analysis.nonassociated.finished import end, finished
-from limitblocks.analysis.nonassociated.in_the_plane import InPlane, found_in_plane_or_whole
+from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import recorder
@@ -20,8 +20,9 @@ from limitblocks.analysis.nonassociated.start import (
     refuse_jammed,
     refuse_unlimited,
     solving_state,
+    start_stresses,
 )
-from limitblocks.analysis.nonassociated.ways import Half, first_to_solve
+from limitblocks.analysis.nonassociated.ways import Half, first_to_solve, no_half
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
@@ -143,17 +144,25 @@ def _near(flow: Flow, tolerance: float, limit: float | None, state: State) -> bo
 
 
 @np.errstate(all="ignore")  # a state that ran away is no solution
-def small_barrier(
-    flow: Flow, x0: Array, scale: float, tolerance: float, planar: InPlane | None = None
+def end_of_first_path(
+    model: Model, flow: Flow, associated: float, start: Start | None, tolerance: float
 ) -> float:
-    """Load factor at the end of the first path of MEANS, NaN where that is no solution within `tolerance`.
-
-    What is found in a plane is judged in the whole problem.
-    """
-    state, _ = first_to_solve(flow, x0, scale, MEANS[:1], tolerance, lambda _: None)
-    solved = mcp_residuals(flow, state).worst.value <= tolerance
+    """Load factor at the end of the first path of `nonassociated`, NaN where that is no solution."""
+    weights = flow.problem.compliance
+    planar = flow_in_plane(model, flow, weights, start)
+    if planar is None:
+        at, x0, half = flow, start_stresses(model, flow.problem, weights, start), _not_looked_for
+    else:
+        at, x0, half = planar.flow, planar.x0, no_half
+    scale = load_scale(at.problem, associated)
+    state, _ = first_to_solve(at, x0, scale, MEANS, tolerance, lambda _: None, half=half, first=True)
+    solved = mcp_residuals(at, state).worst.value <= tolerance
     solved &= planar is None or planar.accepted(state, tolerance) is not None
-    return state.load_factor / flow.problem.units.live if solved else np.nan
+    return state.load_factor / at.problem.units.live if solved else np.nan
+
+
+def _not_looked_for() -> None:
+    """No half of a whole problem."""
 
 
 def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 
 import numpy as np
 
@@ -51,10 +52,11 @@ def first_to_solve(
     record: Record,
     enough: Callable[[State], bool] = lambda _: False,
     half: Half = no_half,
+    first: bool = False,
 ) -> tuple[State, str]:
     """The state to which one way after the other leads, and which it was: the load path comes first.
 
-    If there are further means, `half` comes second.
+    If there are further means, `half` comes second. Where the `first` path is asked for it is followed alone.
 
     Of a large model a state that is near `enough` ends the search as well, but for the end of the first path.
     """
@@ -71,7 +73,11 @@ def first_to_solve(
         ways = _large_planar_ways(flow, x0, scale, tolerance, record)
     else:
         ways = _ways(flow, x0, scale, means, tolerance, record)
-    for state, how in ways if len(means) == 1 else _then(ways, half, flow, tolerance):
+    if first:  # that of a large model comes without rounds and with them
+        ways = islice(ways, 2 if large else 1)
+    elif len(means) > 1:
+        ways = _then(ways, half, flow, tolerance)
+    for state, how in ways:
         met.append((state, how))
         if mcp_residuals(flow, state).worst.value <= tolerance:
             return met[-1]
