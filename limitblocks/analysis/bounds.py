@@ -14,6 +14,7 @@ from itertools import islice
 import numpy as np
 
 from limitblocks.analysis.certified import CLOSE, certified
+from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
@@ -130,29 +131,40 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
 
 
 def _directly(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof] | None:
-    """Dead-load stresses and a pair of bounds by one accurate solve, if that proves them as well as any."""
+    """Dead-load stresses and a pair of bounds by an accurate solve, if one proves them as well as any."""
     tell("dead loads")
-    plane, programs = in_plane(problem), programs_of(problem)
-    splitting = Splitting(programs.form.problem)
+    forms = programs_of(problem)
+    splitting = Splitting(forms[0].form.problem)
     dead = carried(problem, splitting)
     if dead is None:
-        return None
-    tell("load factor")
-    found = limit_state(programs, plane)
-    if found is None:
-        return None
-    tell("proof")
-    state, name = found
+        tell("dead loads, again with care")
+        dead = dead_load_state(problem)
+    for programs in forms:
+        tell("load factor")
+        found = limit_state(programs, in_plane(problem))
+        if found is None:
+            continue
+        tell("proof")
+        pair, proof, good = _certified(Pair(problem, *found), programs, dead, tolerance, splitting)
+        if good:
+            return dead, pair, proof
+    return None
+
+
+def _certified(
+    raw: Pair, programs: Programs, dead: Array, tolerance: float, splitting: Splitting
+) -> tuple[Pair, Proof, bool]:
+    """The pair near the raw one that proves its bounds, its proof, and whether no other is worth a solve."""
+    problem, plane = raw.problem, in_plane(raw.problem)
     patience = 1 if plane is not None and plane.flat else programs.form.patience
     accurate = max(CLOSE, PER_BLOCK * len(problem.blocks))
     close = max(CLOSE, min(accurate, tolerance / 10.0))
-    raw = Pair(problem, state, name)
-    state, proof = certified(problem, state, dead, close=close, patience=patience, splitting=splitting)
-    pair = Pair(problem, state, name)
+    state, proof = certified(problem, raw.state, dead, close=close, patience=patience, splitting=splitting)
+    pair = Pair(problem, state, raw.solver)
     good = proof.width <= tolerance and pair.residuals.worst.value <= tolerance
     # another solution is no better where this one is that accurate, and only its proof takes more
     good = good or (proof.complete and raw.residuals.worst.value <= min(accurate, tolerance))
-    return (dead, pair, proof) if good else None
+    return pair, proof, good
 
 
 def _with_care(problem: LimitProblem, tolerance: float, tell: Tell) -> tuple[Array, Pair, Proof]:

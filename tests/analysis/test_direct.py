@@ -70,11 +70,23 @@ def test_multipliers_of_a_large_facade_need_equations_that_are_hardly_regularise
     """With what Clarabel adds to the pivots by itself, 1e-8, they lack six times more of the cone."""
     lengths = {"length": 19.2, "return_length": 9.6}
     model = structures.facade(lb.PointContact(0.6), courses=21, openings=(), **lengths)
-    programs = programs_of(model.problem)  # of one half: 504 blocks
+    programs = programs_of(model.problem)[0]  # of one half: 504 blocks
     p, default = programs.form.problem, {"static_regularization_constant": 1e-8}
     lack = -p.cones.margin(programs.limit_state(DIRECT).y).min()
     by_default = -p.cones.margin(programs.limit_state(DIRECT.having(default)).y).min()
     assert lack < by_default / 3.0
+
+
+@pytest.mark.parametrize("forms", [1, 2])
+def test_a_tower_is_proven_with_rates_near_one_where_it_is_not_as_it_is(forms, monkeypatch):
+    """Its corners are not bonded through: it splits into four walls."""
+    joint = lb.OrdunaLourenco(0.7, compressive_strength=2e6)
+    tower = structures.tower(joint, length=2.0, width=2.8, courses=20, direction=(1.0, 1.0, 0.0))
+    bounds = import_module("limitblocks.analysis.bounds")
+    monkeypatch.setattr(bounds, "programs_of", lambda problem: programs_of(problem)[:forms])
+    found = bounds._directly(tower.problem, 1e-6, lambda _: None)
+    assert (found is None) == (forms == 1)
+    assert found is None or found[2].width < 1e-6
 
 
 def in_plane_of(joint, courses, length):
@@ -92,7 +104,7 @@ def in_plane_of(joint, courses, length):
 def test_pivots_that_may_vanish_are_replaced_and_all_others_regularised(joint, courses, length, other):
     """With what suits the other joint the flow rule is satisfied worse."""
     off = []
-    programs = programs_of(in_plane_of(joint, courses, length).problem)
+    programs = programs_of(in_plane_of(joint, courses, length).problem)[0]
     p = programs.form.problem
     for settings in ({}, {"static_regularization_constant": other}):
         state = programs.limit_state(PLANAR.having(settings))
