@@ -81,7 +81,7 @@ def test_multipliers_of_a_large_facade_need_equations_that_are_hardly_regularise
 def test_a_tower_is_proven_with_rates_near_one_where_it_is_not_as_it_is(forms, monkeypatch):
     """Its corners are not bonded through: it splits into four walls."""
     joint = lb.OrdunaLourenco(0.7, compressive_strength=2e6)
-    tower = structures.tower(joint, length=2.0, width=2.8, courses=20, direction=(1.0, 1.0, 0.0))
+    tower = structures.tower(joint, length=2.0, width=2.8, courses=20)
     bounds = import_module("limitblocks.analysis.bounds")
     monkeypatch.setattr(bounds, "programs_of", lambda problem: programs_of(problem)[:forms])
     found = bounds._directly(tower.problem, 1e-6, lambda _: None)
