@@ -12,6 +12,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
+    LARGEST_MEANS,
     MEANS,
     SOFTENING,
     Means,
@@ -265,6 +266,19 @@ def test_in_one_half_of_a_large_model_a_path_goes_on_while_theta_falls(longer, m
     found = lb.nonassociated(symmetric_facade(), throw=False)
     assert found.converged is longer
     assert not longer or found.how.endswith("barrier 3 (large barrier), power 2, seed 1, in one half")
+
+
+@pytest.mark.parametrize("largest", [True, False])
+def test_beyond_three_hundred_blocks_one_barrier_goes_on(largest, monkeypatch):
+    """With a thirtieth of the budgets: of this corner 20 factorisations are too few, and 133 are enough."""
+    thirtieth = [one._replace(budget=one.budget // 30) for one in (LARGE_MEANS[1], LARGEST_MEANS[1])]
+    first = LARGE_MEANS[0]._replace(budget=1)
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGEST", 20 if largest else 300)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (first, thirtieth[0]))
+    monkeypatch.setattr(ways, "LARGEST_MEANS", (first, thirtieth[1]))
+    monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
+    assert lb.nonassociated(corner(), throw=False).converged is largest
 
 
 def test_a_half_that_is_interrupted_says_so(monkeypatch):

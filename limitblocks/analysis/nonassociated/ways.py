@@ -14,6 +14,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
+    LARGEST_MEANS,
     MEANS,
     SOFTENING,
     TURNED_MEANS,
@@ -32,6 +33,7 @@ from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
+LARGEST = 300  # beyond it one path takes what time there is
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
 Record = Callable[[Iteration], None]  # tells the user
@@ -67,7 +69,8 @@ def first_to_solve(
     if means is MEANS and half is no_half:  # in a plane or one half points cost little
         means = tuple(one._replace(patience=None) for one in MEANS)
     if large:
-        large_means = LARGE_HALF_MEANS if half is no_half else LARGE_MEANS
+        large_means = LARGEST_MEANS if blocks > LARGEST else LARGE_MEANS
+        large_means = LARGE_HALF_MEANS if half is no_half else large_means
         ways = _large_ways(flow, x0, scale, large_means, tolerance, record)
     elif large_in_plane:
         ways = _large_planar_ways(flow, x0, scale, tolerance, record)
