@@ -323,3 +323,18 @@ def test_only_symmetric_stresses_have_a_plane(friction, push, seed):
     assert plane_of(model, problem, x) is None
     there = plane_of(model, problem, symmetric)
     np.testing.assert_allclose(there.stresses @ there.stresses_of(symmetric), symmetric, atol=1e-12)
+
+
+def test_ctrl_c_that_osqp_keeps_to_itself_ends_the_analysis(monkeypatch):
+    """It prints that it was interrupted, and returns."""
+    solve = least_norm.osqp.OSQP.solve
+
+    def pressed(solver, **options):
+        found = solve(solver, **options)
+        found.info.status_val = 10  # OSQP_SIGINT of its constants.h
+        return found
+
+    monkeypatch.setattr(least_norm.osqp.OSQP, "solve", pressed)
+    problem = lb.structures.wall(lb.OrdunaLourenco(0.6, slip="paper"), length=1.2, courses=3).problem
+    with pytest.raises(KeyboardInterrupt):
+        permanent_state(problem, problem.compliance)

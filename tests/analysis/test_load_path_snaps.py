@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated import increment as increments
-from limitblocks.analysis.nonassociated import loading
+from limitblocks.analysis.nonassociated import loading, loop
 from limitblocks.analysis.nonassociated.increment import Increment, Tried, Visit
 from limitblocks.structures.convex import hull
 
@@ -50,6 +50,21 @@ def test_the_tracked_path_is_that_of_nonassociated(options):
     found = lb.nonassociated(model)
     assert found.how == "tracked path, small barrier, power 1, seed 1, in the plane"
     assert lb.load_path(model, **options).tracked == pytest.approx(found.load_factor, rel=1e-9)
+
+
+def test_a_tracked_path_that_the_user_stops_is_not_said_to_end_at_no_solution(monkeypatch):
+    """The load path is complete by then."""
+    first = loop.first_to_solve
+
+    def stopped(*args, **options):
+        state, how = first(*args, **options)
+        return state, f"{how}, interrupted"
+
+    monkeypatch.setattr(loop, "first_to_solve", stopped)
+    path = lb.load_path(structures.wall(lb.OrdunaLourenco(0.6), length=1.2, courses=3))
+    assert path.collapse.converged
+    assert np.isnan(path.tracked)
+    assert path.remarks[0].startswith("the tracked path of nonassociated was stopped by the user")
 
 
 def test_a_wall_leaves_its_loose_buttress_at_b_over_h():

@@ -41,6 +41,8 @@ def by_planes(problem: LimitProblem, weights: Array) -> Array | None:
     solver = osqp.OSQP()
     solver.setup(P=W, q=np.zeros(len(weights)), A=A, l=least, u=most, **OSQP)
     found = solver.solve(raise_error=False)
+    if found.info.status_val == osqp.SolverStatus.OSQP_SIGINT:  # it keeps the signal to itself
+        raise KeyboardInterrupt
     return _believed(problem, weights, found.x, found.y)
 
 

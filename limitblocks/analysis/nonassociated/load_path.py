@@ -39,6 +39,7 @@ ROUNDED = (
     "a snap could be followed with the barrier of the increments only, which rounds it: the load factor "
     "before it is low by some percent"
 )
+NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
 
 Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
@@ -126,8 +127,11 @@ def load_path(
     collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
-    tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
-    remarks = _remarks(collapse.load_factor, tracked)
+    try:
+        tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
+        remarks = _remarks(collapse.load_factor, tracked)
+    except KeyboardInterrupt:  # the load path is complete
+        tracked, remarks = np.nan, (NOT_COMPARED,)
     if any(one.increment.rounded for one in found.pushes):
         remarks += (ROUNDED,)
     return LoadPath(steps, collapse, folds, trace, tracked, remarks)

@@ -12,7 +12,7 @@ from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
-from limitblocks.analysis.nonassociated.path_record import recorder
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
     flow_of,
@@ -147,7 +147,10 @@ def _near(flow: Flow, tolerance: float, limit: float | None, state: State) -> bo
 def end_of_first_path(
     model: Model, flow: Flow, associated: float, start: Start | None, tolerance: float
 ) -> float:
-    """Load factor at the end of the first path of `nonassociated`, NaN where that is no solution."""
+    """Load factor at the end of the first path of `nonassociated`, NaN where that is no solution.
+
+    Raises KeyboardInterrupt where the user stops it: its end would be that of no path.
+    """
     weights = flow.problem.compliance
     planar = flow_in_plane(model, flow, weights, start)
     if planar is None:
@@ -155,7 +158,9 @@ def end_of_first_path(
     else:
         at, x0, half = planar.flow, planar.x0, no_half
     scale = load_scale(at.problem, associated)
-    state, _ = first_to_solve(at, x0, scale, MEANS, tolerance, lambda _: None, half=half, first=True)
+    state, how = first_to_solve(at, x0, scale, MEANS, tolerance, lambda _: None, half=half, first=True)
+    if how.endswith(INTERRUPTED):
+        raise KeyboardInterrupt
     solved = mcp_residuals(at, state).worst.value <= tolerance
     solved &= planar is None or planar.accepted(state, tolerance) is not None
     return state.load_factor / at.problem.units.live if solved else np.nan
