@@ -9,6 +9,7 @@ import sys
 import time
 
 import numpy as np
+import osqp
 import pytest
 from portal_by_hand import run, stopped
 
@@ -152,6 +153,22 @@ def test_a_report_whose_path_the_user_stops_has_what_there_was_and_the_code_of_a
     output = tmp_path / "report.md"
     code, said = _interrupted(("report", model, "--bounds", "--path", "-o", output), "path:")
     assert code == 130, said
+    assert "Associated bounds" in output.read_text(encoding="utf-8")
+
+
+def test_a_report_that_osqp_is_stopped_in_has_the_code_of_an_interruption(monkeypatch, tmp_path):
+    """It keeps the signal to itself and returns OSQP_SIGINT, 10 in its constants.h."""
+    solve = osqp.OSQP.solve
+
+    def pressed(solver, **options):
+        found = solve(solver, **options)
+        found.info.status_val = 10
+        return found
+
+    monkeypatch.setattr(osqp.OSQP, "solve", pressed)
+    wall = lb.structures.wall(lb.OrdunaLourenco(0.6, slip="paper"), length=1.2, courses=3)
+    model, output = wall.save(tmp_path / "model.json"), tmp_path / "report.md"
+    assert run("report", model, "--bounds", "--path", "-o", output).exit_code == 130
     assert "Associated bounds" in output.read_text(encoding="utf-8")
 
 

@@ -6,6 +6,8 @@ cvxpy took longer over this program than they do.
 
 from __future__ import annotations
 
+import signal
+
 import numpy as np
 import osqp
 from scipy import sparse
@@ -42,7 +44,7 @@ def by_planes(problem: LimitProblem, weights: Array) -> Array | None:
     solver.setup(P=W, q=np.zeros(len(weights)), A=A, l=least, u=most, **OSQP)
     found = solver.solve(raise_error=False)
     if found.info.status_val == osqp.SolverStatus.OSQP_SIGINT:  # it keeps the signal to itself
-        raise KeyboardInterrupt
+        signal.raise_signal(signal.SIGINT)
     return _believed(problem, weights, found.x, found.y)
 
 
