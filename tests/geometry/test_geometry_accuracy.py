@@ -275,6 +275,9 @@ def test_a_sharp_edge_moves_along_its_slope_and_twelve_times_the_accuracy_at_mos
     left = "block 'wedge' is left as it was: its faces are not plane within 0.001 m"
     assert healed.notes == (() if moves else (left,))
     assert moves or healed.blocks[1] is stone
+    farthest = 1e3 * (moved if moves else gap / 2)
+    said = f"2 blocks mended within 1 mm: vertices moved by up to {farthest:.2g} mm"
+    assert str(healed) == f"{said}, at most 12 mm allowed{'' if moves else '; 1 left as they were'}"
 
 
 def test_heal_without_an_accuracy_needs_joints_to_tell_it():
