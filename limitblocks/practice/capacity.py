@@ -126,7 +126,7 @@ def _curve(
             )
             return
         # no block moves farther than that, however slow the control point is
-        next_step = min(_next_step(assembly, control, (before, point), steps), whole / steps * min(pace, 1.0))
+        next_step = min(_next_step(assembly, before, point, steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale, _to_zero(before, point))
         if isinstance(found, str) and _to_zero(before, point) <= EVENT * assembly.size:
@@ -164,11 +164,8 @@ def _ahead(
         step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
 
 
-def _next_step(
-    assembly: Assembly, control: Control, last: tuple[CapacityPoint | None, CapacityPoint], steps: int
-) -> float:
+def _next_step(assembly: Assembly, before: CapacityPoint | None, point: CapacityPoint, steps: int) -> float:
     """A step of the curve, or the secant step to its zero once that is near; m, of the control point."""
-    before, point = last
     if before is None or point.snapped:
         return FIRST * assembly.size
     last_step, ahead = abs(point.displacement - before.displacement), _to_zero(before, point)

@@ -99,7 +99,7 @@ def verification(
     found = steps("activation", sums)
     found += steps("demand", [*given(demand), *carried(place, demand)])
     set_off = ground_acceleration(demand, place.acceleration, a0)
-    found += steps("linear", _linear(a0, demand, place, q, set_off))
+    found += steps("linear", _linear(demand, place, q, set_off))
     checks = [Inequality("linear, SLV", a0, place.acceleration(demand) / q, "m/s2", SIMPLIFIED)]
     if damage_demand:
         found += steps("demand", given(damage_demand, "SLD"))
@@ -164,7 +164,7 @@ def _equation(place: Place) -> str:
     return "[C8.7.1.9]" if place.elastic_period else "[C8.7.1.8]"
 
 
-def _linear(a0: float, demand: Spectrum, place: Place, q: float, ground: float) -> list[Quantity]:
+def _linear(demand: Spectrum, place: Place, q: float, ground: float) -> list[Quantity]:
     """The check with a behaviour factor, as accelerations of the mechanism and of the ground."""
     rigid, free = ("a_Z", "S_eZ(T_0)") if place.floor else ("a_g S", "S_e(T_0)")
     word = free if place.elastic_period else rigid

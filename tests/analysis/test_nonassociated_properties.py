@@ -175,7 +175,7 @@ def test_further_means_are_tried_in_turn(reference, monkeypatch):
     model, _ = reference
     means = (Means(Barrier(), 0, 1), Means(Barrier(1.0, 2.0), 1, 300))
     assert lb.nonassociated(model, means=means).how.startswith("increments of the load path")
-    monkeypatch.setattr(ways, "_increments", lambda flow, x0, *_: (unmoved(flow.problem, 0.0, x0), "nothing"))
+    monkeypatch.setattr(ways.Given, "increments", lambda at: (unmoved(at.flow.problem, 0.0, at.x0), "none"))
     found = lb.nonassociated(model, means=means)
     assert found.converged
     assert "barrier 1 (large barrier), power 2, seed 1" in found.how

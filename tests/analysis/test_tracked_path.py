@@ -118,7 +118,7 @@ def test_what_is_left_of_the_barrier_can_fade_later(lintel):
 
 def test_means_of_the_small_barrier_come_before_increments(monkeypatch):
     model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
-    monkeypatch.setattr(ways, "_increments", None)  # not asked for
+    monkeypatch.setattr(ways.Given, "increments", None)  # not asked for
     means = (Means(Barrier(), 0, 1), Means(Barrier(0.02, 2.0), 1, 300))
     assert "small barrier" not in lb.nonassociated(model, means=means).how
 
@@ -130,9 +130,10 @@ def test_an_end_below_a_tenth_of_the_tolerance_is_not_polished(monkeypatch):
     left = defect(flow, end)
     assert left > 1e-10
     monkeypatch.setattr(ways, "polished", None)  # not asked for
-    assert ways._polished(flow, end, "path", 11.0 * left) == (end, "path")
+    wide, narrow = (ways.Given(flow, end.x, 1.0, share * left, print) for share in (11.0, 9.0))
+    assert wide.polished(end, "path") == (end, "path")
     with pytest.raises(TypeError):
-        ways._polished(flow, end, "path", 9.0 * left)
+        narrow.polished(end, "path")
 
 
 def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypatch):

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import numpy as np
+import portal
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -15,20 +16,7 @@ from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
 
 JAMMED = {"live": [{"type": "MassProportional", "direction": [0, 0, -1]}]}
-PORTAL = {
-    "schema_version": 1,
-    "name": "Portal",
-    "blocks": [
-        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
-        {"name": "left", "box": {"size": [0.5, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}, "unit_weight": 20e3},
-        {"name": "right", "box": {"size": [0.5, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}, "unit_weight": 20e3},
-        {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.2]}, "unit_weight": 24e3},
-    ],
-    "supports": ["ground"],
-    "joints": {"dry": {"type": "PointContact", "friction": 0.2}},
-    "interfaces": {"find": {"joint": "dry"}},
-    "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
-}
+PORTAL = portal.PORTAL | {"joints": {"dry": {"type": "PointContact", "friction": 0.2}}}
 
 
 def run(*arguments):

@@ -14,9 +14,9 @@ def test_what_is_near_is_accepted_only_where_asked_for(monkeypatch):
     model, _ = true("points")
     whole = loop.first_to_solve
 
-    def stopped(flow, *rest):
-        state, how = whole(flow, *rest)
-        return shaken(flow.problem, state, 1e-5), how
+    def stopped(given, *rest):
+        state, how = whole(given, *rest)
+        return shaken(given.flow.problem, state, 1e-5), how
 
     monkeypatch.setattr(loop, "first_to_solve", stopped)
     with pytest.raises(lb.NotConverged, match="backward error"):

@@ -3,71 +3,30 @@ import json
 import os
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from portal import LISTED, PORTAL, changed
 from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
 from limitblocks.io import strict_json
 
-GOOD = {
-    "schema_version": 1,
-    "name": "Portal",
-    "blocks": [
-        {"name": "ground", "box": {"size": [4.0, 1.0, 0.2], "at": [0.0, 0.0, -0.1]}},
-        {"name": "left", "box": {"size": [0.5, 1.0, 2.0], "at": [-1.0, 0.0, 1.0]}, "unit_weight": 20e3},
-        {"name": "right", "box": {"size": [0.5, 1.0, 2.0], "at": [1.0, 0.0, 1.0]}, "unit_weight": 20e3},
-        {"name": "lintel", "box": {"size": [2.5, 1.0, 0.4], "at": [0.0, 0.0, 2.2]}, "unit_weight": 24e3},
-    ],
-    "supports": ["ground"],
-    "joints": {"dry": {"type": "OrdunaLourenco", "friction": 0.6}},
-    "interfaces": {"find": {"joint": "dry"}},
-    "dead": [{"type": "SelfWeight"}],
-    "live": [{"type": "MassProportional", "direction": [1, 0, 0]}],
-}
 CUBE = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
 CORNERS = [[x, y, z + 3.0] for z in (0, 1) for y in (0, 1) for x in (0, 1)]
 
 
-def explicit():
-    blocks = [lb.Block.box(b["name"], **b["box"], unit_weight=b.get("unit_weight")) for b in GOOD["blocks"]]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-    return json.loads(json.dumps(model.to_dict()))
-
-
-EXPLICIT = explicit()
-
-
-def changed(document, *path, to):
-    """A copy of `document` with the value at `path` replaced, or taken out if `to` is Ellipsis."""
-    document = copy.deepcopy(document)
-    part = document
-    for step in path[:-1]:
-        part = part[step]
-    if isinstance(part, list) and path[-1] == len(part):
-        part.append(to)
-    elif to is ...:
-        del part[path[-1]]
-    else:
-        part[path[-1]] = to
-    return document
-
-
 def find(*path, to):
-    return changed(GOOD, *path, to=to)
+    return changed(PORTAL, *path, to=to)
 
 
 def listed(*path, to):
-    return changed(EXPLICIT, *path, to=to)
+    return changed(LISTED, *path, to=to)
 
 
 def block(vertices, faces):
     return find("blocks", 4, to={"name": "stone", "vertices": vertices, "faces": faces, "unit_weight": 1.0})
 
 
-AXES = EXPLICIT["interfaces"][0]["axes"]
+AXES = LISTED["interfaces"][0]["axes"]
 WARPED = [*CORNERS[:7], [1.0, 1.0, 4.3]]
 FLAT = [[x, y, 3.0] for x, y, _ in CORNERS]
 
@@ -173,24 +132,24 @@ FAULTS = {
 TEXTS = {
     "empty": (b"", ["is empty"]),
     "white space": (b" \n ", ["is empty"]),
-    "truncated": (json.dumps(GOOD).encode()[:300], ["line 1, column", "not JSON"]),
+    "truncated": (json.dumps(PORTAL).encode()[:300], ["line 1, column", "not JSON"]),
     "not JSON": (b"<xml/>", ["not JSON"]),
-    "NaN": (json.dumps(GOOD).replace("24000.0", "NaN").encode(), ["NaN"]),
+    "NaN": (json.dumps(PORTAL).replace("24000.0", "NaN").encode(), ["NaN"]),
     "NaN, where": (
         b'{"schema_version": 1,\n "name": "NaN and \\" Infinity",\n "blocks": [NaN]}',
         ["line 3, column 13: not JSON: NaN is not a number"],
     ),
     "singular": (  # `joint` is a key of interfaces
-        json.dumps({"joint" if key == "joints" else key: value for key, value in GOOD.items()}).encode(),
+        json.dumps({"joint" if key == "joints" else key: value for key, value in PORTAL.items()}).encode(),
         ["joint: unknown key; did you mean 'joints'?"],
     ),
-    "Infinity": (json.dumps(GOOD).replace("24000.0", "-Infinity").encode(), ["-Infinity"]),
-    "infinity by size": (json.dumps(GOOD).replace("24000.0", "1e999").encode(), ["blocks[3].unit_weight"]),
-    "digits": (json.dumps(GOOD).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
+    "Infinity": (json.dumps(PORTAL).replace("24000.0", "-Infinity").encode(), ["-Infinity"]),
+    "infinity by size": (json.dumps(PORTAL).replace("24000.0", "1e999").encode(), ["blocks[3].unit_weight"]),
+    "digits": (json.dumps(PORTAL).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
     "duplicate key": (b'{"schema_version": 1, "name": "a", "name": "b"}', ["'name' appears twice"]),
-    "encoding": (json.dumps(GOOD).replace("Portal", "Säule").encode("latin-1"), ["UTF-8"]),
-    "UTF-16": (json.dumps(GOOD).encode("utf-16"), ["UTF-8"]),
-    "lone surrogate": (json.dumps(GOOD).replace("Portal", "\\ud800").encode(), ["not JSON"]),
+    "encoding": (json.dumps(PORTAL).replace("Portal", "Säule").encode("latin-1"), ["UTF-8"]),
+    "UTF-16": (json.dumps(PORTAL).encode("utf-16"), ["UTF-8"]),
+    "lone surrogate": (json.dumps(PORTAL).replace("Portal", "\\ud800").encode(), ["not JSON"]),
     "nested lists": (b"[" * 100_000, ["nests too deeply"]),
     "nested a little": (b'{"blocks":' + b"[" * 500 + b"]" * 500 + b"}", []),
 }
@@ -226,7 +185,7 @@ def test_fault_is_one_line_that_names_file_and_place(data, said, file):
 
 
 def test_good_documents_are_read(file):
-    for document in (GOOD, EXPLICIT):
+    for document in (PORTAL, LISTED):
         with open(file, "w") as stream:
             json.dump(document, stream)
         assert len(lb.read(file).interfaces) == 4
@@ -271,65 +230,9 @@ def test_too_large_a_file_is_refused(tmp_path):
         lb.read(file)
 
 
-VALUES = st.one_of(
-    st.none(),
-    st.booleans(),
-    st.integers(),
-    st.floats(allow_nan=False, allow_infinity=False),
-    st.sampled_from([0.0, -1.0, 1e-300, 1e29, 1e308, [], {}, [[]], "", "left", "ground", "dry", "type"]),
-    st.text(max_size=8),
-    st.lists(st.floats(-2, 2), max_size=4),
-)
-
-
-def places(part, path=()):
-    """Paths to every value in a document."""
-    items = part.items() if isinstance(part, dict) else enumerate(part) if isinstance(part, list) else ()
-    for key, value in items:
-        yield (*path, key)
-        yield from places(value, (*path, key))
-
-
-def outcome(file):
-    """The model in `file`, or our error; any other exception fails the test."""
-    try:
-        return lb.read(file)
-    except lb.LimitBlocksError as error:
-        return error
-
-
-MUTATIONS = [(document, path) for document in (GOOD, EXPLICIT) for path in places(document)]
-
-
-@given(st.sampled_from(MUTATIONS), VALUES | st.just(...), st.data())
-def test_only_our_errors_come_out_of_mutated_documents(tmp_path_factory, mutation, value, data):
-    document, path = mutation
-    document = changed(document, *path, to=value)
-    if data.draw(st.booleans()) and isinstance(value, dict):
-        document = changed(document, *path, data.draw(st.text(max_size=3)), to=data.draw(VALUES))
-    file = tmp_path_factory.mktemp("fuzz") / "model.json"
-    file.write_text(json.dumps(document), encoding="utf-8")
-    read = outcome(file)
-    if isinstance(read, lb.LimitBlocksError):
-        assert all(str(file) in problem for problem in read.problems)
-        assert "\n" not in str(read)
-    else:
-        assert lb.read(read.save(file, overwrite=True)).digest == read.digest
-
-
-@given(st.data())
-def test_only_our_errors_come_out_of_broken_text(tmp_path_factory, data):
-    text = bytearray(json.dumps(GOOD).encode())
-    for _ in range(data.draw(st.integers(1, 4))):
-        text[data.draw(st.integers(0, len(text) - 1))] = data.draw(st.integers(0, 255))
-    file = tmp_path_factory.mktemp("fuzz") / "model.json"
-    file.write_bytes(text[: data.draw(st.integers(0, len(text)))] if data.draw(st.booleans()) else text)
-    assert "\n" not in str(outcome(file))
-
-
 def raised(height):
     """The portal with its lintel `height` m above the legs."""
-    document = copy.deepcopy(GOOD)
+    document = copy.deepcopy(PORTAL)
     document["blocks"][3]["box"]["at"][2] += height
     return json.dumps(document).encode()
 
@@ -344,7 +247,7 @@ def test_a_block_that_floats_by_a_drawn_gap_is_told_the_gap(tmp_path):
 
 def test_joints_lost_to_a_gap_are_told_on_reading(tmp_path, caplog):
     """The right leg stops 5 mm below the lintel, which then rests on the left one alone."""
-    document = copy.deepcopy(GOOD)
+    document = copy.deepcopy(PORTAL)
     document["blocks"][2]["box"] |= {"size": [0.5, 1.0, 1.995], "at": [1.0, 0.0, 0.9975]}
     file = tmp_path / "portal.json"
     file.write_text(json.dumps(document))

@@ -171,8 +171,8 @@ def test_likely_supports():
 
 
 FOREIGN = (
-    "Appoggi,FONDAZIONE,spalla_dx,apoyos,cimentación,ESTRIBO 2,suelo,apoio,Fundação,sapata1,appuis,culée,SOCLE,"
-    "Auflager,Fundamente,Widerlager links,02_Boden"
+    "Appoggi,FONDAZIONE,spalla_dx,apoyos,cimentación,ESTRIBO 2,suelo,apoio,Fundação,sapata1,appuis,culée,"
+    "SOCLE,Auflager,Fundamente,Widerlager links,02_Boden"
 )
 
 

@@ -22,7 +22,7 @@ from limitblocks.analysis.nonassociated.start import (
     solving_state,
     start_stresses,
 )
-from limitblocks.analysis.nonassociated.ways import Half, first_to_solve, no_half
+from limitblocks.analysis.nonassociated.ways import Given, Half, first_to_solve, no_half
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
@@ -126,7 +126,8 @@ def nonassociated(
                 return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
             scale = load_scale(at.problem, enclosing.associated)
             near = partial(_near, at, tolerance, limit)
-            return first_to_solve(at, x0, scale, means or MEANS, tolerance, record, near, half)
+            given = Given(at, x0, scale, tolerance, record)
+            return first_to_solve(given, means or MEANS, near, half)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))
@@ -158,7 +159,8 @@ def end_of_first_path(
     else:
         at, x0, half = planar.flow, planar.x0, no_half
     scale = load_scale(at.problem, associated)
-    state, how = first_to_solve(at, x0, scale, MEANS, tolerance, lambda _: None, half=half, first=True)
+    given = Given(at, x0, scale, tolerance, lambda _: None)
+    state, how = first_to_solve(given, MEANS, half=half, first=True)
     if how.endswith(INTERRUPTED):
         raise KeyboardInterrupt
     solved = mcp_residuals(at, state).worst.value <= tolerance

@@ -1,0 +1,129 @@
+"""Paths of a symmetric structure in one of its halves, accepted where they solve the whole."""
+
+from dataclasses import replace
+
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import closing, ways
+from limitblocks.analysis.nonassociated.means import LARGE_HALF_MEANS, LARGE_MEANS, MEANS, Means
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.problem.plane import Planar
+
+SECOND = (Means(Barrier(), 1, 1), Means(Barrier(0.02, 2.0), 1, 300))  # the first path is stopped at once
+
+
+def symmetric_facade(**changes):
+    size = {"length": 3.2, "courses": 3, "return_length": 1.6, "openings": ()}
+    return lb.structures.facade(lb.PointContact(0.6), **(size | changes))
+
+
+def test_one_half_closes_a_dome_that_the_whole_leaves_open():
+    """Pushed along, the whole ends at a residual of 1e-4 after all means; in the half two are enough."""
+    model = lb.structures.EXAMPLES["dome"](lb.PointContact(0.7))
+    found = lb.nonassociated(model, means=MEANS[:2])
+    assert found.how == "tracked path, barrier 0.02, power 2, seed 1, in one half"
+    assert lb.check_mcp(model, found).passed
+    assert any("leave symmetry on the way" in remark for remark in found.remarks)
+    assert found.load_factor <= found.associated * (1 + 1e-6)
+
+
+def test_one_half_comes_after_the_first_path_and_only_of_what_is_symmetric():
+    model = symmetric_facade()
+    assert lb.nonassociated(model, means=SECOND).how.endswith("in one half")
+    assert "half" not in lb.nonassociated(model).how  # the first path closes
+    assert "half" not in lb.nonassociated(symmetric_facade(direction=(1.0, 1.0, 0.0)), means=SECOND).how
+
+
+def test_of_a_large_model_one_half_comes_before_rounds(monkeypatch):
+    model = symmetric_facade()
+    monkeypatch.setattr(ways, "LARGE", len(model.free_blocks) - 1)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (SECOND[0], *LARGE_MEANS[1:]))
+    found = lb.nonassociated(model)
+    assert found.how == "tracked path, small barrier, power 1, seed 1, in one half"
+    assert lb.check_mcp(model, found).passed
+
+
+@pytest.mark.parametrize(("share", "half"), [(1e-6, True), (1e-2, False)])
+def test_a_half_that_is_just_above_the_tolerance_is_polished_in_the_whole(share, half, monkeypatch):
+    lift = Planar.lifted
+
+    def coarse(plane, state):
+        up = lift(plane, state)
+        return replace(up, x=(1.0 + share) * up.x)
+
+    model = symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", coarse)
+    found = lb.nonassociated(model, means=SECOND)
+    assert found.how.endswith("in one half") is half
+    assert lb.check_mcp(model, found).passed
+
+
+def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
+    lift = Planar.lifted
+
+    def broken(plane, state):
+        up = lift(plane, state)
+        return replace(up, x=1.001 * up.x)
+
+    model = symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", broken)
+    found = lb.nonassociated(model, means=SECOND)
+    assert found.converged
+    assert "half" not in found.how
+
+
+@pytest.mark.parametrize("longer", [True, False])
+def test_in_one_half_of_a_large_model_a_path_goes_on_while_theta_falls(longer, monkeypatch):
+    """With a thirtieth of the budgets: of this facade 20 factorisations are too few, in the whole as well."""
+    first, second = SECOND[0], LARGE_HALF_MEANS[1]
+    short = LARGE_MEANS[1]._replace(budget=LARGE_MEANS[1].budget // 30)
+    long = second._replace(budget=second.budget // 30, patience=second.patience // 30)
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (first, short))
+    monkeypatch.setattr(ways, "LARGE_HALF_MEANS", (first, long if longer else short))
+    monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
+    found = lb.nonassociated(symmetric_facade(), throw=False)
+    assert found.converged is longer
+    assert not longer or found.how.endswith("barrier 3 (large barrier), power 2, seed 1, in one half")
+
+
+def test_a_half_that_is_interrupted_says_so(monkeypatch):
+    seen = []
+
+    def press(iteration):
+        seen.append(iteration)
+        if len(seen) == 6:
+            raise KeyboardInterrupt
+
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(symmetric_facade(), means=SECOND, progress=press)
+    assert caught.value.result.status is lb.results.Status.INTERRUPTED
+
+
+def test_a_polish_that_is_interrupted_gives_the_end_of_the_path(monkeypatch):
+    """Of a half that solves nothing in the whole: steps of least norm may take long."""
+
+    def pressed(*_):
+        raise KeyboardInterrupt
+
+    lift, model = Planar.lifted, symmetric_facade()
+    lb.bounds(model)  # known from now on
+    monkeypatch.setattr(Planar, "lifted", lambda *half: replace(lift(*half), x=(1 + 1e-6) * lift(*half).x))
+    monkeypatch.setattr(ways, "pivoted", pressed)
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(model, means=SECOND)
+    assert caught.value.result.how.endswith("in one half, interrupted")
+
+
+def test_a_path_in_one_half_is_followed_where_the_whole_one_is_given_up():
+    """It turns back twice before it ends, at a load factor 6 % below that of the next means."""
+    model = replace(
+        lb.structures.EXAMPLES["tower"](lb.PointContact(0.7)), live=lb.mass_proportional((0, 1, 0))
+    )
+    assert (
+        lb.nonassociated(model, confirm=False).how
+        == "tracked path, small barrier, power 1, seed 1, in one half"
+    )
