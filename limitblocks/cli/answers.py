@@ -124,13 +124,19 @@ def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
 def questioned(file: Path) -> Model:
     """Return the model in a file, and ask on stderr about what is hardly meant."""
     from limitblocks.analysis.diagnosis import astray
-    from limitblocks.analysis.magnitudes import questions
     from limitblocks.io import read
 
     model = read(file)
-    for question in (*astray(model), *questions(model)):
-        typer.echo(f"warning: {question}", err=True)
+    ask(model, *astray(model))
     return model
+
+
+def ask(model: Model, *before: str) -> None:
+    """Ask on stderr about what is hardly meant."""
+    from limitblocks.analysis.magnitudes import questions
+
+    for question in (*before, *questions(model)):
+        typer.echo(f"warning: {question}", err=True)
 
 
 def show(model: Model, result: Any, as_json: bool) -> None:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin, get_typ
 import typer
 
 from limitblocks import structures
+from limitblocks.cli.answers import ask
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.joints import DEFAULT, Friction, JointName, Slip, Strength, make_joint
 from limitblocks.cli.options import LIVE, Force
@@ -64,6 +65,7 @@ def command(make: Callable[..., Any]) -> Callable[..., None]:
             refuse_existing(file, values["force"])
             with of_stages(f"making {make.__name__}"):
                 model = make(joint=joint, **given)
+            ask(model)
             typer.echo(f"{model.save(file, overwrite=values['force'])}: {model}")
 
     parameters = {**own, **common}

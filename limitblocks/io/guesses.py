@@ -12,9 +12,15 @@ import shapely
 from limitblocks.arrays import Array
 from limitblocks.shown import many
 
-#: Words for blocks that do not move, in names and layers of the programs and languages of this field.
+#: Words for blocks that do not move, in names and layers: parts of words, and whole words with their plurals.
 SUPPORT_WORDS = re.compile(
-    r"support|ground|found|footing|plinth|abutment|fixed|anchor|(^|[^a-z])(base|sol|suolo|boden)([^a-z]|$)",
+    "support|ground|found|footing|plinth|abutment|fixed|anchor"  # English
+    "|appogg|fondaz|basament|incastr"  # Italian
+    "|apoyo|cimiento|cimentaci|soporte|empotra|zapata|estribo"  # Spanish
+    "|apoio|funda[cç]|alicerce|suporte|sapata"  # Portuguese
+    "|appui|fondation|soubassement|semelle|cul[ée]e|encastr"  # French
+    "|auflager|fundament|widerlager|gründung|gruendung"  # German
+    r"|(?<![^\W\d_])(base|bases|sol|suolo|suelo|terreno|terrain|spalla|spalle|socle|sockel|boden)(?![^\W\d_])",
     re.IGNORECASE,
 )
 #: Size, m, beyond which a structure is hardly in metres: the longest masonry bridge spans and naves are less.

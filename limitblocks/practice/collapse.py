@@ -136,6 +136,8 @@ def _way(
                 return
         assembly, control = there.assembly, there.control
         point = _point(at, answer, there)
+        if falls is not None and falls - at < accuracy:
+            falls = None  # it stands as near: it was the length of the step that fell
         step = min(GROWTH * step, longest) if falls is None else (falls - at) / 2.0
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from dataclasses import dataclass
+from multiprocessing import resource_tracker
 from typing import Any, Literal
 
 import numpy as np
@@ -119,6 +122,22 @@ def in_order(
 
     pool = Parallel(n_jobs=workers or -1, return_as="generator", batch_size=1, max_nbytes=None)
     try:
-        yield from pool(delayed(function)(*task) for task in tasks)
+        with _uninterrupted():
+            results = pool(delayed(function)(*task) for task in tasks)
+        yield from results
     except BrokenProcessPool:
         raise SolveError("a process of the study was ended from outside; try fewer workers") from None
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Hold Ctrl-C back here, and for ever in processes that start meanwhile: this one ends them."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    resource_tracker.ensure_running()  # as it starts it lets go of the signal
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from pathlib import Path
@@ -128,26 +129,31 @@ def _head(
 
 
 def _kept(file: Path | None, head: Row) -> dict[int, Row]:
-    """Rows that a file of this study has; a last line that was cut off is left out."""
+    """Rows that a file of this study has; what was cut off at its end is cut off the file, too."""
     if file is None or _is_new(file):
         return {}
-    first, *lines = file.read_text(encoding="utf-8").split("\n")
-    try:
-        theirs = json.loads(first)
-    except ValueError:
-        theirs = None
-    if theirs != head:
+    written = file.read_bytes()
+    first, *lines = written.split(b"\n")
+    if not lines and json.dumps(head).encode().startswith(first):
+        os.truncate(file, 0)
+        return {}
+    if _parsed(first) != head:
         raise ModelError(f"{file} is of another study, or none; name another file or remove it")
+    if lines and _parsed(lines[-1]) is None:
+        os.truncate(file, written.rindex(b"\n"))
     rows = {}
-    for line in lines:
-        try:
-            row = json.loads(line)
-        except ValueError:
-            continue
+    for row in map(_parsed, lines):
         if isinstance(row, dict) and {"row", "load_factor", "mode", "error"} <= set(row):
             number = row["load_factor"]
             rows[int(row["row"])] = row | {"load_factor": np.nan if number is None else float(number)}
     return rows
+
+
+def _parsed(line: bytes) -> Any:
+    try:
+        return json.loads(line)
+    except ValueError:
+        return None
 
 
 def _is_new(file: Path) -> bool:

@@ -82,6 +82,12 @@ def test_joints(options, joint):
     assert {interface.joint for interface in lb.read("other.json").interfaces} == {joint}
 
 
+def test_a_friction_in_degrees_is_asked_about():
+    done = run("wall", "--length", 2, "--courses", 2, "--friction", 35)
+    assert done.exit_code == 0
+    assert done.stderr == "warning: friction is 35: degrees? tan 35 deg = 0.7\n"
+
+
 def test_nothing_is_overwritten_unless_asked():
     assert run(*WALL).exit_code == 0
     again = run(*WALL)

@@ -170,6 +170,19 @@ def test_likely_supports():
     assert likely_supports([top]) == ()
 
 
+FOREIGN = (
+    "Appoggi,FONDAZIONE,spalla_dx,apoyos,cimentación,ESTRIBO 2,suelo,apoio,Fundação,sapata1,appuis,culée,"
+    "SOCLE,Auflager,Fundamente,Widerlager links,02_Boden"
+)
+
+
+@pytest.mark.parametrize("word", FOREIGN.split(","))
+def test_supports_are_named_in_other_languages(word):
+    (s1, s2), other = (lb.Block.box(f"s{k}", (1, 1, 0.5), (0, 0, 0.5 * k)) for k in range(2)), "spalletta"
+    chosen = likely_supports([replace(s1, layer=other), replace(s2, layer=word)])[0]
+    assert chosen.chosen_by == (f"layer:{word}",)
+
+
 def test_look_warns_of_debris(tmp_path):
     blocks = [lb.Block.box(f"b{k}", (1, 1, 1), (0, 0, k)) for k in range(4)]
     blocks.append(lb.Block.box("crumb", (0.01, 0.01, 0.01), (3, 0, 0)))

@@ -188,6 +188,17 @@ def test_a_beam_rests_on_a_support_that_slides_away_until_its_bearing_is_used_up
     assert 0.2 - 2e-3 < curve.stands_to < curve.falls < 0.2 + 1e-3  # a bearing of 1 mm is too narrow
 
 
+def test_a_fall_of_a_long_step_that_shorter_ones_survive_is_none():
+    """It took half of what was left to that fall for ever, and the fall itself came from the step."""
+    model = beam_on({"left": (-0.5, 0.5), "right": (3.5, 4.5)}, (-0.5, 4.5), lb.PointContact(0.5))
+    longer, shorter = (
+        settlement_to_collapse(model, "right", (1, 0, -1), step=step, accuracy=accuracy)
+        for step, accuracy in ((0.3, 0.1), (0.1, 0.05))
+    )
+    assert longer.stands_to < shorter.falls
+    assert shorter.stands_to < longer.falls
+
+
 def test_nothing_rests_on_a_support_that_the_others_spare():
     model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
     curve = settlement_to_collapse(model, "b", (0, 0, -1))

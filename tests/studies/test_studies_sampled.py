@@ -61,6 +61,9 @@ def test_a_study_that_was_killed_before_its_first_line_begins_anew(tmp_path):
     for file in (empty, new):
         lb.study(block, ask, 2, file=file)
     assert empty.read_bytes() == new.read_bytes()
+    empty.write_bytes(new.read_bytes()[:30])  # within the first line
+    lb.study(block, ask, 2, file=empty)
+    assert empty.read_bytes() == new.read_bytes()
 
 
 def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypatch):
@@ -81,6 +84,7 @@ def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypa
     found = lb.study(block, ask, 8, file=file)
     assert [k for k in calls if k is not None] == [0, 1, 2, 3, 4, 5, 6, 7]
     assert found.load_factors == pytest.approx(found.values[:, 0], rel=1e-6)
+    assert len([json.loads(line) for line in file.read_text().splitlines()]) == 1 + 8
     again = lb.study(block, ask, 8, file=file)
     assert len(calls) == 9
     assert (again.load_factors == found.load_factors).all()

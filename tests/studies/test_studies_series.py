@@ -3,6 +3,8 @@
 import csv
 import json
 import os
+import signal
+import sys
 
 import numpy as np
 import pytest
@@ -175,6 +177,17 @@ def test_processes_give_the_same_rows_in_the_same_order():
     one, two = (studies.directions(block(), 6, workers=workers) for workers in (1, 2))
     assert two.load_factors.tolist() == one.load_factors.tolist()
     assert two.rows() == one.rows()
+
+
+def _held_back(_place):
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows blocks no signals")
+def test_ctrl_c_is_for_the_process_that_was_asked():
+    """Processes that start told of it, each with a traceback."""
+    assert all(in_order(_held_back, [(k,) for k in range(3)], 2))
+    assert not _held_back(0)
 
 
 def test_a_process_that_dies_is_our_error():
