@@ -15,8 +15,8 @@ class Mode(StrEnum):
     ----------
     opens : bool
         One side of the interface lifts (hinging, crushing, opening of a point): the flow is associated.
-    slides, twists : bool
-        The interface slides, or turns about its normal.
+    slides : bool
+        The interface slides.
     """
 
     SLIP = "slip"
@@ -38,8 +38,3 @@ class Mode(StrEnum):
     def slides(self) -> bool:
         """Whether it slides."""
         return self in (Mode.SLIP, Mode.SLIP_TWIST)
-
-    @property
-    def twists(self) -> bool:
-        """Whether it turns about its normal."""
-        return self in (Mode.TWIST, Mode.SLIP_TWIST, Mode.MOMENT_TWIST)
