@@ -25,6 +25,11 @@ def states_of(blocks, joint, live, analysis=lb.bounds):
     return interface_states(model, result), result
 
 
+def kinds_of(modes):
+    """What the modes of an interface do: slide, or lift one side."""
+    return {"slides" if mode.slides else "opens" if mode.opens else mode for mode in modes}
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 @pytest.mark.parametrize("analysis", [lb.bounds, lb.nonassociated, lb.load_path])
 def test_slender_block_rocks_about_its_toe(joint, analysis):
@@ -32,6 +37,7 @@ def test_slender_block_rocks_about_its_toe(joint, analysis):
     push = lb.mass_proportional((1, 0, 0))
     found, _ = states_of([GROUND, block], joint(friction=0.6), push, analysis)
     assert found.state == ("hinge",)
+    assert kinds_of(found.active_modes[0]) == {"opens"}
     assert np.allclose(found.centre_of_pressure, [[0.25, 0, 0]], atol=1e-5)
     assert np.isclose(found.utilisation[0], 1.0, atol=1e-5)
     # block j is the stone: W 0.25 / 1.0 along -X from the ground, W along Z
@@ -49,6 +55,7 @@ def test_low_block_slides_with_its_weight_off_the_middle(joint, analysis):
     found, _ = states_of([GROUND, block], joint(friction=0.5), lb.mass_proportional((1, 0, 0)), analysis)
     # at a corner of a polytope of the limit surface the mechanism is not unique: it may twist, too
     assert found.state == ("slide",) or (joint is lb.joints.ExactTorsion and found.state == ("slide-twist",))
+    assert joint is lb.joints.ExactTorsion or kinds_of(found.active_modes[0]) == {"slides"}
     assert np.allclose(found.centre_of_pressure, [[0.5 * 0.25, 0, 0]], atol=1e-5)  # mu h / 2
     assert np.isclose(found.utilisation[0], 1.0, atol=1e-5)
     lift = 0.5 if analysis is lb.bounds else 0.0  # associated sliding lifts by mu

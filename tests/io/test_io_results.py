@@ -1,7 +1,7 @@
 import json
 import re
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -109,6 +109,24 @@ def test_bounds_are_read_and_checked_with_associated_flow(key, tmp_path):
     assert not lb.check_mcp(
         model, replace(claim_of(model, claim), dilatancy=0.0), tolerance=1e-6
     ).passed  # V = mu N slides
+
+
+@pytest.mark.parametrize("kind", ["bounds", "nonassociated", "minimal"])
+def test_a_claim_is_written_as_it_was_read(kind, tmp_path):
+    claims = {
+        "bounds": lambda: claim_of(MODEL, lb.bounds(MODEL)),
+        "nonassociated": lambda: claim_of(MODEL, RESULT),
+        "minimal": lambda: lb.read_result(written(tmp_path / "minimal.json", MINIMAL)),
+    }
+    claim = claims[kind]()
+    again = lb.read_result(lb.files.write_result(claim, tmp_path / "claim.json"))
+    assert isinstance(again, lb.results.Claim)
+    for field in fields(claim):
+        one, other = getattr(claim, field.name), getattr(again, field.name)
+        assert np.array_equal(one, other), field.name
+    flow = "associated" if kind == "bounds" else "non-associated"
+    upper = f" to {claim.upper:.6g}" if kind == "bounds" else ""
+    assert str(again) == f"claimed {flow} load factor {claim.load_factor:.6g}{upper}, not checked"
 
 
 def test_turning_is_written_and_read(tmp_path):

@@ -47,6 +47,10 @@ def test_arch_spreads_until_its_thrust_leaves_the_springing(voussoirs, thickness
     assert curve.stands_to <= fourth <= curve.falls
     assert curve.falls - curve.stands_to <= 2e-2
     assert curve.ended.startswith("the structure falls between")
+    said = (
+        f"reaction of {curve.reactions[0]:.6g} N to {curve.reactions[-1]:.6g} N: the structure falls between"
+    )
+    assert said in str(curve)
     assert all(point.found.bounds.proven and not point.across for point in curve.points)
     assert len(curve.points[1].changes) == 3
     crown = f"voussoir {voussoirs // 2}|voussoir {voussoirs // 2 + 1} opens"

@@ -235,6 +235,23 @@ def test_an_anchor_off_its_block_is_refused_with_the_distance():
         assert len(anchored(x, 0, 1.0).interfaces) == 2
 
 
+@pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
+def test_an_anchor_counts_as_on_its_block_within_a_thousandth_of_the_blocks(size):
+    """Cubes of any size, m: half of that off is on the face, twice is not."""
+    cubes = [
+        lb.Block.box(name, (size,) * 3, (0, 0, z * size), 2e4) for name, z in (("low", -0.5), ("top", 0.5))
+    ]
+    contacts = lb.find_interfaces(cubes, lb.PointContact(0.6))
+    model = lb.Model(cubes, ["low"], contacts, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    near, far = (
+        tie("top", (-size * (0.5 + off), 0, size / 2), "low", (-9 * size, 0, 0), area=1e-4, strength=2e8)
+        for off in (0.5e-3, 2e-3)
+    )
+    assert len(reinforced(model, near).interfaces) == 2
+    with pytest.raises(lb.ModelError, match="off block 'top', expected in or on it, within"):
+        reinforced(model, far)
+
+
 def test_an_anchor_in_the_hollow_of_a_block_is_off_it():
     """In the middle of the recess of a U, 0.5 m from its sides and 0.4 m above its floor."""
     outline = [(-1, 0), (1, 0), (1, 2), (0.5, 2), (0.5, 1), (-0.5, 1), (-0.5, 2), (-1, 2)]

@@ -60,6 +60,7 @@ def test_facade_of_one_block(facade, answer, curve):
     assert found["S_De_SLC"] == pytest.approx(flat * np.sqrt(10 / (5 + 10)), rel=1e-9)
     assert found["T_SLC"] == pytest.approx(1.56 * np.pi * np.sqrt(0.6 * d0 / (0.4 * a0)), rel=1e-7)
     assert [one.name for one in found.checks] == ["linear, SLV", "non-linear, SLV", "non-linear, SLC"]
+    assert str(found).startswith(f"a0* = {a0:.4g} m/s2; linear, SLV: 0.496 not satisfied; non-linear, SLV: ")
 
 
 def test_the_default_control_is_above_the_toe(facade, answer, curve):
