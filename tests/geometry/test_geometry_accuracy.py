@@ -252,6 +252,34 @@ def test_small_gaps_are_closed_within_the_accuracy_given():
     assert set(far.displacements.values()) == {0.0}
 
 
+def wedge(slope):
+    """A prism 2 m long on z = 0 whose upper face rises from its edge at x = 0 by `slope`, rad."""
+    height = 2.0 * np.tan(slope)
+    points = [(x, y, z) for x, z in ((0, 0), (2, 0), (2, height)) for y in (-0.5, 0.5)]
+    faces = [[0, 1, 3, 2], [2, 3, 5, 4], [0, 4, 5, 1], [0, 2, 4], [1, 5, 3]]
+    return lb.Block("wedge", points, faces, 20e3)
+
+
+@pytest.mark.parametrize(
+    ("slope", "moves"), [(12, False), (13.5, False), (14.5, True), (20, True), (30, True)]
+)
+def test_a_sharp_edge_moves_along_its_slope_and_twelve_times_the_accuracy_at_most(slope, moves):
+    """Both faces go half of the gap h: the edge h / (2 sin slope), 12 mm of 12 accuracies at 14 degrees."""
+    gap, slope = 5.8e-3, np.radians(slope)
+    stone = wedge(slope)
+    healed = lb.heal([box("ground", (2.0, 1.0, 1.0), (1.0, 0, -0.5 - gap)), stone], accuracy=1e-3)
+    assert healed.bound == pytest.approx(12e-3)
+    assert healed.displacements["ground"] == pytest.approx(gap / 2)
+    moved = gap / 2 / np.sin(slope)
+    assert healed.displacements["wedge"] == pytest.approx(moved if moves else 0.0)
+    left = "block 'wedge' is left as it was: its faces are not plane within 0.001 m"
+    assert healed.notes == (() if moves else (left,))
+    assert moves or healed.blocks[1] is stone
+    farthest = 1e3 * (moved if moves else gap / 2)
+    said = f"2 blocks mended within 1 mm: vertices moved by up to {farthest:.2g} mm"
+    assert str(healed) == f"{said}, at most 12 mm allowed{'' if moves else '; 1 left as they were'}"
+
+
 def test_heal_without_an_accuracy_needs_joints_to_tell_it():
     blocks = [box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (0.25, 0, 0.5))]
     with pytest.raises(lb.ModelError, match="is not known, too few of them touch"):

@@ -39,6 +39,29 @@ def test_a_face_in_common_is_divided_alike_from_both_sides():
         assert {frozenset(trio) for trio in first} == theirs
 
 
+def star(corners, seed):
+    angle = 2 * np.pi * np.arange(corners) / corners
+    radius = np.random.default_rng(seed).uniform(0.2, 1.0, corners)
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle), np.zeros(corners)])
+
+
+SLIT = np.array(
+    [(10, 0, 0), (0, 1, 0), (-3, 0.5, 0), (5, 0, 0), (-3, -0.5, 0), (0, -1, 0.0)]
+)  # shuts one ear
+
+
+@pytest.mark.parametrize("outline", [SLIT, *(star(n, seed) for n in (5, 8, 12) for seed in range(10))])
+def test_triangles_cover_a_face_with_notches_once(outline):
+    """Each turns the way of the face, and their areas add up: none lies on another one or outside."""
+    n = len(outline)
+    triangles = np.array(triangulated(outline, (tuple(range(n)),), np.array([0])))
+    a, b, c = outline[triangles].swapaxes(0, 1)
+    areas = np.cross(b - a, c - a)[:, 2] / 2
+    assert len(triangles) == n - 2
+    assert (areas > 0.0).all()
+    assert areas.sum() == pytest.approx(np.cross(outline, np.roll(outline, -1, axis=0))[:, 2].sum() / 2)
+
+
 def test_fitting_makes_faces_plane_and_says_how_far_it_moved():
     moved = BOX.vertices + 2e-3 * np.random.default_rng(1).normal(size=(8, 3))
     block, notes = mended("box", moved, BOX.faces, twisted="fit")

@@ -99,6 +99,7 @@ def test_tilting_towards_no_horizontal_direction_is_refused(direction):
 
 
 def test_compass_points():
+    assert lb.loads.compass(1).tolist() == [[1, 0, 0]]
     assert lb.loads.compass(4).tolist() == [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
     directions = lb.loads.compass(16, vertical=True)
     assert np.linalg.norm(directions, axis=1) == pytest.approx(1.0)

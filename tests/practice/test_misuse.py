@@ -15,10 +15,13 @@ from limitblocks.practice import (
     adequacy,
     capacity_curve,
     dowel,
+    least_masses,
+    least_ties,
     reinforced,
     settlement,
     settlement_to_collapse,
     strip,
+    tie,
     uplift,
     vehicle_load,
     verification,
@@ -29,6 +32,12 @@ NAN = float("nan")
 SITE = Spectrum(2.0, 1.2, 2.5, 0.5)
 MODE = FloorMode(0.4, 1.2, 1.0)
 CAR = Vehicle((1e3,))
+LEFT = lb.Block.box("left", (1.0, 1.0, 1.0), (-4.0, 0.0, 0.5), 20e3)
+PULL = lb.loads.force("wall", (1e3, 0, 0), at=(0, 0, 5))
+
+
+def rod(**more):
+    return tie("ground", (3, 0, 0), "wall", (0, 0, 4), area=1e-4, strength=2e8, **more)
 
 
 @pytest.mark.parametrize(
@@ -53,6 +62,24 @@ def test_verification(facade, answer, given, words):
 
 
 @pytest.mark.parametrize(
+    ("live", "words"),
+    [
+        (PULL, "the live load has a PointForce; expected weights and added masses"),
+        (2.0 * lb.mass_proportional((1, 0, 0)), "the live load has the weights times 2; expected 1"),
+        (
+            lb.mass_proportional((0.6, 0, -0.8)),
+            "the live load acts along (0.6, 0, -0.8); expected one horizontal",
+        ),
+    ],
+)
+def test_verification_of_other_loads(facade, live, words):
+    pushed = replace(facade, dead=lb.self_weight(), live=live)
+    with pytest.raises(lb.ModelError) as caught:
+        verification(pushed, lb.nonassociated(pushed), SITE, q=2.0)
+    assert str(caught.value).startswith(words)
+
+
+@pytest.mark.parametrize(
     ("misuse", "words"),
     [
         (lambda wall: settlement("m.json", "right", (0, 0, -1)), "model is a str, expected Model"),
@@ -62,6 +89,17 @@ def test_verification(facade, answer, given, words):
          "dowel across ground|wall: at is [9.0, 9.0, 9.0], not on the joint"),
         (lambda wall: strip(wall.interfaces[0], (-250, 0, 0), width=0.1, capacity=1.0),
          "strip across ground|wall: at is [-250.0, 0.0, 0.0], not on the joint"),
+        (lambda wall: reinforced(replace(wall, supports=["ground", "left"], blocks=[*wall.blocks, LEFT]),
+                                 tie("left", (-4, 0, 1), "ground", (0, 0, 0), area=1e-4, strength=2e8)),
+         "tie left|ground: both ends are in supports, which do not move"),
+        (lambda wall: least_ties(wall, [rod(prestress=1e3)], 0.3), "a candidate has a prestress"),
+        (lambda wall: least_ties(wall, [], 0.3), "least_ties needs at least one tie to choose from"),
+        (lambda wall: least_masses(replace(wall, live=PULL), [("wall", (0, 0, 2))], 0.3),
+         "least_masses needs a live load with one mass-proportional term"),
+        (lambda wall: settlement(replace(wall, supports=["ground", "left"], blocks=[*wall.blocks, LEFT],
+                                         dead=0.0 * lb.self_weight()), "ground", (0, 0, -1)),
+         "settlement: the dead loads are zero; there is no reaction to lose"),
+        (lambda wall: Floor(()), "a floor spectrum needs at least one mode of the building"),
         (lambda wall: Floor((0.4,)), "mode of the building is a float, expected FloorMode"),
         (lambda wall: Floor((MODE,), a=1.5, b=0.5), "a is 1.5 and b is 0.5, expected 0 < a <= b"),
         (lambda wall: Vehicle(1e3), "axles are 1000.0 at (0.0,), expected a list of N"),
@@ -76,6 +114,10 @@ def test_verification(facade, answer, given, words):
         (lambda wall: capacity_curve(wall, largest="1"), "largest is '1', expected a displacement > 0 in m"),
         (lambda wall: capacity_curve(wall, control=("wall", (50, 0, 1))),
          "control point (50, 0, 1) is not on block 'wall', which reaches from (-0.25, -0.5, 0) to"),
+        (lambda wall: capacity_curve(wall, control="12"), "control is '12', expected a block and a point"),
+        (lambda wall: capacity_curve(wall, control=5), "control is 5, expected a block and a point"),
+        (lambda wall: capacity_curve(replace(wall, live=lb.loads.moment("wall", (0, 1e3, 0)))),
+         "the live loads add up to no force; a capacity curve needs a direction"),
         (lambda wall: Spectrum(2.45, 1.2, 2.5, 500.0),
          "T_C is 500.0, expected a finite number > 0 and <= 10 in s"),
         (lambda wall: Spectrum(-0.2 * 9.81, 1.2, 2.5, 0.5),

@@ -123,6 +123,15 @@ def test_a_curve_that_snaps_back_counts_with_its_least_load_factor(curve):
     assert _least_at(replace(curve, points=points), 0.3) == pytest.approx(0.625)
 
 
+def test_where_a_curve_snaps_through_zero_is_no_part_of_it(curve):
+    """From 1 to .5 over 1 m, at .6 m .7; then it snaps to -.4 at .2 m, a line through .05 at .6 m."""
+    way = ((0.0, 1.0), (1.0, 0.5), (0.2, -0.4))
+    points = [replace(curve.points[0], displacement=d, load_factor=a) for d, a in way]
+    snapped = (*points[:2], replace(points[2], snapped=True))
+    assert _least_at(replace(curve, points=snapped), 0.6) == pytest.approx(0.7)
+    assert _least_at(replace(curve, points=tuple(points)), 0.6) == pytest.approx(0.05)
+
+
 def test_ground_acceleration_of_the_displacement_check(facade, answer, curve):
     """At the ground acceleration that is told, the demand is the displacement at the limit state."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve)
