@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length, millimetres
+from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Dowel, OrdunaLourenco, Tie
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
@@ -37,6 +38,8 @@ _LIGHT = 1e3
 _CALM = 0.49
 #: Dead force on a block, N and over its weight, below which it may be in kN: a hand pulls with more.
 _FAINT, _FAINT_SHARE = 1e2, 1e-2
+#: Distance of a force's line from the centroid of its block, over the size of the block: a bracket has 1.
+_ASTRAY = 3.0
 #: Strength of a tie, Pa, below which it may be in MPa or its force in kN: oak has 5e7.
 _SOFT = 1e6
 #: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
@@ -140,6 +143,7 @@ def _of_loads(model: Model) -> Iterator[str]:
 def _of_forces(model: Model, size: float) -> Iterator[str]:
     """What is asked about forces and masses on the blocks of a structure of this size, m."""
     blocks = {block.name: block for block in model.blocks}
+    gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
     for load, word in ((model.dead, "dead"), (model.live, "live")):
         for factor, term in load.terms:
             if not isinstance(term, AddedMass | PointForce):
@@ -156,6 +160,23 @@ def _of_forces(model: Model, size: float) -> Iterator[str]:
             if (away := float(np.linalg.norm(arm))) > size:
                 whole = f"the structure is {size:.4g} m large"
                 yield f"{on}: that is {away:.4g} m off the centroid of the block, {whole}; see units"
+            elif there := _other_block(term, blocks, gap):
+                yield f"{on}: that is in block {there!r}"
+            elif isinstance(term, PointForce) and away > _ASTRAY * block.size:
+                yield f"{on}: that is {away:.4g} m off the centroid of the block, {block.size:.4g} m large"
+
+
+def _other_block(term: AddedMass | PointForce, blocks: dict[str, Block], gap: float) -> str:
+    """Name of the block that a term acts in or on where it is not its own."""
+    at = np.array(term.at)
+
+    def there(block: Block) -> bool:
+        low, high = block.vertices.min(axis=0) - gap, block.vertices.max(axis=0) + gap
+        return bool((low <= at).all() and (at <= high).all()) and distance(block, at) <= gap
+
+    if there(blocks[term.block]):
+        return ""
+    return next((name for name, block in blocks.items() if there(block)), "")
 
 
 def _of_ties(model: Model) -> Iterator[str]:

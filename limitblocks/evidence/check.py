@@ -12,6 +12,7 @@ from limitblocks.errors import CheckFailed, ModelError
 from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.given_power import given_power
+from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.mechanism import find_mechanism
@@ -27,6 +28,7 @@ from limitblocks.evidence.residuals import (
     static_residuals,
 )
 from limitblocks.evidence.standing import standing_state
+from limitblocks.evidence.steps import steps_residual
 from limitblocks.model import Model, checked_model
 from limitblocks.problem import Flow, LimitProblem, State, turning_of
 from limitblocks.shown import Result
@@ -41,7 +43,7 @@ class Check(Result):
     residuals : Residuals
         See :func:`limitblocks.evidence.residuals.mcp_residuals`; and "standing": how far the dead loads alone
         are from standing. Without that, a solution is no collapse: a structure that falls already has trivial
-        ones.
+        ones. Of a load path "steps", too: the most that a step is off equilibrium at its load factor.
     tolerance : float
         Largest residual of a solution.
     backward_error : BackwardError
@@ -156,17 +158,20 @@ def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_erro
     limit = checked_limit(backward_error)
     claim = claim_of(model, result)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # undefined residuals are infinite
-        return _checked(model, claim, least, limit)
+        steps = (steps_residual(model, result),) if isinstance(result, LoadPath) else ()
+        return _checked(model, claim, least, limit, steps)
 
 
-def _checked(model: Model, claim: Claim, least: float | None, limit: float | None) -> Check:
+def _checked(
+    model: Model, claim: Claim, least: float | None, limit: float | None, steps: tuple[Residual, ...]
+) -> Check:
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, mechanism_found = _state(model, flow, claim)
     bounds = claim.upper is not None and flow.associated
     tolerance = least or (OF_BOUNDS if bounds else TOLERANCE)
     judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
-    entries = (*judged.entries, _standing(problem, claim))
+    entries = (*judged.entries, *steps, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
     remarks += locked_tension(model, flow, state)

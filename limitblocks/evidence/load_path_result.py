@@ -11,6 +11,8 @@ from limitblocks.arrays import Array
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.shown import Result, Shown, many
 
+AGREE = 1e-6  # relative difference of two load factors that agree
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PathStep(Shown):
@@ -160,3 +162,17 @@ class LoadPath(Result):
             "remarks": list(self.remarks),
             "collapse": self.collapse.to_dict(),
         }
+
+
+def compared(load_factor: float, tracked: float) -> tuple[str, ...]:
+    """Whether the end agrees with that of the tracked path, in words."""
+    if np.isnan(tracked):
+        return ("the tracked path of nonassociated with a small barrier ends at no solution here",)
+    off = abs(tracked - load_factor)
+    if off <= AGREE * abs(load_factor):
+        return (f"the tracked path of nonassociated ends at the same load factor, within {AGREE:g}",)
+    share = 100.0 * off / max(abs(load_factor), abs(tracked))
+    return (
+        f"the tracked path of nonassociated ends at {tracked:.6g}, {share:.2g} % off: it pushes "
+        "once for all, so that slip may go back, and its barrier rounds the corners of yield",
+    )

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-import shapely
-
-from limitblocks.arrays import Array
-from limitblocks.geometry import Block, Interface, Tolerances
+from limitblocks.geometry import Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length, millimetres
-from limitblocks.geometry.surface import winding
+from limitblocks.geometry.distance import distance
 from limitblocks.joints import Tie
 from limitblocks.model import Model
 
@@ -34,18 +30,3 @@ def anchors_off(model: Model, tie: Interface) -> Iterator[str]:
                 f"{tie.name}: its anchor at ({at}) is {millimetres(away)} off block {block.name!r}, expected "
                 f"in or on it, within {millimetres(most)}; in a support it may lie anywhere"
             )
-
-
-def distance(block: Block, point: Array) -> float:
-    """Distance of a point from a block, m; zero within it."""
-    if winding(point, block.vertices[block.triangles]):
-        return 0.0
-    flat = (_in_plane(block, k, point) for k in range(len(block.faces)))
-    return float(np.hypot(block.normals @ point - block.offsets, list(flat)).min())
-
-
-def _in_plane(block: Block, face: int, point: Array) -> float:
-    """Distance from a face, convex or not, along its plane."""
-    plane = np.linalg.svd(block.normals[[face]])[2][1:]
-    outline = shapely.Polygon(block.vertices[list(block.faces[face])] @ plane.T)
-    return float(shapely.distance(outline, shapely.Point(plane @ point)))

@@ -92,6 +92,14 @@ class SettlementCurve(Result):
         return sound[-1] if sound else 0.0
 
     @property
+    def filled(self) -> tuple[str, ...]:
+        """From where on joints press across gaps, and why, in words; empty if none does."""
+        if self.points[-1].displacement <= self.stands_to:
+            return ()
+        why = ", as slip of associated flow opens them" if self.points[-1].found.result is None else ""
+        return (f"beyond {self.stands_to:.4g} m joints press across their gaps{why}",)
+
+    @property
     def digest(self) -> str:
         """SHA-256 of the model that was given."""
         return self.points[0].found.digest
@@ -136,4 +144,4 @@ class SettlementCurve(Result):
     def __str__(self) -> str:
         first, last = self.reactions[[0, -1]].tolist()
         said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
-        return f"{said}: {self.ended}{self._as_read}"
+        return f"{said}: {'; '.join((self.ended, *self.filled))}{self._as_read}"

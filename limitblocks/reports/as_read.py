@@ -10,8 +10,8 @@ from limitblocks.reports.section import Section
 
 AS_READ = "as the file says, not computed here"
 CHECKED = (
-    "read from a file: load factor, stresses and mechanism were checked here anew; the steps, limits and "
-    "ways named beside them are what the file says"
+    "read from a file: load factor, stresses, mechanism and the equilibrium of steps were checked here anew; "
+    "limits, ways and what else is named beside them are what the file says"
 )
 NOT_JUDGED = (
     "read from a file, which does not hold what it takes to check it: all of it is what the file says"

@@ -12,11 +12,12 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim, claim_of
 from limitblocks.evidence.ending import Status
-from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.range_result import LoadFactorRange
 from limitblocks.evidence.residuals import OF_BOUNDS, TOLERANCE
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.evidence.steps import steps_residual
 from limitblocks.kinds import kind_of, named
 from limitblocks.model import Model
 
@@ -113,7 +114,12 @@ def judged_nonassociated(model: Model, result: Nonassociated) -> Nonassociated |
 def judged_path(model: Model, path: LoadPath) -> LoadPath | CheckedClaim:
     """Return the path with its collapse as it is judged, or the claim that is none."""
     end = judged_nonassociated(model, path.collapse)
-    return end if isinstance(end, CheckedClaim) else replace(path, collapse=end)
+    if isinstance(end, CheckedClaim):
+        return end
+    if not steps_residual(model, path).value <= end.tolerance:
+        return CheckedClaim(claim_of(model, path), check_mcp(model, path, tolerance=end.tolerance))
+    told = compared(path.load_factor, path.tracked) if isfinite(path.tracked) else path.remarks[:1]
+    return replace(path, collapse=end, remarks=(*told, *path.remarks[1:]))
 
 
 def judged_range(model: Model, result: LoadFactorRange) -> LoadFactorRange:

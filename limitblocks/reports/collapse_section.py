@@ -16,6 +16,7 @@ FOLLOWING = (
     "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
     "times, linearly. Dashed: the moving blocks before they move on."
 )
+_GAPS, _FALLS = "no joint presses across a gap", ", then it falls"
 
 
 def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
@@ -23,7 +24,6 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
     first, last = curve.points[0], curve.points[-1]
     end = last.found.result or last.found.bounds
     fallen = curve.falls is not None
-    filled = last.displacement > curve.stands_to
     flow = "without dilatancy" if last.found.result else "of associated flow"
     upper = "" if curve.falls is None else f"{curve.falls:#.7g} m"
     return Section(
@@ -36,9 +36,9 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
             "more, it falls (static theorem). Slow motion: no impact."
         ),
         headline=f"{cut(curve.stands_to)} m",
-        quantity="settlement up to which it stands" + (", then it falls" if fallen else ""),
+        quantity="settlement up to which " + (_GAPS if curve.filled else "it stands" + _FALLS * fallen),
         values=(
-            ("Stands up to", f"{curve.stands_to:#.7g} m", "no joint presses across a gap"),
+            ("Stands up to", f"{curve.stands_to:#.7g} m", _GAPS),
             *(
                 (("Falls at", upper, "proven: no equilibrium of the structure so displaced"),)
                 if fallen
@@ -49,11 +49,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
         ),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
-        warnings=(
-            (f"beyond a settlement of {curve.stands_to:.4g} m joints press across their gaps",)
-            if filled
-            else ()
-        ),
+        warnings=curve.filled,
         curve=_curve(curve),
         parts=(_points(curve), _figure(curve)),
     )

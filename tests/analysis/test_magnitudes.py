@@ -174,6 +174,29 @@ def test_forces_in_other_units_are_asked_about(dead, asked):
     assert not asked or asked in said[0]
 
 
+@pytest.mark.parametrize(
+    ("at", "asked"),
+    [
+        ((0.0, 0.5, 2.0), ""),  # on the edge of both
+        ((0.0, 0.5, 2.4), "that is in block 'block 3'"),
+        ((0.0, 0.0, 0.9), "that is in block 'block 1'"),
+        ((0.0, 2.0, 3.5), ""),  # on a bracket: 2.8 m off
+        ((0.0, 2.5, 4.5), "that is 3.905 m off the centroid of the block, 1 m large"),
+    ],
+)
+def test_a_force_that_is_off_its_block_is_asked_about(at, asked):
+    """Columns of blocks of 1 m x 1 m x 1 m, six high: a force on the second one."""
+    model = lb.structures.column(lb.PointContact(0.6), count=6, width=1.0, height=1.0)
+    said = questions(replace(model, live=lb.loads.force("block 2", (5e3, 0.0, 0.0), at)))
+    assert len(said) == bool(asked)
+    assert not asked or asked in said[0]
+
+
+def test_no_structure_of_the_library_is_asked_about_where_its_forces_act():
+    made = [make(lb.PointContact(0.6)) for make in structures.EXAMPLES.values()]
+    assert not [one for model in made for one in questions(model) if "that is" in one]
+
+
 def test_a_live_force_of_one_newton_is_none_to_ask_about():
     assert questions(replace(block(), live=lb.loads.force("block 1", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)))) == []
 

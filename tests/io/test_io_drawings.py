@@ -53,6 +53,24 @@ def test_import_of_an_elevation(tmp_path):
     assert lb.bounds(model).lower == pytest.approx(0.5, abs=1e-6)
 
 
+def test_a_drawing_without_a_header_states_no_unit_and_names_its_letters_by_number(tmp_path):
+    """As scripts write it: ezdxf takes such a file to be in metres, and leaves \\U+00D3 as it is."""
+    square = [(0, 0), (800, 0), (800, 600), (0, 600)]
+    lines = ["0", "SECTION", "2", "ENTITIES"]
+    for k in range(2):
+        lines += ["0", "POLYLINE", "8", "CIMENTACI\\U+00D3N", "66", "1", "70", "1"]
+        for x, y in square:
+            lines += ["0", "VERTEX", "8", "0", "10", str(x), "20", str(y + 600 * k)]
+        lines += ["0", "SEQEND", "0", "TEXT", "8", "0", "10", "400", "20", str(300 + 600 * k), "40", "50"]
+        lines += ["1", f"pe\\U+00F1a {k}"]
+    path = tmp_path / "bare.dxf"
+    path.write_text("\r\n".join([*lines, "0", "ENDSEC", "0", "EOF", ""]), newline="")
+    found = lb.files.read_drawing(path, thickness=0.5)
+    assert found.layers == {"peña 0": "CIMENTACIÓN", "peña 1": "CIMENTACIÓN"}
+    assert any("taken as mm" in line for line in found.guesses)
+    assert found.blocks[0].volume == pytest.approx(0.8 * 0.6 * 0.5)
+
+
 def test_elevation_drawn_by_hand(tmp_path):
     """Corners off by up to 0.1 mm, outlines not closed, polylines of every kind."""
     model = STRUCTURES["arch"]

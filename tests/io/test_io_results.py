@@ -290,3 +290,31 @@ def test_file_on_the_page_is_a_solution(tmp_path):
     interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.3))
     model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     assert lb.check_mcp(model, lb.read_result(written(tmp_path / "claim.json", text), model)).passed
+
+
+def falsified(path, change, file):
+    """The file of a path in which a dictionary was changed, as it is read."""
+    document = json.loads(json.dumps(path.to_dict()))
+    change(document)
+    file.write_text(json.dumps(document))
+    return lb.read_result(file)
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact(0.5), lb.OrdunaLourenco(0.5)])
+def test_a_path_that_was_changed_is_found_out(tmp_path, joint):
+    model = lb.structures.portal(joint, span=2.0, pier_width=0.5, pier_blocks=2)
+    path, file = lb.load_path(model), tmp_path / "path.json"
+    same = falsified(path, lambda _: None, file)
+    assert lb.check_mcp(model, same).passed
+    assert lb.report(model, same).sections[0].designs
+    for change in (
+        lambda document: document["steps"][3].update(load_factor=2.0 * path.steps[3].load_factor),
+        lambda document: document["steps"][3]["stress_resultants"][0].__setitem__(2, -1.0),
+    ):
+        false = falsified(path, change, file)
+        check = lb.check_mcp(model, false)
+        assert [one.name for one in check.residuals.above(check.tolerance)] == ["steps"]
+        assert check.worst.where.startswith("step 3, ")
+        assert not lb.report(model, false).sections[0].designs
+    half = falsified(path, lambda document: document.update(tracked=0.5 * path.tracked), file)
+    assert "50 % off" in lb.report(model, half).text

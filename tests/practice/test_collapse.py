@@ -203,6 +203,17 @@ def test_a_fall_of_a_long_step_that_shorter_ones_survive_is_none():
     assert shorter.stands_to < longer.falls
 
 
+def test_slip_of_associated_flow_opens_the_joint_of_a_support_that_slides_away():
+    model = beam_on({"left": (-0.5, 0.5), "right": (3.5, 4.5)}, (-0.5, 4.5), lb.PointContact(0.5))
+    curve = settlement_to_collapse(
+        model, "right", SPREAD, step=0.1, largest=0.1, accuracy=1e-2, without_dilatancy=False
+    )
+    assert curve.stands_to == 0.0
+    assert "m is reached; beyond 0 m joints press across their gaps, as slip of associated flow" in str(curve)
+    (section,) = (one for one in lb.report(model, curve).sections if one.title.startswith("Settlement"))
+    assert section.quantity == "settlement up to which no joint presses across a gap"
+
+
 def test_nothing_rests_on_a_support_that_the_others_spare():
     model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
     curve = settlement_to_collapse(model, "b", (0, 0, -1))

@@ -25,7 +25,7 @@ from limitblocks.analysis.nonassociated.start import (
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
-from limitblocks.evidence.load_path_result import LoadPath
+from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
 from limitblocks.joints.base import Joint, joint_of
@@ -34,7 +34,6 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.plane import Choice
 
-AGREE = 1e-6  # relative difference of two load factors that agree
 ROUNDED = (
     "a snap could be followed with the barrier of the increments only, which rounds it: the load factor "
     "before it is low by some percent"
@@ -129,7 +128,7 @@ def load_path(
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
-        remarks = _remarks(collapse.load_factor, tracked)
+        remarks = compared(collapse.load_factor, tracked)
     except KeyboardInterrupt:  # the load path is complete
         tracked, remarks = np.nan, (NOT_COMPARED,)
     if any(one.increment.rounded for one in found.pushes):
@@ -183,20 +182,6 @@ def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None
     if last is None or not admissible(pushes):
         return None
     return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how))
-
-
-def _remarks(load_factor: float, tracked: float) -> tuple[str, ...]:
-    """Whether the end agrees with that of the tracked path, in words."""
-    if np.isnan(tracked):
-        return ("the tracked path of nonassociated with a small barrier ends at no solution here",)
-    off = abs(tracked - load_factor)
-    if off <= AGREE * abs(load_factor):
-        return (f"the tracked path of nonassociated ends at the same load factor, within {AGREE:g}",)
-    share = 100.0 * off / max(abs(load_factor), abs(tracked))
-    return (
-        f"the tracked path of nonassociated ends at {tracked:.6g}, {share:.2g} % off: it pushes "
-        "once for all, so that slip may go back, and its barrier rounds the corners of yield",
-    )
 
 
 def _compliance(

@@ -53,8 +53,9 @@ def contents(path: Path) -> Contents:
             elif word in state:
                 state[word] = " ".join(rest)
         except ValueError as error:
+            why = "a number has a comma; write 0.5, not 0,5" if word == "v" and "," in rest[0] else error
             raise ModelError(
-                f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {error}"
+                f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {why}"
             ) from None
     refuse_many(faces=sum(map(len, drawn.values())))
     points = np.array(vertices).reshape(-1, 3)

@@ -15,7 +15,7 @@ from limitblocks.errors import ModelError
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.outlines import Outline, outline_of
-from limitblocks.io.formats.dxf.part import Part
+from limitblocks.io.formats.dxf.part import Part, decoded
 from limitblocks.io.imported import ImportedBlocks, UnitWeight, foreign, imported
 from limitblocks.io.placed import Contents, frame
 from limitblocks.io.solid import Solid
@@ -138,7 +138,7 @@ def _labelled(outlines: Sequence[Outline], labels: Sequence[Part]) -> list[str]:
     inside: dict[int, list[str]] = {}
     for part, place in zip(labels, places, strict=True):
         around = tree.query(shapely.Point(place), predicate="within") if np.isfinite(place).all() else []
-        text = " ".join(part.entity.plain_text().split())
+        text = " ".join(decoded(part.entity.plain_text()).split())
         if len(around) and text:
             smallest = min(around, key=lambda k: tree.geometries[k].area)
             inside.setdefault(int(smallest), []).append(text)

@@ -55,6 +55,13 @@ class Part(NamedTuple):
         return np.asarray(rows @ self.matrix[:3, :3].T + self.matrix[:3, 3])
 
 
+def decoded(text: str) -> str:
+    r"""Return text as it was typed: drawings before 2007 write letters beyond the code page as \U+00F1."""
+    from ezdxf.lldxf.encoding import decode_dxf_unicode
+
+    return decode_dxf_unicode(text)
+
+
 def written(entity: Any, place: int) -> str:
     """Return the name (place 0) or the material (1) that this library wrote beside an entity."""
     if not entity.has_xdata(APPLICATION):

@@ -12,14 +12,14 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.io.formats.dxf import colours
-from limitblocks.io.formats.dxf.part import APPLICATION, Part, written
+from limitblocks.io.formats.dxf.part import APPLICATION, Part, decoded, written
 from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # block references within block references
-_NO_UNIT = "states no unit of length ($INSUNITS is 0)"
+_NO_UNIT = "states no unit of length ($INSUNITS is 0 or missing)"
 
 
 def contents(path: Path) -> Contents:
@@ -68,10 +68,14 @@ def _instead(left_out: Counter[str]) -> str:
 def opened(path: Path) -> Any:
     """Return the drawing in a DXF file, text or binary."""
     ezdxf = package("ezdxf", "DXF")
-    if read_bytes(path)[:6].startswith(b"AC10"):
+    written_there = read_bytes(path)
+    if written_there.startswith(b"AC10"):
         raise ModelError("is a DWG, not a DXF; save it as DXF")
     with foreign("DXF"):
-        return ezdxf.readfile(path)
+        drawing = ezdxf.readfile(path)
+        if b"$INSUNITS" not in written_there:
+            drawing.header["$INSUNITS"] = 0  # ezdxf says metres for a file without a header
+    return drawing
 
 
 def metres_per_unit(drawing: Any) -> float | None:
@@ -164,8 +168,9 @@ class _Expansion:
                 yield from self.inserted(entity, where, depth)
             else:
                 # the name that was written, else a name by which the entity is found in the drawing
-                given = written(entity, 0) or above.name or f"{own} {entity.dxf.handle}"
-                yield Part(entity, above.matrix, own, given, reference, groups, colour)
+                layer = decoded(own)
+                given = written(entity, 0) or above.name or f"{layer} {entity.dxf.handle}"
+                yield Part(entity, above.matrix, layer, given, reference, groups, colour)
 
     def inserted(self, insert: Any, above: _Above, depth: int) -> Iterator[Part]:
         title, handle = insert.dxf.name, insert.dxf.handle
@@ -182,9 +187,11 @@ class _Expansion:
             self.references += 1
             # ezdxf writes points as rows
             where = above.matrix @ np.array(list(one.matrix44())).reshape(4, 4).T
-            yield from self.parts(block, above._replace(matrix=where, name=f"{title} {handle}"), depth + 1)
+            yield from self.parts(
+                block, above._replace(matrix=where, name=f"{decoded(title)} {handle}"), depth + 1
+            )
             for label in one.attribs:
-                yield Part(label, above.matrix, above.layer, "", self.references)
+                yield Part(label, above.matrix, decoded(above.layer), "", self.references)
 
 
 def _groups(drawing: Any) -> dict[str, list[str]]:
