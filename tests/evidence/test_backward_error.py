@@ -254,6 +254,15 @@ def test_the_changed_problem_is_near_and_the_state_solves_it(name, most):
     assert np.array_equal(changed_problem.live, p.live)
 
 
+@pytest.mark.parametrize("name", ["wall", "octagonal wall", "associated", "associated points"])
+def test_what_is_off_by_little_is_no_farther_from_a_model(name):
+    """Stresses and rates shaken by a share have a model that differs by about as much."""
+    model, claim = true(name)
+    flow, state = flow_of(model, claim), state_of(model, claim)
+    for size in (1e-5, 1e-4):
+        assert size / 10 < backward_error(flow, shaken(flow.problem, state, size)).value < 5 * size
+
+
 def sparse_size(matrix):
     return np.sqrt(matrix.power(2).sum(axis=1)).max()
 
