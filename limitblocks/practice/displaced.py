@@ -18,9 +18,11 @@ from limitblocks.mechanics.loads.forces import AddedMass, PointForce
 from limitblocks.mechanics.loads.load import Term, Vector
 from limitblocks.model import Model
 from limitblocks.practice.elements import Element
-from limitblocks.practice.resting import half_way, resting_axes
+from limitblocks.practice.resting import half_way, resting_axes, rims_at
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
+RIM = 1e-6  # of the size of a joint: a corner as near to the rim of a face is at it
+EVEN = 1e-3  # sine of an angle: a rim nearer to the way across a hinge does not end the face there
 
 Truths = npt.NDArray[np.bool_]
 Pulls = dict[tuple[str, Vector], tuple[Array, PointForce]]
@@ -41,6 +43,9 @@ class Contact:
         closed. A tie has its two anchors.
     axes_i, axes_j : Array, shape (3, 3)
         Its axes as they turn with block i and with block j.
+    rims_i, rims_j : Array, shape (k, 2, 2)
+        The rims of both faces at the corners (:func:`~.resting.rims_at`), as the contact was last
+        :func:`seated`; NaN at corners that were open.
     pressed : bool
         Whether it carried a force at the last answer: it does not slide while the structure falls.
     """
@@ -51,6 +56,8 @@ class Contact:
     on_j: Array
     axes_i: Array
     axes_j: Array
+    rims_i: Array
+    rims_j: Array
     pressed: bool = False
 
     @cached_property
@@ -62,10 +69,18 @@ class Contact:
     def on_face_i(self) -> Truths:
         """Which corners of block j rest on the face of block i, shape (k,); the others are of i on that of j.
 
-        A corner rests on that of both faces off which it is farther: the separating axis of convex bodies.
+        Where one face goes on beyond a corner, across the hinge, and the other ends there, it rests on that
+        which goes on; else on that off which it is farther: the separating axis of convex bodies.
         """
-        way = self.on_j - self.on_i
-        return np.asarray(way @ self.axes_i[2] >= way @ self.axes_j[2])
+        way, hinge = self.on_j - self.on_i, np.cross(self.axes_i[2], self.axes_j[2])
+        farther = way @ self.axes_i[2] >= way @ self.axes_j[2]
+        end_i, end_j = (
+            np.einsum("a,kab,b->k", across, rims, across) - EVEN**2 * across @ across
+            for rims, axes in ((self.rims_i, self.axes_i), (self.rims_j, self.axes_j))
+            for across in [axes[:2] @ np.cross(hinge, axes[2])]
+        )  # above zero where a face ends, NaN off it
+        on_i, on_j = (end_i <= 0.0) & (end_j > 0.0), (end_j <= 0.0) & (end_i > 0.0)
+        return np.asarray(on_i | (farther & ~on_j))
 
     @cached_property
     def axes(self) -> Array:
@@ -106,16 +121,31 @@ class Assembly:
 def assembly_of(model: Model) -> Assembly:
     """Return the structure where it is first."""
     place = {block.name: k for k, block in enumerate(model.blocks)}
-    return Assembly(model, tuple(contact(own, place) for own in model.interfaces))
+    return Assembly(model, tuple(contact(own, model.blocks, place) for own in model.interfaces))
 
 
-def contact(own: Interface, place: dict[str, int]) -> Contact:
+def contact(own: Interface, blocks: Sequence[Block], place: dict[str, int]) -> Contact:
     """Return an interface as both of its blocks see it where it is closed."""
     half = own.joint.length / 2.0 * own.axes[2] if isinstance(own.joint, Tie) else None
     corners = own.centroid + own.polygon @ own.axes[:2]
     on_i = corners if half is None else (own.centroid - half)[None]
     on_j = corners if half is None else (own.centroid + half)[None]
-    return Contact(own, (place[own.block_i], place[own.block_j]), on_i, on_j, own.axes, own.axes)
+    ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 2, 2))
+    found = Contact(own, ends, on_i, on_j, own.axes, own.axes, rims, rims)
+    return found if half is not None else seated(found, blocks)
+
+
+def seated(own: Contact, blocks: Sequence[Block], size: float = 0.0) -> Contact:
+    """Return a contact with the rims of its faces at its corners as they are now; NaN where these are open.
+
+    `size` is that of the structure, m.
+    """
+    i, j = (blocks[k] for k in own.ends)
+    least = RIM * float(np.abs(own.interface.polygon).max())
+    rims_i = rims_at(i, own.axes_i[2], own.on_i, own.axes_i, least)
+    rims_j = rims_at(j, -own.axes_j[2], own.on_j, own.axes_j, least)
+    opened = (own.ways[:, 2] > 10.0 * CLOSED * size)[:, None, None]
+    return replace(own, rims_i=np.where(opened, np.nan, rims_i), rims_j=np.where(opened, np.nan, rims_j))
 
 
 def moved(assembly: Assembly, displacements: Array) -> Assembly:

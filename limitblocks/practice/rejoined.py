@@ -14,7 +14,7 @@ from limitblocks.errors import ModelError, SolveError
 from limitblocks.geometry import find_contacts
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.model import Model
-from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, contact, moved, placed
+from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, contact, moved, placed, seated
 from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
 
@@ -122,7 +122,8 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
             gap, of_j = own.ways[:, 2:] * own.axes[:, 2], own.on_face_i[:, None]
             moved_on = replace(own, on_i=own.rest - of_j * gap, on_j=own.rest + ~of_j * gap)
             blocks = assembly.model.blocks
-            left = trimmed(replace(moved_on, interface=placed(moved_on, blocks)), blocks, assembly.size)
+            there = seated(replace(moved_on, interface=placed(moved_on, blocks)), blocks, assembly.size)
+            left = trimmed(there, blocks, assembly.size)
             said += [] if left else [f"{own.interface.name} slides off"]
             kept += left
         else:
@@ -156,7 +157,7 @@ def _shared(
     found = []
     for face in faces:
         joint = [own.interface.joint for own in like if _parallel(own.axes_i, face.axes)]
-        found += [contact(replace(face, joint=joint[0]), place)] if joint else []
+        found += [contact(replace(face, joint=joint[0]), blocks, place)] if joint else []
     return found
 
 

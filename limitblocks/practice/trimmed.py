@@ -13,7 +13,7 @@ from limitblocks.geometry import Block
 from limitblocks.geometry.patches import common_areas
 from limitblocks.geometry.pieces import convex_pieces
 from limitblocks.geometry.polygon import centroids, longest_side
-from limitblocks.practice.displaced import CLOSED, Contact, placed
+from limitblocks.practice.displaced import CLOSED, Contact, placed, seated
 from limitblocks.practice.resting import face_at, tilted
 
 OFF = 1e-6  # of the size of the structure: a corner as far beyond the rim of a face is off it
@@ -44,10 +44,10 @@ def trimmed(own: Contact, blocks: Sequence[Block], size: float) -> list[Contact]
     (left,) = common_areas(np.array([whole]), np.array([shared]), least, OFF * size)
     parts = np.array([part for part in shapely.get_parts(left) if part.area > least[0]])
     pieces, _ = convex_pieces(parts, np.tile([1.0, 0.0], (len(parts), 1)), np.zeros(len(parts)), OFF * size)
-    return [_on(own, blocks, np.array(piece.normalize().exterior.coords)[:0:-1]) for piece in pieces]
+    return [_on(own, blocks, size, np.array(piece.normalize().exterior.coords)[:0:-1]) for piece in pieces]
 
 
-def _on(own: Contact, blocks: Sequence[Block], flat: Array) -> Contact:
+def _on(own: Contact, blocks: Sequence[Block], size: float, flat: Array) -> Contact:
     """Return the contact with corners (k, 2) seen along the axes half way between both faces."""
     seen = own.half_way
     points = flat @ seen[:2]
@@ -61,8 +61,10 @@ def _on(own: Contact, blocks: Sequence[Block], flat: Array) -> Contact:
     polygon = on_i @ axes_i[:2].T
     interface = replace(own.interface, polygon=read_only(polygon - centroids(polygon[None])[0]))
     axes_j = tilted(axes_i, own.axes_j[2])
-    cut = replace(own, interface=interface, on_i=on_i, on_j=on_j, axes_i=axes_i, axes_j=axes_j)
-    return replace(cut, interface=placed(cut, blocks))
+    none = np.full((len(on_i), 2, 2), np.nan)
+    new = {"on_i": on_i, "on_j": on_j, "axes_i": axes_i, "axes_j": axes_j, "rims_i": none, "rims_j": none}
+    cut = replace(own, interface=interface, **new)
+    return seated(replace(cut, interface=placed(cut, blocks)), blocks, size)
 
 
 def about_centroid(polygon: Array, plane: Array) -> tuple[Array, Array, int]:

@@ -227,3 +227,38 @@ def test_default_control_of_blocks_that_slide_as_one_is_on_the_highest(upside_do
     curve = capacity_curve(model, steps=2, largest=0.01)
     assert curve.control.block == "c"
     assert curve.control.point[[0, 2]] == pytest.approx([0.5, 0.6], abs=1e-9)
+
+
+def test_a_wall_held_at_its_top_bends_outwards():
+    """Two stones between a base and a smooth floor whose lower edge holds the face of the upper one.
+
+    The lower stone turns by a about its toe (t, 0), the upper one by b about their common edge, so that its
+    face slides along the floor's edge (t, e): load factor = power of lifting the weights / of pushing them.
+    """
+    t, h, e, top = 0.4, 2.2, 3.7, 4.0
+    stones = [
+        lb.Block.box("base", (4, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("low", (t, 1, h), (t / 2, 0, h / 2), 18e3),
+        lb.Block.box("high", (t, 1, top - h), (t / 2, 0, (top + h) / 2), 18e3),
+        lb.Block.box("floor", (1, 1, top - e), (t + 0.5, 0, (top + e) / 2)),
+    ]
+    found = [
+        replace(one, joint=lb.PointContact(0.0)) if "floor" in one.name else one
+        for one in lb.find_interfaces(stones, JOINTS[0])
+    ]
+    wall = lb.Model(stones, ["base", "floor"], found, lb.self_weight(), PUSH)
+
+    def centres(a):  # of both stones and their common edge, as x + i z
+        edge = t + (-t + 1j * h) * np.exp(-1j * a)
+        b = brentq(lambda b: ((t + 1j * e - edge) * np.exp(-1j * b)).real - t, 0.0, 1.0)
+        high = edge + (t + 1j * (top - h)) / 2 * np.exp(1j * b)
+        return np.array([t + (-t + 1j * h) / 2 * np.exp(-1j * a), high, edge])
+
+    def load_factor(a):
+        speed = np.array([h, top - h]) @ (centres(a + 1e-6) - centres(a - 1e-6))[:2]
+        return speed.imag / speed.real
+
+    curve = capacity_curve(wall, control=("low", (0, 0, h)), steps=4, largest=0.3)
+    turns = [brentq(lambda a, d=d: centres(a)[2].real - d, 1e-6, 0.3) for d in curve.displacements[1:]]
+    assert curve.load_factors[1:] == pytest.approx([load_factor(a) for a in turns], abs=1e-7)
+    assert len(turns) > 3

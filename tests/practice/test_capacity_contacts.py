@@ -121,6 +121,19 @@ def test_a_corner_rests_on_the_face_off_which_it_is_farther():
         assert there.on_face_i.all() == (slide < 0)
 
 
+@pytest.mark.parametrize("slide", [-0.03, 0.03])
+def test_a_corner_inside_a_face_rests_on_that_face_whichever_way_it_slides(slide):
+    """A block turned by .1 about its edge on a base that goes on beyond it, both 1 m deep: it stays level."""
+    stones = [
+        lb.Block.box("base", (3, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, JOINTS[0])
+    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    there = moved(turned_about_its_toe(model, 0.1), np.array([[0.0] * 6, [slide, 0, 0, 0, 0, 0]]))
+    assert np.sort(np.abs(there.contacts[0].ways[:, 2]))[:2] == pytest.approx([0.0, 0.0], abs=1e-12)
+
+
 @pytest.mark.parametrize(
     ("slide", "rests_on"),
     [(-0.03, "base"), (0.03, "block"), (-4e-4, None), (4e-4, None), (-6e-4, "base"), (6e-4, "block")],
