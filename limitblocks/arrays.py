@@ -11,6 +11,8 @@ from scipy import sparse
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
+ROWS = 64  # compared at a time
+
 
 def read_only(values: Any) -> Array:
     """Return a float copy of `values` that cannot be written to."""
@@ -71,16 +73,23 @@ def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     Rows are sorted by one number each; those that disagree with the first of theirs are classes of their own.
     """
     mix = np.cos(np.arange(values.shape[1]) ** 2 + 1.0)  # numbers without a pattern: unlike rows differ
-    key, size = values @ mix, np.abs(values).sum(axis=1)
+    key, size = values @ mix, np.sqrt(values.shape[1] * np.einsum("kd,kd->k", values, values))
     order = np.argsort(key, kind="stable")
     apart = (within * values.shape[1] + 4.0 * np.finfo(float).eps * size)[order[1:]]
     new = ~(np.diff(key[order]) <= apart)
     label = np.empty(len(values), dtype=np.int64)
     label[order] = np.concatenate([[0], np.cumsum(new)])[: len(values)]
     first = np.unique(label, return_index=True)[1]
-    off = values[first[label]]
-    off -= values
-    odd = ~(np.abs(off, out=off).max(axis=1, initial=0.0) <= within)
+    odd = ~(_largest_differences(values, first[label]) <= within)
     label[odd] = len(first) + np.arange(int(odd.sum()))
     _, first, label = np.unique(label, return_index=True, return_inverse=True)
     return np.asarray(first), np.asarray(label).ravel()
+
+
+def _largest_differences(values: Array, other: Indices) -> Array:
+    """Largest difference of each row (K, d) from another one; few rows at a time need no large arrays."""
+    off = np.zeros(len(values))
+    for at in range(0, len(values), ROWS):
+        its = slice(at, at + ROWS)
+        off[its] = np.abs(values[its] - values[other[its]]).max(axis=1, initial=0.0)
+    return off

@@ -9,8 +9,9 @@ import numpy as np
 from rich.table import Table
 
 import limitblocks as lb
-from limitblocks.analysis import direct, forms, programs
+from limitblocks.analysis import conic, direct, forms, programs
 from limitblocks.analysis.scales import scaled
+from limitblocks.problem import Cones
 
 ALONE = {"form": "", "solver": "", "iterations": "", "raw": float("nan"), "status": "bounds alone"}
 PEERS = ("HIGHS", "PIQP", "QOCO")  # called through cvxpy, where they are installed
@@ -61,10 +62,17 @@ def candidates(problem, chosen):
     for form, build in (("static", programs.static_program), ("kinematic", programs.kinematic_program)):
         if form in chosen:
             program = build(p)
-            yield form, program, programs.compiled(program.problem)
+            yield form, program, handed_over(program.problem)
     rates = forms.without_multipliers(p) if "rates" in chosen else None
     if rates is not None:
-        yield "rates", None, programs.compiled(rates.limit().problem)
+        yield "rates", None, conic.compiled(rates.limit().problem)
+
+
+def handed_over(problem):
+    """The matrices of any program as cvxpy hands them over to Clarabel."""
+    data, _, _ = problem.get_problem_data(cp.CLARABEL)
+    cones = Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)
+    return conic.Conic(data["c"], data["A"], data["b"], cones)
 
 
 def bare(program, settings):

@@ -10,8 +10,9 @@ import clarabel
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.conic import Conic, compiled
 from limitblocks.analysis.forms import Rates, Stresses
-from limitblocks.analysis.programs import Conic, Solver, compiled
+from limitblocks.analysis.programs import Solver
 from limitblocks.arrays import Array
 from limitblocks.problem import State
 

@@ -44,11 +44,11 @@ class Stresses:
     def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
         p = self.problem
-        v = cp.Variable(1 + p.C.shape[0])
+        v, least = cp.Variable(1 + p.C.shape[0]), -np.eye(1, 1 + p.C.shape[0])[0]
         live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
         balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
         inside = map_in_cone(sparse.csr_array(sparse.hstack([nothing, p.F])), v, p.cones, p.g)
-        return Program(cp.Problem(cp.Minimize(-v[0]), [balance, *inside]), (v,))
+        return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 
 import cvxpy as cp
 import numpy as np
-from cvxpy.reductions import ConeMatrixStuffing
 from scipy import sparse
 
 from limitblocks.analysis.scales import Scaled
@@ -83,34 +82,6 @@ class Program:
 
     problem: cp.Problem
     variables: tuple[cp.Variable, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Conic:
-    """The least c.v + v^T W v / 2 with b - A v zero in its first rows, in K in all others; no W is zero."""
-
-    c: Array
-    A: sparse.csc_array
-    b: Array
-    cones: Cones
-    W: Array | None = None
-
-
-def compiled(problem: cp.Problem) -> Conic:
-    """Return the matrices of affine constraints and a cost to minimise as Clarabel takes them.
-
-    What `get_problem_data` returns, without what parameters would need: in half the time.
-    """
-    stuffed, _ = ConeMatrixStuffing().apply(problem)
-    zero, n = stuffed.cone_dims.zero, stuffed.x.size
-    K = Cones.of_sizes(stuffed.cone_dims.nonneg, stuffed.cone_dims.soc)
-    tails_last = [np.append(rows[:, 0], rows[:, 1:]) for rows in K.groups]  # as cvxpy has them
-    row = np.concatenate([np.arange(zero), *(zero + part for part in (np.arange(K.linear), *tails_last))])
-    stuffed.A.eliminate_zeros()
-    column, k = np.divmod(stuffed.A.indices, len(row))  # A has the columns of (A, b) below each other
-    data = np.where(k < zero, 1.0, -1.0) * stuffed.A.data
-    both = sparse.coo_array((data, (row[k], column)), shape=(len(row), n + 1)).tocsc()
-    return Conic(stuffed.q.toarray()[:n, 0], both[:, :n], -both[:, [n]].toarray()[:, 0], K)
 
 
 def static_program(problem: Scaled) -> Program:

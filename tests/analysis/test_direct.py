@@ -11,10 +11,11 @@ import pytest
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import certified, limit_state, repair, splitting
+from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
-from limitblocks.analysis.programs import DIRECT, PLANAR, compiled, solved, static_program
+from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
 from limitblocks.analysis.scales import scaled
 from limitblocks.problem import Cones
 
@@ -39,8 +40,10 @@ def test_a_form_has_the_answer_of_the_static_program(joint):
 
 
 @pytest.mark.parametrize("joint", [*JOINTS, lb.OrdunaLourenco(0.6, compressive_strength=2e6, cohesion=1e3)])
-def test_matrices_are_those_that_cvxpy_hands_over_to_clarabel(joint):
-    program = static_program(scaled(wall(joint).problem)).problem
+@pytest.mark.parametrize("direction", [(1.0, 0.0, 0.0), (1.0, 1.0, 0.0)])  # in its plane, and in space
+def test_matrices_are_those_that_cvxpy_hands_over_to_clarabel(joint, direction):
+    model = structures.wall(joint, length=1.2, courses=4, direction=direction)
+    program = programs_of(model.problem)[0].form.limit().problem
     data, _, _ = program.get_problem_data(cp.CLARABEL)
     here = compiled(program)
     assert here.cones == Cones.of_sizes(data["dims"].nonneg, data["dims"].soc)

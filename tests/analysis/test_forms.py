@@ -5,10 +5,11 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import Rates, Stresses, form_of, without_multipliers
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.programs import DIRECT, compiled
+from limitblocks.analysis.programs import DIRECT
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.evidence.residuals import Residuals, static_residuals

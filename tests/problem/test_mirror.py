@@ -20,6 +20,7 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.stability import standing_margin
 from limitblocks.problem import State
 from limitblocks.problem.plane import Choice, mirror_of, reduced
+from limitblocks.problem.plane.alike import pseudo_inverses
 
 JOINTS = {
     "points": lb.PointContact(0.6),
@@ -275,3 +276,16 @@ def test_the_barrier_of_the_half_has_every_logarithm_of_the_whole(name):
     problem = pair_of_columns(JOINTS[name]).problem
     plane = reduced(problem, mirror_of(problem), Choice.EVERY)
     assert plane.barrier_of(problem.cones).sum() == problem.cones.degree
+
+
+@pytest.mark.parametrize("rank", [1, 2, 3])
+def test_pseudo_inverses_of_matrices_with_and_without_an_inverse(rank):
+    """The conditions of Penrose (1955); what one stack has beside it must not matter."""
+    rows = np.random.default_rng(rank).normal(size=(20, 3, rank))
+    A = rows @ rows.transpose(0, 2, 1)
+    X = pseudo_inverses(A)
+    size = np.linalg.norm(A, axis=(1, 2), keepdims=True) * np.linalg.norm(X, axis=(1, 2), keepdims=True)
+    for left, right in ((A @ X @ A, A), (X @ A @ X, X)):
+        assert (np.abs(left - right) <= 1e-12 * size * np.abs(right).max(axis=(1, 2), keepdims=True)).all()
+    assert (np.abs(A @ X - (A @ X).transpose(0, 2, 1)) <= 1e-12 * size).all()
+    assert pseudo_inverses(np.zeros((2, 3, 3))).any() == 0

@@ -12,8 +12,8 @@ import numpy as np
 import osqp
 from scipy import sparse
 
+from limitblocks.analysis.conic import Conic
 from limitblocks.analysis.direct import FIXED, solution
-from limitblocks.analysis.programs import Conic
 from limitblocks.arrays import Array
 from limitblocks.problem import LimitProblem
 

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.conic import Conic
 from limitblocks.analysis.direct import FIXED, solution
-from limitblocks.analysis.programs import DIRECT, Conic
+from limitblocks.analysis.programs import DIRECT
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import TOLERANCE, Residuals, static_residuals
 from limitblocks.problem import Cones, LimitProblem

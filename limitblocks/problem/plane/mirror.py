@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, owned
 from limitblocks.problem.limit_problem import LimitProblem, Units
-from limitblocks.problem.plane.alike import EXACT, alike, classes, close, numbers, size_of
+from limitblocks.problem.plane.alike import EXACT, alike, classes, close, pseudo_inverses, size_of, used
 from limitblocks.problem.plane.candidates import candidates
 from limitblocks.problem.plane.places import Place, kinds_of
 
@@ -170,7 +170,7 @@ def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
         return None
     still = (np.where(kind.ends >= 0, blocks[kind.ends], -1) == kind.ends).all(axis=1)
     own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT) & _plane_of_its_own(kind, turn, rates)
-    values = numbers(kind, None)
+    values = np.concatenate([used(part) for part in (kind.F, kind.g, kind.G)], axis=1)[:, None]
     first, sort = classes(values / size_of(values), turn)
     partner = _partners(kind, image, turn, own, first, sort)
     if partner is None and own.any():
@@ -230,10 +230,11 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
     least, image, turn = np.full(K, np.inf), np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):
         there = np.minimum(table[wanted, k], K - 1)  # any beyond its number
+        strain = wide[there]
         turned_round = kind.ends[there, 0] != goal[:, 0]
-        strain = np.where(turned_round[:, None, None, None], wide[there, ::-1], wide[there])
+        strain[turned_round] = strain[turned_round, ::-1]
         own = strain[np.arange(K), free, :, :6]
-        gram = np.linalg.pinv(own @ own.transpose(0, 2, 1), hermitian=True)
+        gram = pseudo_inverses(own @ own.transpose(0, 2, 1))
         # the transpose of the turn
         back = mirrored[np.arange(K), free, :, :6] @ own.transpose(0, 2, 1) @ gram
         apart = np.abs(back[:, None] @ strain - mirrored)

@@ -87,16 +87,17 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
             strain=at,
             middle=_means(at, problem.stress_interface[own[:, 0]]),
-            F=_dense(problem.F, its_rows, column)[..., :c] * unit[..., None],
-            G=_dense(problem.G, its_rows, column)[..., :c] * unit[..., None],
+            F=_dense(problem.F, its_rows, column, unit)[..., :c],
+            G=_dense(problem.G, its_rows, column, unit)[..., :c],
             g=problem.g[its_rows] * unit,
         )
 
 
-def _dense(matrix: sparse.csr_array, rows: Indices, column: Indices) -> Array:
-    """Rows (K, r) of a matrix as an array (K, r, most), its columns at their positions `column` in places."""
+def _dense(matrix: sparse.csr_array, rows: Indices, column: Indices, unit: Array) -> Array:
+    """Rows (K, r) of a matrix times their `unit`, (K, r, most), its columns at their positions in places."""
     own, most = matrix[rows.ravel()], int(column.max(initial=-1)) + 1
-    narrow = sparse.csr_array((own.data, column[own.indices], own.indptr), shape=(rows.size, most))
+    data = own.data * np.repeat(unit.ravel(), np.diff(own.indptr))
+    narrow = sparse.csr_array((data, column[own.indices], own.indptr), shape=(rows.size, most))
     return np.asarray(narrow.toarray().reshape(*rows.shape, most))
 
 
