@@ -8,6 +8,8 @@ import portal
 from typer.testing import CliRunner
 
 import limitblocks as lb
+from limitblocks.analysis.in_si import resultants_of
+from limitblocks.analysis.stability import dead_load_state
 from limitblocks.choices import Method
 from limitblocks.cli import app
 from limitblocks.evidence.ending import Status
@@ -62,11 +64,17 @@ def solved(
 
 def walked(model, **settings):
     end = solved(model, **settings)
-    first = PathStep(0.0, end.stress_resultants, 0.0 * end.displacement_rates, (), {"yield": 0.0}, "step")
-    moved = 1e3 * end.displacement_rates
-    return LoadPath(
-        (first, replace(first, load_factor=0.2, displacements=moved, active=(("[b]|left", "sliding"),))), end
+    start = resultants_of(model.problem, dead_load_state(model.problem))
+    first = PathStep(0.0, start, 0.0 * end.displacement_rates, (), {"yield": 0.0}, "step")
+    last = PathStep(
+        0.2,
+        end.stress_resultants,
+        1e3 * end.displacement_rates,
+        (("[b]|left", "sliding"),),
+        {"yield": 0.0},
+        "step",
     )
+    return LoadPath((first, last), end)
 
 
 def stopped(model, **settings):

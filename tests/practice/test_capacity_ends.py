@@ -82,8 +82,7 @@ def test_a_curve_that_rises_goes_on_by_longer_steps():
     model = lb.structures.block(JOINT, width=B, height=H)
     result = lb.nonassociated(model)
     before, point = (CapacityPoint(d, a, 0.0, model, result, ()) for d, a in ((0.0, 0.2), (0.001, 0.21)))
-    control = Control("block 1", toe_corner(model), read_only(np.array([1.0, 0, 0])))
-    assert capacity._next_step(assembly_of(model), control, (before, point), 20) == pytest.approx(0.01)
+    assert capacity._next_step(assembly_of(model), before, point, 20) == pytest.approx(0.01)
 
 
 def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
