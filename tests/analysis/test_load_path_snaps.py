@@ -301,6 +301,8 @@ def test_folds_are_where_the_displacement_turns():
     there_and_back = [visit(1), visit(2), visit(2.1, False), visit(1.5, False), visit(1.6), visit(3)]
     assert Increment(tuple(there_and_back), None, 1.0, None).folds == ((2, 5),)
     assert Increment((visit(1), visit(2)), None, 1.0, None).folds == ()
+    turned_by_rounding = visit(1), visit(2), visit(2.1, False), visit(3, False)  # the displacement grew on
+    assert Increment(turned_by_rounding, None, 1.0, None).folds == ()
 
 
 def test_an_unknown_way_over_snaps_is_refused():

@@ -151,7 +151,7 @@ def test_a_study_interrupted_keeps_its_rows(file, tmp_path, monkeypatch):
 def test_a_report_whose_path_the_user_stops_has_what_there_was_and_the_code_of_an_interruption(tmp_path):
     model = lb.structures.wall(lb.OrdunaLourenco(0.6), length=4.0, courses=10).save(tmp_path / "model.json")
     output = tmp_path / "report.md"
-    code, said = _interrupted(("report", model, "--bounds", "--path", "-o", output), "path:")
+    code, said = _interrupted(("report", model, "--bounds", "--path", "-o", output), "step: load factor")
     assert code == 130, said
     assert "Associated bounds" in output.read_text(encoding="utf-8")
 

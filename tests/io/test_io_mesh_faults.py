@@ -161,6 +161,16 @@ DAMAGE = {
     "obj nan": ("text.obj", lambda d: changed(d, b"v 0.0", b"v nan"), "block 'base': vertex"),
     "obj word": ("text.obj", lambda d: changed(d, b"v 0.0", b"v O.O"), "line 3"),
     "obj comma": ("text.obj", lambda d: changed(d, b"v 0.0", b"v 0,0"), "write 0.5, not 0,5"),
+    "obj comma of a later number": (
+        "text.obj",
+        lambda d: changed(d, b" 0.0\n", b" 0,0\n"),
+        "write 0.5, not 0,5",
+    ),
+    "obj vertex without numbers": (
+        "text.obj",
+        lambda d: changed(d, b"v 0.0", b"v\nv 0.0"),
+        "'v' cannot be read",
+    ),
     "obj vertex to come": ("text.obj", lambda d: changed(d, b"f 1 ", b"f 999 "), "vertex 999"),
     "obj without faces": ("text.obj", lambda _: b"v 0 0 0\nv 1 0 0\n", "no solid"),
     "obj garbage": ("text.obj", lambda _: bytes(range(256)) * 8, "not text"),

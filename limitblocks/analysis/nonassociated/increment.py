@@ -77,8 +77,10 @@ def _folds(at: Sequence[Visit]) -> tuple[tuple[int, int], ...]:
     while k < len(at):
         if not at[k].forward:
             fold = k - 1
-            while at[fold + 1].rho < at[fold].rho:
+            while fold + 1 < len(at) and at[fold + 1].rho < at[fold].rho:
                 fold += 1
+            if fold + 1 == len(at):  # det J changed its sign, but tau grew on: rounding
+                break
             later = (j for j in range(fold + 1, len(at)) if at[j].forward and at[j].rho <= at[fold].rho)
             k = next(later, len(at) - 1)
             folds.append((fold, k))

@@ -43,7 +43,9 @@ def by_planes(problem: LimitProblem, weights: Array) -> Array | None:
     solver = osqp.OSQP()
     solver.setup(P=W, q=np.zeros(len(weights)), A=A, l=least, u=most, **OSQP)
     found = solver.solve(raise_error=False)
-    if found.info.status_val == osqp.SolverStatus.OSQP_SIGINT:  # it keeps the signal to itself
+    if (
+        found.info.status_val == osqp.SolverStatus.OSQP_SIGINT
+    ):  # it kept Ctrl-C to itself; one after its last step is lost
         signal.raise_signal(signal.SIGINT)
     return _believed(problem, weights, found.x, found.y)
 

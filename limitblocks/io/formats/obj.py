@@ -53,7 +53,8 @@ def contents(path: Path) -> Contents:
             elif word in state:
                 state[word] = " ".join(rest)
         except ValueError as error:
-            why = "a number has a comma; write 0.5, not 0,5" if word == "v" and "," in rest[0] else error
+            comma = word == "v" and any("," in part for part in rest)
+            why = "a number has a comma; write 0.5, not 0,5" if comma else error
             raise ModelError(
                 f"line {number}: {' '.join([word, *rest])[:80]!r} cannot be read: {why}"
             ) from None
