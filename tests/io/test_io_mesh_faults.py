@@ -140,7 +140,7 @@ def changed(data, old, new):
 DAMAGE = {
     "obj cut": ("text.obj", lambda d: d[:-30], "open"),
     "obj nan": ("text.obj", lambda d: changed(d, b"v 0.0", b"v nan"), "block 'base': vertex"),
-    "obj word": ("text.obj", lambda d: changed(d, b"v 0.0", b"v O.O"), "line 3"),
+    "obj word": ("text.obj", lambda d: changed(d, b"v 0.0", b"v O.O"), "cannot be read: could not convert"),
     "obj comma": ("text.obj", lambda d: changed(d, b"v 0.0", b"v 0,0"), "write 0.5, not 0,5"),
     "obj comma of a later number": (
         "text.obj",
