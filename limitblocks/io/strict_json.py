@@ -56,6 +56,8 @@ def read_text(path: Path) -> str:
     try:
         text = data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:
+        if data.startswith((b"\xff\xfe", b"\xfe\xff")):  # as the shell of Windows writes
+            raise ModelError("is UTF-16 text; save it as UTF-8") from None
         raise ModelError(f"is not UTF-8 text: byte {error.start} cannot be decoded") from None
     if not text.strip():  # a byte order mark alone
         raise ModelError("is empty; expected JSON")
