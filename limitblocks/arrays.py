@@ -14,6 +14,16 @@ Indices = npt.NDArray[np.int64]
 ROWS = 64  # compared at a time
 
 
+class Sealed:
+    """Something whose arrays stay read-only when it is copied or pickled, which would lose that."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
+
+
 def read_only(values: Any) -> Array:
     """Return a float copy of `values` that cannot be written to."""
     array = np.array(values, dtype=np.float64)

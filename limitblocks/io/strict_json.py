@@ -10,6 +10,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+
 from limitblocks.errors import ModelError
 
 #: Largest file accepted, bytes.
@@ -96,7 +98,8 @@ def text(value: Any) -> str:
 
 
 def finite(value: Any) -> Any:
-    """Return `value` with null for NaN and infinities."""
+    """Return `value` with null for NaN and infinities; numbers of numpy are those of Python."""
+    value = value.item() if isinstance(value, np.generic) else value
     if isinstance(value, dict):
         return {key: finite(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
