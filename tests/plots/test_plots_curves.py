@@ -191,7 +191,7 @@ def test_load_path_of_nothing_is_refused(block, component, message):
 
 def test_curves_of_something_else_are_refused_by_name():
     for draw, said in (
-        (lambda: lb.plots.load_path(path(), rocking()), "model is a LoadPath, expected Model"),
+        (lambda: lb.plots.load_path(path(), rocking()), "model is a LoadPath, expected a Model"),
         (lambda: lb.plots.load_path(rocking(), bounds(rocking)), "path is a Bounds, expected LoadPath"),
         (lambda: lb.plots.capacity(bounds(rocking)), "curve is a Bounds, expected CapacityCurve"),
         (lambda: lb.plots.settlement(path()), "curve is a LoadPath, expected SettlementCurve"),
