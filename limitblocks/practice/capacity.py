@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
     STILL,
@@ -82,6 +82,7 @@ def capacity_curve(
     SolveError
         As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
     """
+    checked_model(model)
     checked_count("steps", steps, 2)
     farthest(largest, "displacement")
     refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
