@@ -8,6 +8,8 @@ import limitblocks as lb
 from limitblocks.practice import capacity_curve
 from limitblocks.reports.words import together
 
+JOINT = lb.PointContact(0.6)
+
 
 @pytest.fixture(scope="module")
 def wall():
@@ -88,6 +90,14 @@ def test_notes_on_many_blocks_are_one():
             lambda model: capacity_curve(model, control="wall 1.1"),
             "control is 'wall 1.1', expected a block and",
         ),
+        (lambda model: lb.studies.sweep(model, [0.5]), "maker is a Model, expected a function"),
+        (lambda model: lb.studies.minimum(model, 0.1, 0.9), "maker is a Model, expected a function"),
+        (lambda model: lb.find_interfaces(model.blocks[0], JOINT), "blocks is <block .*expected a sequence"),
+        (lambda model: lb.heal("wall.obj"), "blocks is 'wall.obj', expected a sequence of Block"),
+        (
+            lambda model: lb.find_contacts(model.blocks, lb.PointContact),
+            "joint is the class PointContact, exp",
+        ),
         (lambda model: lb.studies.directions(model.live, 4), "model is a Load, expected a Model"),
         (lambda model: lb.studies.moving_load("m.json", (0, 0, -1.0), [(0, 0)]), "model is a str, expected"),
     ],
@@ -95,3 +105,27 @@ def test_notes_on_many_blocks_are_one():
 def test_arguments_of_an_analysis_are_refused_by_name(wall, ask, said):
     with pytest.raises(lb.ModelError, match=said):
         ask(wall)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"length": "1.6"}, "length is '1.6', expected a number > 0"),
+        ({"courses": 2.0}, "courses is 2.0, expected a whole number of at least 1"),
+        ({"openings": "door"}, r"openings are 'door', expected \(left, sill, width, height\)"),
+        ({"openings": (0.4, 0.0, 0.4, 0.2)}, "openings are .*expected"),
+    ],
+)
+def test_measures_of_a_structure_are_refused_by_name(given, said):
+    with pytest.raises(lb.ModelError, match=said):
+        lb.structures.wall(JOINT, **({"length": 1.6, "courses": 2} | given))
+
+
+def test_a_figure_of_a_result_without_its_model(wall):
+    pytest.importorskip("matplotlib")
+    result = lb.nonassociated(wall)
+    for draw in (lambda: lb.plots.structure(result), lambda: lb.plots.thrust_line(result, wall)):
+        with pytest.raises(lb.ModelError, match="model is a Nonassociated, expected a Model"):
+            draw()
+    with pytest.raises(lb.ModelError, match="sensitivities is a Nonassociated, expected Sensitivities"):
+        lb.plots.sensitivity(wall, result)

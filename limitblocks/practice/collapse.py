@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, stopped
 from limitblocks.practice.backfill import fill_at_rest
@@ -74,6 +74,7 @@ def settlement_to_collapse(
     SolveError
         As :func:`~limitblocks.practice.settlement` at the first point; later the curve ends, and says why.
     """
+    checked_model(model)
     refuse_left_behind("settlement until collapse", dead=model.dead)
     assembly = moving.assembly_of(fill_at_rest(model, support))
     size = assembly.size

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model, checked_model
@@ -145,6 +145,7 @@ def sweep(
 
 def _made(maker: Callable[[Any], Model], values: Iterable[Any]) -> list[Model | Outcome]:
     """The model of each value, or the outcome that there is none."""
+    refuse_no_function(maker)
     made: list[Model | Outcome] = []
     for value in values:
         try:
