@@ -55,7 +55,7 @@ def capacity_curve(
     moves the blocks by finite screws, and the contacts that it does not open are brought together again.
     An interface that has opened turns about the corners that are closed, its normal that of the face on which
     they rest, half way between both where edges meet; faces that slide flat on one another get the area that
-    they then share.
+    they then share. A joint that has opened or slid has no cohesion and no tensile strength any more.
 
     Parameters
     ----------

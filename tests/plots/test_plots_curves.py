@@ -112,6 +112,7 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
     [
         (JOINT, RECTANGLE, {"x": "V3"}, "x, y are 'V3', 'T'; expected two of V1"),
         (JOINT, RECTANGLE, {"x": "T"}, "expected two of"),
+        (JOINT, RECTANGLE, {"y": "V3"}, "x, y are 'V1', 'V3'; expected two of V1"),
         (JOINT, RECTANGLE, {"N": 5.0}, "N is 5.0, expected a compressive force"),
         (WEAK, RECTANGLE, {}, "N is missing"),
         (WEAK, RECTANGLE, {"N": -2.0, "stress_resultants": STATE}, "N = -3 N, but the curve is for N = -2 N"),
