@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
@@ -42,9 +43,12 @@ def farthest(largest: object, what: str) -> float:
     return float(largest)
 
 
-def refuse_left_behind(what: str, **loads: Load) -> None:
-    """Raise ModelError for a load that stays behind when its block moves."""
-    for word, load in loads.items():
+def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
+    """Raise ModelError for a load of these names, or passive fill, that stays behind as its block moves."""
+    if any(isinstance(own.joint, Backfill) for own in model.interfaces):
+        raise ModelError(f"passive fill does not move with the blocks; a {what} needs a structure without it")
+    for word in words:
+        load: Load = getattr(model, word)
         for _, term in load.terms:
             if not isinstance(term, FOLLOWS):
                 raise ModelError(
