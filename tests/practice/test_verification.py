@@ -224,6 +224,8 @@ def test_floor_spectrum():
     assert floor.acceleration(SITE, 0.5 * 0.8 * 0.4) == pytest.approx(half * largest)
     for period in np.linspace(0.0, 4.0, 50):
         assert floor.acceleration(SITE, period) >= SITE.acceleration(period)
+    # what stands on the floor is damped by its own share, eta = sqrt(10 / (5 + 2)) for 2 %
+    assert floor.acceleration(SITE, 0.35, 0.02) == pytest.approx(1.1 * 0.05**-0.5 * np.sqrt(10 / 7) * largest)
     still = Floor((FloorMode(period=0.4, participation=1.3, shape=0.0),))
     assert still.acceleration(SITE, 0.7) == pytest.approx(SITE.acceleration(0.7))
     assert still.largest(SITE) == pytest.approx(SITE.a_g * SITE.S)
