@@ -38,7 +38,7 @@ class Advanced:
 
 def farthest(largest: object, what: str) -> float:
     """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
-    if not isinstance(largest, int | float | np.integer) or not largest > 0.0:
+    if not isinstance(largest, int | float | np.integer | np.floating) or not largest > 0.0:
         raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
     return float(largest)
 
