@@ -12,6 +12,16 @@ Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
 
+class Sealed:
+    """Something whose arrays stay read-only when it is copied or pickled, which would lose that."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
+
+
 def read_only(values: Any) -> Array:
     """Return a float copy of `values` that cannot be written to."""
     array = np.array(values, dtype=np.float64)

@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
@@ -37,14 +38,17 @@ class Advanced:
 
 def farthest(largest: object, what: str) -> float:
     """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
-    if not isinstance(largest, int | float | np.integer) or not largest > 0.0:
+    if not isinstance(largest, int | float | np.integer | np.floating) or not largest > 0.0:
         raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
     return float(largest)
 
 
-def refuse_left_behind(what: str, **loads: Load) -> None:
-    """Raise ModelError for a load that stays behind when its block moves."""
-    for word, load in loads.items():
+def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
+    """Raise ModelError for a load of these names, or passive fill, that stays behind as its block moves."""
+    if any(isinstance(own.joint, Backfill) for own in model.interfaces):
+        raise ModelError(f"passive fill does not move with the blocks; a {what} needs a structure without it")
+    for word in words:
+        load: Load = getattr(model, word)
         for _, term in load.terms:
             if not isinstance(term, FOLLOWS):
                 raise ModelError(

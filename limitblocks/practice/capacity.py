@@ -77,15 +77,15 @@ def capacity_curve(
     Raises
     ------
     ModelError
-        If a load stays behind when its block moves, the control point does not move along the live load, or a
-        number is out of range.
+        If a load or passive fill stays behind as its block moves, the control point does not move along the
+        live load, or a number is out of range.
     SolveError
         As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
     """
     checked_model(model)
     checked_count("steps", steps, 2)
     farthest(largest, "displacement")
-    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
+    refuse_left_behind("capacity curve", model, ("dead", "live"))
     first = nonassociated(model)
     point = _control(model, first, control)
     points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)

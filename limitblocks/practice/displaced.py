@@ -245,10 +245,14 @@ def _screw_shift(displacements: Array) -> Array:
 
 
 def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
-    """Return the interface on the face that its closed corners rest on; a tie between its anchors."""
+    """Return the interface on the face that its closed corners rest on; a tie between its anchors.
+
+    A strip is normal to its joint, half way between both blocks: its line as the joint turns about an edge.
+    """
     axes = own.half_way
-    if own.tied:
-        n = own.on_j[0] - own.on_i[0]
+    joint = own.interface.joint
+    if isinstance(joint, Tie):
+        n = own.on_j[0] - own.on_i[0] if joint.length else axes[2]
         n = n / np.linalg.norm(n)
         s1 = axes[0] - (axes[0] @ n) * n
         s1 = s1 / np.linalg.norm(s1)

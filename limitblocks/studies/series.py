@@ -55,7 +55,11 @@ def directions(
         If a direction is wrong, or the live load cannot be turned.
     """
     checked_model(model)
-    given = compass(directions) if isinstance(directions, int) else _table(directions, 3, "directions")
+    given = (
+        compass(int(directions))
+        if isinstance(directions, int | np.integer)
+        else _table(directions, 3, "directions")
+    )
     units = [unit_vector(direction, "direction") for direction in given.tolist()]
     loads = live or (lambda direction: turned(model.live, direction))
     if live is None:

@@ -216,7 +216,5 @@ def test_a_model_and_its_result_the_other_way_round_are_told(tmp_path):
     ):
         told = run(*arguments)
         assert told.exit_code == 2
-        assert (
-            told.stderr.replace(f"{tmp_path}/", "")
-            == f"error: {said}; the model comes first, then the result\n"
-        )
+        assert told.stderr.endswith(f"{said}; the model comes first, then the result\n")
+        assert told.stderr.count("error") == 1

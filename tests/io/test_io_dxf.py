@@ -206,10 +206,10 @@ def test_files_that_are_no_dxf(tmp_path):
     for data, expected in (
         (b"", "is empty"),
         (b"AC1032\0\0\0", "DWG"),
-        (b"garbage" * 100, "not sound DXF"),
+        (b"garbage" * 100, "is not a DXF file: it does not begin as one"),
         (good[: len(good) // 2], "not sound DXF"),
         (good.replace(b"EOF\n", b""), "not sound DXF"),
-        (bytes(range(256)) * 10, "not sound DXF"),
+        (bytes(range(256)) * 10, "is not a DXF file: it does not begin as one"),
     ):
         path = tmp_path / "a.dxf"
         path.write_bytes(data)

@@ -150,7 +150,7 @@ DAMAGE = {
     "obj vertex without numbers": (
         "text.obj",
         lambda d: changed(d, b"v 0.0", b"v\nv 0.0"),
-        "'v' cannot be read",
+        "'v' cannot be read: a vertex has three numbers",
     ),
     "obj vertex to come": ("text.obj", lambda d: changed(d, b"f 1 ", b"f 999 "), "vertex 999"),
     "obj without faces": ("text.obj", lambda _: b"v 0 0 0\nv 1 0 0\n", "no solid"),
@@ -224,6 +224,17 @@ DAMAGE = {
         "same folder",
     ),
 }
+
+
+@pytest.mark.parametrize("form", ["text.obj", "text.stl", "text.gltf"])
+def test_text_may_begin_with_a_byte_order_mark(form, files, tmp_path):
+    path = tmp_path / form
+    path.write_bytes(b"\xef\xbb\xbf" + files[form])
+    (tmp_path / "plain").mkdir()
+    plain = tmp_path / "plain" / form
+    plain.write_bytes(files[form])
+    told = [[block.name for block in lb.files.read_blocks(file).blocks] for file in (path, plain)]
+    assert told[0] == told[1]
 
 
 @pytest.mark.parametrize("name", DAMAGE)
