@@ -9,7 +9,16 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
-from limitblocks.practice import PartialFactors, adequacy, answered, capacity_curve, reinforced, strip, tie
+from limitblocks.practice import (
+    PartialFactors,
+    adequacy,
+    answered,
+    capacity_curve,
+    dowel,
+    reinforced,
+    strip,
+    tie,
+)
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -282,6 +291,18 @@ def test_a_strip_stays_on_its_joint(across, at, arm):
     held = force * arm * np.cos(phi / 2) / (weight * lever)
     assert curve.load_factors == pytest.approx(np.tan(np.arctan(B / H) - phi) + held, abs=1e-9)
     assert curve.zero is not None
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_dowel_shears_off_as_its_joint_slides(order):
+    """alpha = mu + F / W before, mu from then on."""
+    model = lb.structures.block(lb.PointContact(0.2), width=1.0, height=0.4)
+    pin = dowel(model.interfaces[0], model.interfaces[0].centroid, diameter=0.05, capacity=800.0)
+    held = reinforced(model, pin)
+    curve = capacity_curve(replace(held, interfaces=held.interfaces[::order]), steps=2, largest=0.05)
+    assert curve.load_factors == pytest.approx([0.3] + [0.2] * (len(curve.points) - 1), rel=1e-6)
+    assert curve.points[1].changes == (f"{pin.interface.name} shears off",)
+    assert [own.joint for own in curve.points[-1].model.interfaces] == [lb.PointContact(0.2)]
 
 
 def test_a_strip_across_a_joint_that_slides_does_not_bridge_the_way():
