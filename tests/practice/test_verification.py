@@ -104,7 +104,7 @@ def test_ground_accelerations_of_the_linear_checks(facade, answer):
 
 
 def test_acceleration_on_the_capacity_curve(facade, answer, curve):
-    """[C8.7.1.3]: that of the displaced wall, beside the straight line; never more than tan(atan alpha - phi)."""
+    """[C8.7.1.3]: that of the displaced wall, beside the straight line."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve, damping=(0.05, 0.07))
     scale = G / (found["e*"] * FC)
     assert found["a*_SLV,c"] == pytest.approx(_least_at(curve, 0.4 * curve.zero) * scale)
@@ -127,8 +127,7 @@ def test_between_the_points_of_a_curve_the_load_factor_is_on_the_safe_side(curve
         return replace(curve, points=points)
 
     for at in np.linspace(0.01, 0.99, 50):
-        upwards = (1.0 - at) ** 1.2
-        assert _least_at(of((1.0 - d) ** 1.2), at) <= upwards < np.interp(at, d, (1.0 - d) ** 1.2)
+        assert _least_at(of((1.0 - d) ** 1.2), at) <= (1.0 - at) ** 1.2 + 1e-12
         assert _least_at(of(1.0 - d**2), at) == pytest.approx(np.interp(at, d, 1.0 - d**2))
 
 
