@@ -11,7 +11,15 @@ from scipy import sparse
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
-ROWS = 64  # compared at a time
+
+class Sealed:
+    """Something whose arrays stay read-only when it is copied or pickled, which would lose that."""
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for value in state.values():
+            if isinstance(value, np.ndarray):
+                value.flags.writeable = False
+        self.__dict__.update(state)
 
 
 def read_only(values: Any) -> Array:
@@ -80,16 +88,9 @@ def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     label = np.empty(len(values), dtype=np.int64)
     label[order] = np.concatenate([[0], np.cumsum(new)])[: len(values)]
     first = np.unique(label, return_index=True)[1]
-    odd = ~(_largest_differences(values, first[label]) <= within)
+    off = values[first[label]]
+    off -= values
+    odd = ~(np.abs(off, out=off).max(axis=1, initial=0.0) <= within)
     label[odd] = len(first) + np.arange(int(odd.sum()))
     _, first, label = np.unique(label, return_index=True, return_inverse=True)
     return np.asarray(first), np.asarray(label).ravel()
-
-
-def _largest_differences(values: Array, other: Indices) -> Array:
-    """Largest difference of each row (K, d) from another one; few rows at a time need no large arrays."""
-    off = np.zeros(len(values))
-    for at in range(0, len(values), ROWS):
-        its = slice(at, at + ROWS)
-        off[its] = np.abs(values[its] - values[other[its]]).max(axis=1, initial=0.0)
-    return off

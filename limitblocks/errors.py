@@ -132,6 +132,14 @@ def refuse_kind(value: object, kind: type, word: str) -> None:
         raise ModelError(f"{word} is a {type(value).__name__}, expected {kind.__name__}")
 
 
+def refuse_no_function(maker: object) -> None:
+    """Raise ModelError where what is to make models, `maker`, cannot be called, as a model cannot."""
+    if not callable(maker):
+        raise ModelError(
+            f"maker is a {type(maker).__name__}, expected a function that gives the model of a value"
+        )
+
+
 def near(name: str, known: Iterable[str]) -> str:
     """Return '; did you mean ...?', or nothing where no known name is like `name`."""
     letters = {one.casefold(): one for one in known}

@@ -11,13 +11,15 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from limitblocks.arrays import Sealed
+
 
 def many(number: int, word: str, words: str = "") -> str:
     """Return "1 block" or "2 blocks"; `words` where the plural takes more than an s."""
     return f"{number} {word if number == 1 else words or word + 's'}"
 
 
-class Shown:
+class Shown(Sealed):
     """A line as its repr; in a notebook a small table and a picture."""
 
     def __repr__(self) -> str:

@@ -11,7 +11,11 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
+import numpy as np
+
 from limitblocks.errors import LimitBlocksError, ModelError
+
+_FLOATS = ("float", str(float), "float | None")  # kinds of fields, as they are annotated
 
 
 def refuse_existing(files: Iterable[Path], overwrite: bool) -> None:
@@ -54,8 +58,13 @@ def tagged(settings: Any) -> dict[str, Any]:
     if not is_dataclass(settings) or isinstance(settings, type):
         raise ModelError(f"{settings!r} cannot be written to a file: it is not a dataclass")
     values = {"type": type(settings).__name__} | asdict(settings)
-    # friction=1 and friction=1.0 are one model
-    return values | {f.name: float(values[f.name]) for f in fields(settings) if f.type in ("float", float)}
+    return values | {f.name: _plain(f.type, values[f.name]) for f in fields(settings)}
+
+
+def _plain(kind: Any, value: Any) -> Any:
+    """A value of a field as JSON has it; friction=1 and friction=1.0 are one model."""
+    value = value.item() if isinstance(value, np.generic) else value
+    return float(value) if str(kind) in _FLOATS and value is not None else value
 
 
 def _exists(path: Path) -> LimitBlocksError:

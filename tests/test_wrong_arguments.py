@@ -1,12 +1,18 @@
 """What a newcomer gives by mistake is named, with what would be right."""
 
+import copy
+import pickle
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve
+from limitblocks.practice.advance import farthest
 from limitblocks.reports.words import together
+
+JOINT = lb.PointContact(0.6)
 
 
 @pytest.fixture(scope="module")
@@ -88,6 +94,14 @@ def test_notes_on_many_blocks_are_one():
             lambda model: capacity_curve(model, control="wall 1.1"),
             "control is 'wall 1.1', expected a block and",
         ),
+        (lambda model: lb.studies.sweep(model, [0.5]), "maker is a Model, expected a function"),
+        (lambda model: lb.studies.minimum(model, 0.1, 0.9), "maker is a Model, expected a function"),
+        (lambda model: lb.find_interfaces(model.blocks[0], JOINT), "blocks is <block .*expected a sequence"),
+        (lambda model: lb.heal("wall.obj"), "blocks is 'wall.obj', expected a sequence of Block"),
+        (
+            lambda model: lb.find_contacts(model.blocks, lb.PointContact),
+            "joint is the class PointContact, exp",
+        ),
         (lambda model: lb.studies.directions(model.live, 4), "model is a Load, expected a Model"),
         (lambda model: lb.studies.moving_load("m.json", (0, 0, -1.0), [(0, 0)]), "model is a str, expected"),
     ],
@@ -95,3 +109,76 @@ def test_notes_on_many_blocks_are_one():
 def test_arguments_of_an_analysis_are_refused_by_name(wall, ask, said):
     with pytest.raises(lb.ModelError, match=said):
         ask(wall)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"length": "1.6"}, "length is '1.6', expected a number > 0"),
+        ({"courses": 2.0}, "courses is 2.0, expected a whole number of at least 1"),
+        ({"openings": "door"}, r"openings are 'door', expected \(left, sill, width, height\)"),
+        ({"openings": (0.4, 0.0, 0.4, 0.2)}, "openings are .*expected"),
+    ],
+)
+def test_measures_of_a_structure_are_refused_by_name(given, said):
+    with pytest.raises(lb.ModelError, match=said):
+        lb.structures.wall(JOINT, **({"length": 1.6, "courses": 2} | given))
+
+
+def test_a_figure_of_a_result_without_its_model(wall):
+    pytest.importorskip("matplotlib")
+    result = lb.nonassociated(wall)
+    for draw in (lambda: lb.plots.structure(result), lambda: lb.plots.thrust_line(result, wall)):
+        with pytest.raises(lb.ModelError, match="model is a Nonassociated, expected a Model"):
+            draw()
+    with pytest.raises(lb.ModelError, match="sensitivities is a Nonassociated, expected Sensitivities"):
+        lb.plots.sensitivity(wall, result)
+
+
+def test_a_mass_is_no_load():
+    mass = lb.loads.added_mass("wall 1.1", (0, 0, 0), weight=1e3)
+    with pytest.raises(lb.ModelError, match=r"cannot be added to a load; masses go into self_weight\(\[mass"):
+        lb.self_weight() + mass
+    with pytest.raises(lb.ModelError, match=r"added is AddedMass.*expected a sequence of AddedMass"):
+        lb.self_weight(mass)
+
+
+NUMBERS = [int, float, np.float32, np.float64, np.int32, np.int64]
+
+
+@pytest.mark.parametrize("kind", NUMBERS)
+def test_a_number_is_one_whatever_its_kind(kind, tmp_path):
+    """As numpy and tables give them: 3000000 Pa is 3e6 Pa, in the digest of a model and in its file."""
+    model, other = (
+        lb.structures.block(lb.OrdunaLourenco(0.5, compressive_strength=strength), width=1, height=kind(2))
+        for strength in (kind(3_000_000), 3e6)
+    )
+    assert model.digest == other.digest == lb.read(model.save(tmp_path / "block.json")).digest
+    bounds = lb.bounds(model, tolerance=np.float32(1e-6))
+    kept = lb.read_result(bounds.save(tmp_path / "bounds.json"), other)
+    assert kept.lower == bounds.lower
+    lb.report(model, bounds, demand=kind(1)).save(tmp_path / "report.json")
+    assert len(lb.studies.directions(model, np.int64(2)).load_factors) == 2
+    assert farthest(kind(1), "displacement") == 1.0
+
+
+def test_the_seed_of_a_study_may_be_of_numpy(tmp_path):
+    def made(friction):
+        return lb.structures.block(lb.PointContact(friction), width=1.0, height=2.0)
+
+    between = {"friction": (np.float32(0.4), np.float32(0.6))}
+    kept = [
+        lb.study(made, between, np.int64(2), seed=s, file=tmp_path / "s.jsonl").table()
+        for s in (np.int64(1), 1)
+    ]
+    assert kept[0] == kept[1]
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+def test_copies_are_as_read_only_as_what_they_are_of(wall, again):
+    """A block whose vertices are written to keeps its centroid, its volume and the digest of the model."""
+    model, result = again((wall, lb.nonassociated(wall)))
+    for array in (model.blocks[0].vertices, model.interfaces[0].centroid, result.stress_resultants):
+        with pytest.raises(ValueError, match="read-only"):
+            array[...] = 1.0
+    assert model.digest == wall.digest

@@ -34,12 +34,15 @@ class Stresses:
     def equations(self) -> Mapping[str, object]:
         """Settings of Clarabel's linear equations.
 
-        Pivots of stresses may vanish: its own replacement of those alone disturbs least. Not so in a plane,
-        where as many rows as stresses act on each joint.
+        Pivots of stresses may vanish: its own replacement of those alone disturbs least, in a plane by a
+        larger number than its own. Not so where as many rows as stresses act on each joint of a plane.
         """
         square = not self.refined and self.problem.F.shape[0] == self.problem.F.shape[1]
-        added = 1e-8 if square else 1e-14
-        return {"static_regularization_constant": added, "iterative_refinement_enable": self.refined}
+        return {
+            "static_regularization_constant": 1e-8 if square else 1e-14,
+            "dynamic_regularization_delta": 2e-7 if self.refined else 1e-6,
+            "iterative_refinement_enable": self.refined,
+        }
 
     def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""

@@ -15,6 +15,7 @@ from io import TextIOWrapper
 import typer
 
 from limitblocks.cli import bridges, documents, practice, verbs
+from limitblocks.cli.errors import Verbs
 from limitblocks.cli.examples import examples
 from limitblocks.cli.importing import import_blocks
 from limitblocks.cli.later import Later
@@ -24,6 +25,7 @@ from limitblocks.cli.studies import studies
 from limitblocks.cli.vectors import Command
 
 app = typer.Typer(
+    cls=Verbs,
     help="Limit analysis of structures made of rigid blocks, with evidence for every answer.",
     no_args_is_help=True,
     rich_markup_mode=None,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 import threading
 from collections.abc import Iterator
@@ -11,10 +12,14 @@ from pathlib import Path
 from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
 from limitblocks.errors import CheckFailed, LimitBlocksError, ModelError, SolveError
 
 INTERRUPTED = 130  # as shells say it: 128 and the number of the signal
+_EXPECTED = {"float_parsing": "expected a number", "int_parsing": "expected a whole number"}
+_EXPECTED |= {"int_from_float": "expected a whole number"}
+_DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+([eE][+-]?\d+)?")
 
 
 @contextmanager
@@ -32,6 +37,33 @@ def clean_errors() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("interrupted, with nothing to write yet", err=True)
         raise typer.Exit(INTERRUPTED) from None
+
+
+class Verbs(TyperGroup):
+    """The commands, with the value in front of what typer says of an option that is wrong."""
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; complete its complaint."""
+        try:
+            return super().invoke(ctx)
+        except typer.BadParameter as error:
+            faults: list[dict[str, Any]] = getattr(
+                error.__cause__, "errors", list
+            )()  # of pydantic, by which typer reads numbers
+            if faults:
+                error.message = _wrong_value(faults[0])
+            raise
+
+
+def _wrong_value(fault: dict[str, Any]) -> str:
+    """What is wrong with the value of an option, in words."""
+    given, kind, said = fault["input"], fault["type"], str(fault["msg"])
+    if kind == "value_error":  # names it already
+        return said.removeprefix("Value error, ")
+    expected = _EXPECTED.get(kind) or said.replace("Input should be", "expected a number")
+    comma = kind == "float_parsing" and _DECIMAL_COMMA.fullmatch(given)
+    point = f"; decimals stand after a point, as in {given.replace(',', '.')}" if comma else ""
+    return f"{given!r}: {expected}{point}"
 
 
 @contextmanager

@@ -11,7 +11,6 @@ import typer
 from limitblocks.cli.errors import clean_errors
 from limitblocks.cli.options import AsJson, BlocksFile, Thickness, TwistedFaces, Units, Up
 from limitblocks.errors import few
-from limitblocks.shown import many
 
 if TYPE_CHECKING:
     from limitblocks.geometry.twisted import Twisted
@@ -52,6 +51,8 @@ def look(
 
 
 def _rows(seen: Look) -> list[tuple[str, str]]:
+    from limitblocks.shown import many  # here, to keep --help quick
+
     low, high = seen.bounding_box
     volumes = sorted(block.volume for block in seen.blocks)
     spread = f"{volumes[0]:.3g} to {volumes[-1]:.3g}, median {volumes[len(volumes) // 2]:.3g} m³"

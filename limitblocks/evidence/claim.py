@@ -129,7 +129,8 @@ def claim_of(model: Model, result: Any) -> Claim:
     stresses, rows = problem.C.shape[0], len(problem.g)
     expected = ((len(model.interfaces), 6), (len(model.blocks), 6), (rows,), (stresses,), (stresses,))
     for name, shape in zip(ARRAYS, expected, strict=True):
-        shapes[name] = _array(name, getattr(result, name, None), shape)
+        value = getattr(result, name, None)
+        shapes[name] = None if value is None else real_array(name, value, shape)
     dilatancy = real_number("dilatancy", getattr(result, "dilatancy", 0.0), infinite=True)
     if dilatancy < 0.0:
         raise ModelError(f"dilatancy is {dilatancy!r}, expected 0 or more; infinite means associated flow")
@@ -147,10 +148,8 @@ def claim_of(model: Model, result: Any) -> Claim:
     )
 
 
-def _array(name: str, value: Any, shape: tuple[int, ...]) -> Array | None:
-    """`value` as a real and finite array of this shape, None if it is missing."""
-    if value is None:
-        return None
+def real_array(name: str, value: Any, shape: tuple[int, ...]) -> Array:
+    """Return `value` as an array of this shape; raise ModelError unless it is real and finite."""
     array = _real(name, value)
     if array.shape != shape:
         raise ModelError(f"{name} has shape {array.shape}, expected {shape} for this model")

@@ -11,6 +11,8 @@ import numpy.typing as npt
 from limitblocks.arrays import Array
 from limitblocks.shown import Result, many
 
+ROUNDING = 1e-9  # of the load factor: a change that is none
+
 
 @dataclass(frozen=True, eq=False)
 class LoadPosition:
@@ -105,21 +107,29 @@ class Sensitivities(Result):
         return np.asarray(self.unit_weight * self.weights)
 
     def governing(self, n: int = 10) -> tuple[Influence, ...]:
-        """Return the `n` joints and stones whose friction or unit weight matters most, the largest first."""
-        found = [
-            Influence("friction", *pair) for pair in zip(self.interfaces, self.of_interfaces, strict=True)
-        ]
-        found += [Influence("unit weight", *pair) for pair in zip(self.blocks, self.of_blocks, strict=True)]
-        found = [Influence(one.kind, one.name, float(one.elasticity)) for one in found]
-        return tuple(sorted(found, key=lambda one: -abs(one.elasticity))[:n])
+        """Return at most `n` joints and stones whose friction or unit weight matters most, the largest first.
+
+        Those whose share is rounding, below 1e-9 of the load factor, are left out.
+        """
+        least = ROUNDING * abs(self.load_factor)
+        return tuple(one for one in self._influences()[:n] if abs(one.elasticity) > least)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each joint and stone, the one that matters most first."""
-        found = self.governing(len(self.blocks) + len(self.interfaces))
-        return [{"kind": one.kind, "name": one.name, "elasticity": one.elasticity} for one in found]
+        return [
+            {"kind": one.kind, "name": one.name, "elasticity": one.elasticity} for one in self._influences()
+        ]
+
+    def _influences(self) -> list[Influence]:
+        """All of them, the largest first."""
+        frictions = zip(self.interfaces, self.of_interfaces.tolist(), strict=True)
+        weights = zip(self.blocks, self.of_blocks.tolist(), strict=True)
+        found = [Influence("friction", *pair) for pair in frictions]
+        found += [Influence("unit weight", *pair) for pair in weights]
+        return sorted(found, key=lambda one: -abs(one.elasticity))
 
     def __str__(self) -> str:
-        first = "; ".join(map(str, self.governing(3)))
+        first = "; ".join(map(str, self.governing(3))) or "no friction or unit weight changes it"
         sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
         if self.unique and not self.agreed.all():
             sides = f"; by the friction of {many(int((~self.agreed).sum()), 'joint')} it may be one-sided"

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, read_only
+from limitblocks.arrays import Array, Indices, Sealed, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import given, polyhedron, surface
 from limitblocks.geometry.polyhedron import Faces, Mesh, Shape
@@ -23,7 +23,7 @@ _BOX_FACES = ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Block:
+class Block(Sealed):
     """Rigid polyhedron with planar faces; it may be non-convex, with holes through it and cavities inside.
 
     Parameters

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import polygon
 from limitblocks.geometry.accuracy import ANGLE, GAP, Accuracy, block_length, chosen
 from limitblocks.geometry.block import Block
@@ -114,6 +114,11 @@ def find_contacts(
     ModelError
         Blocks have the same name, or a tolerance is out of range.
     """
+    if isinstance(joint, type):
+        raise ModelError(
+            f"joint is the class {joint.__name__}, expected one made of it: {joint.__name__}(...)"
+        )
+    blocks = sequence_of("blocks", blocks, Block)
     _refuse_same_names(blocks)
     names = [block.name for block in blocks]
     if len(blocks) < 2:

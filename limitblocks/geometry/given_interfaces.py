@@ -24,8 +24,9 @@ def interface_faults(interfaces: Sequence[Interface]) -> list[str]:
     faults, alike = {}, defaultdict(list)
     for k, one in enumerate(interfaces):
         shape = np.shape(one.polygon)
-        if type(one.joint).__hash__ is None:
-            faults[k] = f"joint {type(one.joint).__name__} cannot be hashed; make it a frozen dataclass"
+        if not _hashable(one.joint):
+            kind = type(one.joint).__name__
+            faults[k] = f"joint {kind} cannot be hashed; expected a frozen dataclass, or Materials.between"
         elif np.shape(one.centroid) == (3,) and np.shape(one.axes) == (3, 3) and shape[1:] == (2,):
             alike[shape[0]].append(k)
         else:
@@ -36,6 +37,14 @@ def interface_faults(interfaces: Sequence[Interface]) -> list[str]:
         faults |= {k: fault for k, fault in zip(places, _faults(*numbers), strict=True) if fault}
     said = [f"interface {interfaces[k].name}: {faults[k]}" for k in sorted(faults)]
     return said or _given_twice(interfaces)
+
+
+def _hashable(joint: object) -> bool:
+    try:  # a frozen dataclass has a hash, unless it holds a dictionary
+        hash(joint)
+    except TypeError:
+        return False
+    return True
 
 
 def _faults(axes: Array, polygon: Array) -> list[str]:

@@ -11,7 +11,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, Indices, first_tied, sums
-from limitblocks.errors import GeometryError, ModelError
+from limitblocks.errors import GeometryError, ModelError, sequence_of
 from limitblocks.geometry.accuracy import GAPS, Accuracy, Tolerances, block_length, chosen, millimetres
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.contact import find_contacts
@@ -104,6 +104,7 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     ModelError
         The accuracy is not positive, or it is not given and there are too few joints to tell it.
     """
+    blocks = sequence_of("blocks", blocks, Block)
     centre = np.mean([block.vertices.mean(axis=0) for block in blocks], axis=0) if blocks else np.zeros(3)
     length = block_length(blocks) if blocks else 1.0
     shown = Accuracy.shown(blocks)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Sealed
 from limitblocks.geometry.polygon import areas
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Interface:
+class Interface(Sealed):
     """Plane contact polygon between block i and block j (the paper's Fig. 10).
 
     Attributes

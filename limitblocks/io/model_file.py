@@ -72,7 +72,10 @@ def model_schema() -> dict[str, Any]:
 def _document(text: str) -> ModelDocument:
     from limitblocks.io.documents import ModelDocument  # here, to keep `import limitblocks` quick
 
-    return faults.validated(ModelDocument, text, strict_json.parse(text))
+    data = strict_json.parse(text)
+    if isinstance(data, dict) and "blocks" not in data and data.keys() & {"analysis", "stress_resultants"}:
+        raise ModelError("is a result, not a model; the model comes first, then the result")
+    return faults.validated(ModelDocument, text, data)
 
 
 def _model(document: ModelDocument) -> Model:

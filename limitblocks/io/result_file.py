@@ -122,6 +122,8 @@ def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
 
 
 def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
+    if isinstance(data, dict) and "blocks" in data and "stress_resultants" not in data:
+        raise ModelError("is a model, not a result; the model comes first, then the result")
     word = data.get("analysis") if isinstance(data, dict) else None
     kind = KINDS.get(word) if isinstance(word, str) else None
     if word == "study" or (kind and not kind.document):

@@ -10,6 +10,8 @@ from math import isfinite
 from pathlib import Path
 from typing import Any, NoReturn
 
+import numpy as np
+
 from limitblocks.errors import ModelError
 
 #: Largest file accepted, bytes.
@@ -56,6 +58,8 @@ def read_text(path: Path) -> str:
     try:
         text = data.decode("utf-8-sig")  # editors on Windows write a byte order mark
     except UnicodeDecodeError as error:
+        if data.startswith((b"\xff\xfe", b"\xfe\xff")):  # as the shell of Windows writes
+            raise ModelError("is UTF-16 text; save it as UTF-8") from None
         raise ModelError(f"is not UTF-8 text: byte {error.start} cannot be decoded") from None
     if not text.strip():  # a byte order mark alone
         raise ModelError("is empty; expected JSON")
@@ -94,7 +98,8 @@ def text(value: Any) -> str:
 
 
 def finite(value: Any) -> Any:
-    """Return `value` with null for NaN and infinities."""
+    """Return `value` with null for NaN and infinities; numbers of numpy are those of Python."""
+    value = value.item() if isinstance(value, np.generic) else value
     if isinstance(value, dict):
         return {key: finite(part) for key, part in value.items()}
     if isinstance(value, list | tuple):

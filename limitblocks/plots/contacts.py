@@ -125,8 +125,8 @@ def thrust_line(
     LimitBlocksError
         If the result belongs to another model.
     """
-    order = chain(model)
     interfaces = states.interface_states(model, result)
+    order = chain(model)
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
     line = interfaces.centre_of_pressure[order]

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from limitblocks.errors import LimitBlocksError, ModelError, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.plots.style import (
     BLACK,
     BLUE,
@@ -105,7 +105,7 @@ def load_path(
     LimitBlocksError
         If the path belongs to another model, or the block or the component is unknown.
     """
-    refuse_kind(model, Model, "model")
+    checked_model(model)
     refuse_kind(path, LoadPath, "path")
     if path.collapse.digest != model.digest:
         raise LimitBlocksError("this LoadPath belongs to another model; give the model it is a result of")

@@ -9,7 +9,7 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
 from limitblocks.arrays import Array
-from limitblocks.errors import LimitBlocksError
+from limitblocks.errors import LimitBlocksError, refuse_kind
 from limitblocks.evidence.sensitivity_result import Sensitivities
 from limitblocks.model import Model
 from limitblocks.plots.style import EDGE, PALE, SUPPORT, number
@@ -44,6 +44,7 @@ def sensitivity(
     LimitBlocksError
         If the sensitivities belong to another model.
     """
+    refuse_kind(sensitivities, Sensitivities, "sensitivities")
     if sensitivities.digest != model.digest:
         raise LimitBlocksError("these sensitivities belong to another model; give the model they are of")
     drawn = canvas(model, ax, plane)

@@ -9,7 +9,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.view import PLANES, towards, view_of
 from limitblocks.errors import LimitBlocksError
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.plots.drawing import Canvas
 from limitblocks.plots.style import new_axes, room
 
@@ -20,6 +20,7 @@ def canvas(model: Model, ax: Any, plane: str | None, rates: Array | None = None)
     Without a plane, `ax` decides; without `ax` too, models whose contacts and loads lie in one vertical plane
     are drawn in elevation, others axonometrically, from the side to which displacement `rates` move them.
     """
+    checked_model(model)
     if plane not in (None, "3d", *PLANES):
         known = ", ".join(map(repr, (*PLANES, "3d")))
         raise LimitBlocksError(f"plane is {plane!r}, expected one of {known}")

@@ -18,7 +18,7 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import joint_of
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.shown import Result, many
 
@@ -131,7 +131,6 @@ def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool =
     LimitBlocksError
         As :func:`~limitblocks.bounds` and :func:`~limitblocks.nonassociated`.
     """
-    refuse_kind(factors, PartialFactors, "factors")
     design = design_model(model, factors)
     values = tuple(_values(model, factors))
     try:
@@ -150,6 +149,8 @@ def design_model(model: Model, factors: PartialFactors) -> Model:
     ModelError
         If a joint has no strengths that the factors divide, or a tie, a dowel or passive fill has no gamma_S.
     """
+    checked_model(model)
+    refuse_kind(factors, PartialFactors, "factors")
     made = {joint: _design(joint, factors) for joint in _joints(model)}
     interfaces = [replace(one, joint=made[one.joint]) for one in model.interfaces]  # type: ignore[index]
     dead, live = factors.gamma_G * model.dead, factors.gamma_Q * model.live

@@ -10,12 +10,13 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load, triple, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
-from limitblocks.practice.rejoined import closed_up, meet, slid
+from limitblocks.practice.rejoined import closed_up, joined, meet, slid
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
@@ -37,14 +38,17 @@ class Advanced:
 
 def farthest(largest: object, what: str) -> float:
     """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
-    if not isinstance(largest, int | float | np.integer) or not largest > 0.0:
+    if not isinstance(largest, int | float | np.integer | np.floating) or not largest > 0.0:
         raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
     return float(largest)
 
 
-def refuse_left_behind(what: str, **loads: Load) -> None:
-    """Raise ModelError for a load that stays behind when its block moves."""
-    for word, load in loads.items():
+def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
+    """Raise ModelError for a load of these names, or passive fill, that stays behind as its block moves."""
+    if any(isinstance(own.joint, Backfill) for own in model.interfaces):
+        raise ModelError(f"passive fill does not move with the blocks; a {what} needs a structure without it")
+    for word in words:
+        load: Load = getattr(model, word)
         for _, term in load.terms:
             if not isinstance(term, FOLLOWS):
                 raise ModelError(
@@ -109,12 +113,26 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
             meets &= ~closes
         if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
             now = [own.ways[:, 2] for own in goal.contacts]
+            goal, lost = _parted(goal, sliding, least)
             there, said = slid(goal, sliding)
-            return there, _changes(assembly, was, now, least) + said
+            return there, _changes(assembly, was, now, least) + lost + said
         closes &= meets
         secant = (before[closes] / (before - gap)[closes]).min() if closes.any() else 0.5
         share, trials = share * (secant if trials < SECANTS else min(secant, 0.5)), trials + 1
     return None
+
+
+def _parted(assembly: Assembly, sliding: list[bool], least: float) -> tuple[Assembly, tuple[str, ...]]:
+    """The structure without the bond of the contacts that have opened or slide, and a sentence for each."""
+    moves = [
+        slides or own.ways[:, 2].max() > least for own, slides in zip(assembly.contacts, sliding, strict=True)
+    ]
+    lost = [bool(own.bond) and one for own, one in zip(assembly.contacts, moves, strict=True)]
+    if not any(lost):
+        return assembly, ()
+    contacts = [own.parted if one else own for own, one in zip(assembly.contacts, lost, strict=True)]
+    said = [f"{own.interface.name} loses its bond" for own, one in zip(contacts, lost, strict=True) if one]
+    return Assembly(joined(assembly, contacts), tuple(contacts)), tuple(said)
 
 
 def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:

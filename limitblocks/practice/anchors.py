@@ -8,6 +8,7 @@ from limitblocks.geometry import Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length, millimetres
 from limitblocks.geometry.distance import distance
 from limitblocks.joints import Tie
+from limitblocks.mechanics.loads.load import some
 from limitblocks.model import Model
 
 
@@ -26,7 +27,10 @@ def anchors_off(model: Model, tie: Interface) -> Iterator[str]:
     for block in model.free_blocks:
         if block.name in ends and (away := distance(block, ends[block.name])) > most:
             at = ", ".join(f"{x:.4g}" for x in ends[block.name])
+            there = [one.name for one in model.blocks if distance(one, ends[block.name]) <= most]
             yield (
                 f"{tie.name}: its anchor at ({at}) is {millimetres(away)} off block {block.name!r}, expected "
                 f"in or on it, within {millimetres(most)}; in a support it may lie anywhere"
+                + f"; that point is in {some(there)}"
+                * bool(there)
             )

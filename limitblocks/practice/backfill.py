@@ -13,7 +13,7 @@ from limitblocks.geometry import Interface
 from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads import Fill
 from limitblocks.mechanics.loads.load import number, unit_vector
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import CORNERS, Element, axes_of
 
 STEEP = 1e-9  # slope of a face along the deck that counts as none
@@ -59,6 +59,7 @@ def passive_fill(
     ModelError
         If a number is out of range or no block lies under the fill with a face that leans along the deck.
     """
+    checked_model(model)
     number(coefficient, "coefficient of passive pressure", "", above=0.0)
     number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
     d = np.array(unit_vector(along, "direction along the deck"))

@@ -12,7 +12,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.joints.base import checked_count
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import (
     STILL,
@@ -55,7 +55,7 @@ def capacity_curve(
     moves the blocks by finite screws, and the contacts that it does not open are brought together again.
     An interface that has opened turns about the corners that are closed, its normal that of the face on which
     they rest, half way between both where edges meet; faces that slide flat on one another get the area that
-    they then share.
+    they then share. A joint that has opened or slid has no cohesion and no tensile strength any more.
 
     Parameters
     ----------
@@ -77,14 +77,15 @@ def capacity_curve(
     Raises
     ------
     ModelError
-        If a load stays behind when its block moves, the control point does not move along the live load, or a
-        number is out of range.
+        If a load or passive fill stays behind as its block moves, the control point does not move along the
+        live load, or a number is out of range.
     SolveError
         As :func:`~limitblocks.nonassociated` at the first point; later the curve ends, and says why.
     """
+    checked_model(model)
     checked_count("steps", steps, 2)
     farthest(largest, "displacement")
-    refuse_left_behind("capacity curve", dead=model.dead, live=model.live)
+    refuse_left_behind("capacity curve", model, ("dead", "live"))
     first = nonassociated(model)
     point = _control(model, first, control)
     points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)

@@ -50,7 +50,7 @@ class CapacityPoint:
     result : Nonassociated
         Its checked answer without dilatancy.
     changes : tuple of str
-        Contacts that opened or closed on the way from the point before.
+        Contacts that opened, closed or lost their bond on the way from the point before.
     across : tuple of str
         Joints that press across a gap: a hinge that has moved elsewhere leaves an opened joint behind, and
         nothing but a motion that closes it could press there. The load factor is then one of a structure

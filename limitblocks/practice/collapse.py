@@ -11,10 +11,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
 from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, stopped
-from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
@@ -70,12 +69,14 @@ def settlement_to_collapse(
     Raises
     ------
     ModelError
-        If a load stays behind when its block moves, or as :func:`~limitblocks.practice.settlement`.
+        If a load or passive fill stays behind as its block moves, or as
+        :func:`~limitblocks.practice.settlement`.
     SolveError
         As :func:`~limitblocks.practice.settlement` at the first point; later the curve ends, and says why.
     """
-    refuse_left_behind("settlement until collapse", dead=model.dead)
-    assembly = moving.assembly_of(fill_at_rest(model, support))
+    checked_model(model)
+    refuse_left_behind("settlement until collapse", model, ("dead",))
+    assembly = moving.assembly_of(model)
     size = assembly.size
     step = number(STEP * size if step is None else step, "step", "m", above=0.0)
     accuracy = number(ACCURACY * size if accuracy is None else accuracy, "accuracy", "m", above=0.0)

@@ -25,7 +25,7 @@ class SettlementPoint:
     found : Settlement
         Least reaction of the structure as it then is, with its evidence and mechanism.
     changes : tuple of str
-        Contacts that opened or closed on the way from the point before.
+        Contacts that opened, closed or lost their bond on the way from the point before.
     across : tuple of str
         Joints that press across a gap; the structure is then one whose gaps are filled.
     """

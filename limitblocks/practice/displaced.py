@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,8 @@ from limitblocks.practice.resting import half_way, resting_axes, rims_at
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
 RIM = 1e-6  # of the size of a joint: a corner as near to the rim of a face is at it
 EVEN = 1e-3  # sine of an angle: a rim nearer to the way across a hinge does not end the face there
+
+BOND = ("cohesion", "tensile_strength")  # strengths of a joint that hold until it moves
 
 Truths = npt.NDArray[np.bool_]
 Pulls = dict[tuple[str, Vector], tuple[Array, PointForce]]
@@ -103,6 +106,18 @@ class Contact:
     def tied(self) -> bool:
         """True of a tie."""
         return isinstance(self.interface.joint, Tie)
+
+    @property
+    def bond(self) -> tuple[str, ...]:
+        """Names of the strengths that its joint has by a bond."""
+        return tuple(name for name in BOND if getattr(self.interface.joint, name, 0.0))
+
+    @property
+    def parted(self) -> Contact:
+        """The contact without its bond."""
+        joint: Any = self.interface.joint
+        bare = replace(joint, **dict.fromkeys(self.bond, 0.0)) if self.bond else joint
+        return replace(self, interface=replace(self.interface, joint=bare))
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,10 +245,14 @@ def _screw_shift(displacements: Array) -> Array:
 
 
 def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
-    """Return the interface on the face that its closed corners rest on; a tie between its anchors."""
+    """Return the interface on the face that its closed corners rest on; a tie between its anchors.
+
+    A strip is normal to its joint, half way between both blocks: its line as the joint turns about an edge.
+    """
     axes = own.half_way
-    if own.tied:
-        n = own.on_j[0] - own.on_i[0]
+    joint = own.interface.joint
+    if isinstance(joint, Tie):
+        n = own.on_j[0] - own.on_i[0] if joint.length else axes[2]
         n = n / np.linalg.norm(n)
         s1 = axes[0] - (axes[0] @ n) * n
         s1 = s1 / np.linalg.norm(s1)

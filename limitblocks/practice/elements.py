@@ -16,7 +16,7 @@ from limitblocks.joints.base import checked_count
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice.anchors import anchors_off
 
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
@@ -194,6 +194,7 @@ def reinforced(model: Model, *elements: Element) -> Model:
         If an element names a block that the model does not have, or joins two supports, or an anchor of a
         tie is off a block that can move.
     """
+    checked_model(model)
     for element in elements:
         refuse_kind(element, Element, "what a structure is reinforced with")
     known, supports = {block.name for block in model.blocks}, set(model.supports)

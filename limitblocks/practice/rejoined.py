@@ -13,6 +13,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.geometry import find_contacts
 from limitblocks.geometry.overlap import find_overlaps
+from limitblocks.joints import Dowel
 from limitblocks.model import Model
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact, Truths, contact, moved, placed, seated
 from limitblocks.practice.resting import PARALLEL
@@ -110,7 +111,8 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
 
     Faces that slide flat on one another get the areas that they now share: one that shares none any more
     carries nothing, and is left out. A block that slides onto a further face rests on that as well. An opened
-    joint that slides keeps the part whose closed corners are on both faces, and is left out once none is.
+    joint that slides keeps the part whose closed corners are on both faces, and is left out once none is. A
+    dowel that slides shears off, and is left out.
     """
     kept: list[Contact] = []
     flat: dict[tuple[int, int], list[Contact]] = {}
@@ -118,6 +120,8 @@ def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, 
     for own, slides in zip(assembly.contacts, sliding, strict=True):
         if not slides or own.tied:
             kept.append(own)
+        elif isinstance(own.interface.joint, Dowel):
+            said.append(f"{own.interface.name} shears off")
         elif not _parallel(own.axes_i, own.axes_j) or np.ptp(own.ways[:, 2]) > CLOSED * assembly.size:
             gap, of_j = own.ways[:, 2:] * own.axes[:, 2], own.on_face_i[:, None]
             moved_on = replace(own, on_i=own.rest - of_j * gap, on_j=own.rest + ~of_j * gap)

@@ -12,15 +12,15 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.least import least_loads, least_stresses
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, SolverFailure
+from limitblocks.errors import ModelError, SolverFailure, sequence_of
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Tie
 from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
-from limitblocks.mechanics.loads.load import number, of, triple
-from limitblocks.model import Model
+from limitblocks.mechanics.loads.load import Vector, number, of, triple, vector
+from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, reinforced
 from limitblocks.shown import Result
 
@@ -112,6 +112,7 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
         If there is no candidate, one has a prestress, or the ties cannot reach the load factor.
     """
     required = number(load_factor, "load factor", "", above=0.0)
+    candidates = sequence_of("candidates", candidates, Element)
     if not candidates or not all(isinstance(one.interface.joint, Tie) for one in candidates):
         raise ModelError("least_ties needs at least one tie to choose from")
     if any(one.prestress for one in candidates):
@@ -148,15 +149,16 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     ModelError
         If there is no place, the live load is not mass-proportional, or no masses reach the load factor.
     """
+    checked_model(model)
     required = number(load_factor, "load factor", "", above=0.0)
     pushes = [(factor, term) for factor, term in model.live.terms if isinstance(term, MassProportional)]
     if len(pushes) != 1 or pushes[0][0] != 1.0:
         raise ModelError("least_masses needs a live load with one mass-proportional term")
-    if not places:
+    if not (known := _places(places)):
         raise ModelError("least_masses needs at least one place")
     direction = pushes[0][1].direction
     problem, free = model.problem, model.free_blocks
-    ones = [added_mass(block, at, weight=1.0) for block, at in places]
+    ones = [added_mass(block, at, weight=1.0) for block, at in known]
     columns = [
         (one.on(free) + required * replace(one, direction=direction).on(free)).ravel() / problem.units.loads
         for one in ones
@@ -170,8 +172,17 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         dead=model.dead + of(*heaps),
         live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
     )
-    kinds = tuple(f"weight on {block} at {triple(at)} m" for block, at in places)
+    kinds = tuple(f"weight on {block} at {triple(at)} m" for block, at in known)
     return _repair(amounts, added, required, kinds, model.digest)
+
+
+def _places(given: Any) -> list[tuple[str, Vector]]:
+    """The block and the point of each place; ModelError names what is given instead."""
+    try:
+        return [(str(block), vector(at, f"place on block {block!r}: at")) for block, at in given]
+    except (TypeError, ValueError):
+        said = "expected a block and a point each, such as [('wall', (0.5, 0.0, 5.0))]"
+        raise ModelError(f"places are {given!r}, {said}") from None
 
 
 def _of_force(element: Element, force: float) -> Element:

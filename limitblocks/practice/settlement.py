@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
+from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
@@ -19,7 +19,7 @@ from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure, force
 from limitblocks.mechanics.loads.load import unit_vector
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element, axes_of
 from limitblocks.practice.freed import as_before, pressed
@@ -206,7 +206,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     ModelError
         If `support` is none or the only one, the direction is zero, or there are no dead loads.
     """
-    refuse_kind(model, Model, "model")
+    checked_model(model)
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
     others = _other_supports(model, support)
     block = next(block for block in model.blocks if block.name == support)

@@ -60,9 +60,7 @@ def falls(assembly: Assembly) -> bool:
 
 def _holds(own: Contact) -> bool:
     """Whether a contact carries more than compression and its friction."""
-    joint = own.interface.joint
-    bonded = any(getattr(joint, strength, 0.0) for strength in ("cohesion", "tensile_strength"))
-    return bonded or isinstance(joint, Tie | Dowel | Guide)
+    return bool(own.bond) or isinstance(own.interface.joint, Tie | Dowel | Guide)
 
 
 def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:

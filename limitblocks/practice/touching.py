@@ -71,7 +71,7 @@ def across(assembly: Assembly, stress_resultants: Array, kept: list[int]) -> dic
 
     `stress_resultants`, shape (m, 6), are those of the contacts `kept`, on their whole faces.
     """
-    said, least = {}, 1e-6 * np.abs(stress_resultants[:, 2]).max()
+    said, least = {}, 1e-6 * np.abs(stress_resultants[:, 2]).max(initial=0.0)
     for k, Q in zip(kept, stress_resultants, strict=True):
         own = assembly.contacts[k]
         gap, size = own.ways[:, 2], float(np.abs(own.interface.polygon).max())

@@ -10,7 +10,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure
 from limitblocks.mechanics.loads.faces import integrals, part_where
 from limitblocks.mechanics.loads.load import number, of, vector
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 
 WATER = 9810.0  # N/m3
 
@@ -47,6 +47,7 @@ def uplift(
     ModelError
         If a number is out of range, or a given joint lies above the level.
     """
+    checked_model(model)
     number(level, "level of the water", "m")
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
     if not 0.0 < share <= 1.0:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.sensitivity_result import Influence, LoadPosition, Sensitivities
+from limitblocks.evidence.sensitivity_result import ROUNDING, LoadPosition, Sensitivities
 from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.reports.document import Part, Table
@@ -13,7 +13,6 @@ from limitblocks.reports.section import Section
 from limitblocks.reports.words import at_least
 
 MOST = 10  # data listed
-NOISE = 1e-9  # of the load factor: a change that is none
 MEANING = (
     "How much the associated load factor changes with the data of the model, by the derivatives at the "
     "collapse found, without solving again. They hold for small changes: a larger one may bring another "
@@ -24,9 +23,9 @@ ONE_SIDED = "the mechanism is not unique: derivatives may hold in one direction 
 
 def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
     """Return the section of the sensitivities of a load factor."""
-    governing = _governing(found)
-    first = governing[0] if governing else None
+    first = next(iter(found.governing(1)), None)
     agreed = found.unique and bool(found.agreed.all())
+    least = ROUNDING * abs(found.load_factor)
     sides = "all stress states agree" if agreed else "some may hold in one direction only"
     return Section(
         title="Sensitivity",
@@ -37,8 +36,16 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
         else "no friction or unit weight changes the load factor",
         values=(
             ("Load factor", at_least(found.load_factor), "static load factor, associated flow"),
-            ("Friction, all together", _sum(found.of_interfaces), "per unit of relative change"),
-            ("Unit weights, all together", _sum(found.of_blocks), "per unit of relative change"),
+            (
+                "Friction, all together",
+                _sum(found.of_interfaces, least),
+                "per unit of relative change",
+            ),
+            (
+                "Unit weights, all together",
+                _sum(found.of_blocks, least),
+                "per unit of relative change",
+            ),
             ("Derivatives by friction", "two-sided" if agreed else "in part one-sided", sides),
         ),
         checks=(),
@@ -49,23 +56,19 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
 
 
 def _tables(found: Sensitivities) -> tuple[Part, ...]:
-    rows = [(one.kind, one.name, f"{one.elasticity:+.4g}") for one in _governing(found)]
+    rows = [(one.kind, one.name, f"{one.elasticity:+.4g}") for one in found.governing(MOST)]
     heads = ("Datum", "Of", "Change of the load factor")
     caption = "Data that govern: change of the load factor per unit of relative change, the largest first"
-    governing = Table.of(caption, heads, rows, right=(2,))
-    if not found.positions:
-        return (governing,)
     places = [(_load(one), one.block, triple(one.gradient.tolist())) for one in found.positions]
-    return governing, Table.of("Points of loads", ("Load", "On", "Change per m along X, Y, Z"), places)
+    tables = (
+        Table.of(caption, heads, rows, right=(2,)),
+        Table.of("Points of loads", ("Load", "On", "Change per m along X, Y, Z"), places),
+    )
+    return tuple(table for table in tables if table.rows)
 
 
-def _governing(found: Sensitivities) -> list[Influence]:
-    """The data that matter, without the rounding errors of those that do not."""
-    return [one for one in found.governing(MOST) if abs(one.elasticity) > NOISE * abs(found.load_factor)]
-
-
-def _sum(values: Array) -> str:
-    return f"{values.sum():+.4g}" if np.abs(values).max(initial=0.0) > NOISE else "0"
+def _sum(values: Array, least: float) -> str:
+    return f"{values.sum():+.4g}" if np.abs(values).max(initial=0.0) > least else "0"
 
 
 def _load(one: LoadPosition) -> str:

@@ -25,6 +25,14 @@ class Opening(NamedTuple):
     height: float
 
 
+def openings_of(given: Iterable[Sequence[float]]) -> list[Opening]:
+    """Return openings as such; ModelError where one is not four numbers."""
+    try:
+        return [Opening(*map(float, one)) for one in given]
+    except (TypeError, ValueError):
+        raise ModelError(f"openings are {given!r}, expected (left, sill, width, height) in m each") from None
+
+
 class Piece(NamedTuple):
     """A block of a wall: name, course from 0, first and last abscissa along the wall, m."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -70,16 +71,18 @@ def base(x: Sequence[float], y: Sequence[float], depth: float, name: str = "base
     return span_box(name, x, y, (-depth, 0.0))
 
 
-def refuse_not_positive(**values: float) -> None:
+def refuse_not_positive(**values: Any) -> None:
     """Raise ModelError naming all `values` that are not finite and positive."""
     refuse(f"{name.replace('_', ' ')} is {value!r}, expected a number > 0"
-           for name, value in values.items() if not 0.0 < value < np.inf)  # fmt: skip
+           for name, value in values.items()
+           if not (isinstance(value, int | float | np.number) and 0.0 < value < np.inf))  # fmt: skip
 
 
-def refuse_fewer(least: int, **counts: int) -> None:
+def refuse_fewer(least: int, **counts: Any) -> None:
     """Raise ModelError naming all `counts` that are not whole numbers of at least `least`."""
-    refuse(f"{name.replace('_', ' ')} is {count!r}, expected at least {least}"
-           for name, count in counts.items() if count != round(count) or count < least)  # fmt: skip
+    refuse(f"{name.replace('_', ' ')} is {count!r}, expected a whole number of at least {least}"
+           for name, count in counts.items()
+           if not (isinstance(count, int | np.integer) and count >= least))  # fmt: skip
 
 
 def refuse(problems: Iterable[str]) -> None:

@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.bond import Bond, Opening, multiple, refuse_wall
+from limitblocks.structures.bond import Bond, Opening, multiple, openings_of, refuse_wall
 from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, base, model_of, refuse
 
 FACADE_OPENINGS = (Opening(1.2, 0.0, 1.2, 2.4), Opening(4.0, 1.2, 1.2, 1.2))
@@ -58,7 +58,7 @@ def facade(
     bond = Bond(block_length, block_height, courses)
     front = [(0.0, length), (t, length - t)]
     back = [(t, return_length), (0.0, return_length)]
-    pieces = bond.pieces("facade", front, 1, [Opening(*opening) for opening in openings])
+    pieces = bond.pieces("facade", front, 1, openings_of(openings))
     blocks = bond.boxes(pieces, 0, (0.0, t), unit_weight)
     for side, x in (("left", (0.0, t)), ("right", (length - t, length))):
         blocks += bond.boxes(bond.pieces(side, back, 0), 1, x, unit_weight)
@@ -141,7 +141,7 @@ def tower(
     for name, (axis, across) in sides.items():
         end = (length, width)[axis]
         ends = [(0.0, end), (t, end - t)]
-        holes = [Opening(*opening) for opening in openings.get(name, ())]
+        holes = openings_of(openings.get(name, ()))
         pieces = bond.pieces(name, ends if axis == 0 else ends[::-1], 1 - axis, holes)
         blocks += bond.boxes(pieces, axis, across, unit_weight)
     ground = base((0.0, length), (0.0, width), block_height)

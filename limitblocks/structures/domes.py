@@ -127,8 +127,9 @@ def dome_lunes(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(angle=angle)
+    refuse_fewer(3, voussoirs=voussoirs)
     problems = []
-    if voussoirs < 3 or voussoirs % 2 == 0:
+    if voussoirs % 2 == 0:
         problems.append(f"voussoirs is {voussoirs!r}, expected an odd number of at least 3")
     if angle >= np.pi:
         problems.append(f"angle is {angle!r}, expected less than pi rad")

@@ -13,7 +13,7 @@ from limitblocks.structures.build import (
     UNIT_WEIGHT,
     base,
     model_of,
-    refuse,
+    refuse_fewer,
     refuse_not_positive,
     span_box,
 )
@@ -128,5 +128,5 @@ def _stack(
 
 
 def _refuse_stack(count: int, length: float, height: float, depth: float) -> None:
-    refuse([] if count >= 1 else [f"count is {count!r}, expected at least one block"])
+    refuse_fewer(1, count=count)
     refuse_not_positive(length=length, height=height, depth=depth)

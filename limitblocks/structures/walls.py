@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.bond import Bond, Opening, Piece, multiple, refuse_wall
+from limitblocks.structures.bond import Bond, Opening, Piece, multiple, openings_of, refuse_wall
 from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, base, model_of, refuse, refuse_fewer
 
 
@@ -47,7 +47,7 @@ def wall(
     """
     refuse_wall(courses, block_length, length=length, block_height=block_height, thickness=thickness)
     bond, y = Bond(block_length, block_height, courses), (-thickness / 2, thickness / 2)
-    pieces = bond.pieces("wall", [(0.0, length)] * 2, 0, [Opening(*opening) for opening in openings])
+    pieces = bond.pieces("wall", [(0.0, length)] * 2, 0, openings_of(openings))
     blocks = bond.boxes(pieces, 0, y, unit_weight)
     return model_of(blocks, [base((0.0, length), y, block_height)], joint, direction, "wall")
 
@@ -98,7 +98,7 @@ def two_leaf_wall(
         Direction of the live load, which is the weight; default: out of plane.
     """
     refuse_wall(courses, block_length, length=length, block_height=block_height, thickness=thickness)
-    bond, holes = Bond(block_length, block_height, courses), [Opening(*opening) for opening in openings]
+    bond, holes = Bond(block_length, block_height, courses), openings_of(openings)
     refuse_fewer(1, header_courses=header_courses)
     gaps = {} if header_spacing is None else _headers(bond, length, header_spacing, header_courses, holes)
     blocks = []

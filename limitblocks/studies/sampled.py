@@ -122,7 +122,7 @@ def _head(
     """What tells one study from another: the first line of its file."""
     own = hashlib.sha256(np.ascontiguousarray(values).tobytes()).hexdigest()
     return {
-        "study": list(parameters), "sampler": sampler, "seed": seed, "analysis": analysis,
+        "study": list(parameters), "sampler": sampler, "seed": int(seed), "analysis": analysis,
         "settings": {key: repr(value) for key, value in settings.items()}, "indices": indices,
         "rows": len(values), "values": own,
     }  # fmt: skip

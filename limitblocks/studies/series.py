@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model, checked_model
@@ -55,7 +55,11 @@ def directions(
         If a direction is wrong, or the live load cannot be turned.
     """
     checked_model(model)
-    given = compass(directions) if isinstance(directions, int) else _table(directions, 3, "directions")
+    given = (
+        compass(int(directions))
+        if isinstance(directions, int | np.integer)
+        else _table(directions, 3, "directions")
+    )
     units = [unit_vector(direction, "direction") for direction in given.tolist()]
     loads = live or (lambda direction: turned(model.live, direction))
     if live is None:
@@ -145,6 +149,7 @@ def sweep(
 
 def _made(maker: Callable[[Any], Model], values: Iterable[Any]) -> list[Model | Outcome]:
     """The model of each value, or the outcome that there is none."""
+    refuse_no_function(maker)
     made: list[Model | Outcome] = []
     for value in values:
         try:

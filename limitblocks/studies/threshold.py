@@ -10,7 +10,7 @@ import numpy as np
 from scipy import optimize
 
 from limitblocks.analysis.stability import standing_margin
-from limitblocks.errors import ModelError, SolverFailure
+from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
 from limitblocks.shown import many
@@ -156,6 +156,7 @@ class _Search:
     def __init__(
         self, maker: Callable[[float], Model], parameter: str, load_factor: float, progress: Trial | None
     ) -> None:
+        refuse_no_function(maker)
         self.maker, self.parameter, self.load_factor = maker, parameter, load_factor
         self.progress = progress
         self.trials: dict[float, float] = {}

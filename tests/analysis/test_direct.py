@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from importlib import import_module
+from itertools import product
 from unittest.mock import Mock
 
 import cvxpy as cp
@@ -12,7 +13,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis import certified, limit_state, repair, splitting
 from limitblocks.analysis.conic import compiled
-from limitblocks.analysis.direct import Programs
+from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import form_of
 from limitblocks.analysis.limit_state import programs_of
 from limitblocks.analysis.programs import DIRECT, PLANAR, solved, static_program
@@ -113,6 +114,20 @@ def test_pivots_that_may_vanish_are_replaced_and_all_others_regularised(joint, c
         state = programs.limit_state(PLANAR.having(settings))
         off.append(np.abs(p.C @ state.u + p.F.T @ state.y).max())
     assert off[0] < off[1] / 4.0
+
+
+def test_few_walls_in_a_plane_stall():
+    """Vanishing pivots by 1e-6 in place of Clarabel's own 2e-7; single walls stall with either."""
+    stalled = {2e-7: 0, 1e-6: 0}
+    for courses, length, friction in product((10, 14), (10, 14, 18, 26), (0.4, 0.5)):
+        joint = lb.OrdunaLourenco(friction, slip="paper")
+        form = programs_of(in_plane_of(joint, courses, length).problem)[0].form
+        program, chosen = compiled(form.limit().problem), {**form.equations, **PLANAR.settings, **FIXED}
+        assert chosen["dynamic_regularization_delta"] == 1e-6
+        for pivot in stalled:
+            found = solution(program, chosen | {"dynamic_regularization_delta": pivot})
+            stalled[pivot] += str(found.status) != "Solved"
+    assert stalled[1e-6] < stalled[2e-7]
 
 
 def test_walls_in_a_plane_are_proven_closer_to_1e_12_than_to_1e_11(monkeypatch):

@@ -52,6 +52,22 @@ def programs(monkeypatch):
     return solved
 
 
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.65), lb.PointContact(0.65)])
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda joint: lb.structures.ferris_tin_loi_wall(3, joint),  # in its plane
+        lambda joint: lb.structures.corner(joint, length=1.6, return_length=1.2, courses=3),
+    ],
+)
+def test_the_answer_is_the_same_whatever_was_asked_before(made, joint):
+    """The permanent stresses of whichever analysis came first were kept, equal but for rounding."""
+    alone = lb.nonassociated(made(joint)).load_factor
+    model = made(joint)
+    path = lb.load_path(model)
+    assert path.tracked == lb.nonassociated(model).load_factor == alone
+
+
 def test_five_lines_of_the_readme_solve_no_program_twice(programs):
     """Margin and bounds with friction and without; the permanent loads; two confirmations."""
     bracket(column())

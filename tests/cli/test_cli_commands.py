@@ -200,3 +200,9 @@ def test_help_names_every_verb():
         verb in result.stdout
         for verb in ("bounds", "nonassociated", "path", "check", "info", "report", "schema", "--version")
     )
+
+
+def test_a_number_out_of_the_range_of_an_option_is_named(file):
+    result = run("range", file, "--paths", 0)
+    assert result.exit_code == 2
+    assert "Invalid value for '--paths': '0': expected a number greater than or equal to 1" in result.stderr

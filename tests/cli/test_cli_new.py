@@ -144,3 +144,22 @@ def test_parameter_texts():
     doc += "\nRaises\n------\nError\n    Never.\n"
     assert parameter_texts(doc) == {"a": "a, b: Both, in m.", "b": "a, b: Both, in m.", "c": "Count."}
     assert parameter_texts("Nothing.") == {}
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (
+            ("--length", "1,2"),
+            "'--length': '1,2': expected a number; decimals stand after a point, as in 1.2",
+        ),
+        (("--friction", "dry"), "'--friction': 'dry': expected a number\n"),
+        (("--courses", "4,5"), "'--courses': '4,5': expected a whole number\n"),
+        (("--courses", "4.5"), "'--courses': '4.5': expected a whole number\n"),
+        (("--slip", "round"), "'--slip': 'round' is not one of 'exact', 'paper', 'inner', 'outer'"),
+    ],
+)
+def test_the_value_of_an_option_is_named_with_what_is_wrong(given, said):
+    result = run(*WALL, *given)
+    assert result.exit_code == 2
+    assert f"Invalid value for {said}" in result.stderr

@@ -203,3 +203,18 @@ def test_dilatancy_above_friction_is_code_2(verb, file):
     done = run(verb, file, "--dilatancy", 0.9)
     assert done.exit_code == 2
     assert "dilatancy is 0.9" in done.stderr
+
+
+def test_a_model_and_its_result_the_other_way_round_are_told(tmp_path):
+    model = lb.structures.block(lb.PointContact(0.5), width=1.0, height=2.0)
+    file, result = model.save(tmp_path / "block.json"), lb.nonassociated(model).save(tmp_path / "result.json")
+    for arguments, said in (
+        (("check", result, file), "result.json: is a result, not a model"),
+        (("bounds", result), "result.json: is a result, not a model"),
+        (("check", file, file), "block.json: is a model, not a result"),
+        (("report", file, file, "-o", tmp_path / "report.md"), "block.json: is a model, not a result"),
+    ):
+        told = run(*arguments)
+        assert told.exit_code == 2
+        assert told.stderr.endswith(f"{said}; the model comes first, then the result\n")
+        assert told.stderr.count("error") == 1

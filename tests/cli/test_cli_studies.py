@@ -29,6 +29,7 @@ def test_directions_are_printed_and_written(file, tmp_path):
     done = run("directions", file, *options)
     assert (done.exit_code, done.stderr) == (0, "")
     assert "4 analyses, least load factor 0.5 at" in done.stdout
+    assert "warning" not in done.stdout
     with rows.open(newline="") as stream:
         factors = [float(row["load_factor"]) for row in csv.DictReader(stream)]
     assert factors == pytest.approx([0.5, 0.8, 0.5, 0.8], rel=1e-6)

@@ -252,6 +252,13 @@ def test_small_gaps_are_closed_within_the_accuracy_given():
     assert set(far.displacements.values()) == {0.0}
 
 
+@pytest.mark.parametrize("over", [2e-3, 5e-3])
+def test_stones_that_meet_in_a_strip_are_not_brought_into_one_plane(over):
+    """A strip narrower than six accuracies is no joint, and its gap of four is not closed."""
+    low, high = box("low", UNIT, (0, 0, -0.5)), box("high", UNIT, (1.0 - over, 0, 0.5 + 4e-3))
+    assert set(lb.heal([low, high], accuracy=1e-3).displacements.values()) == {0.0}
+
+
 def wedge(slope):
     """A prism 2 m long on z = 0 whose upper face rises from its edge at x = 0 by `slope`, rad."""
     height = 2.0 * np.tan(slope)

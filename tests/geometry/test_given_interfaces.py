@@ -17,6 +17,7 @@ SHARE = 0.3  # of the crushing force, 60 kN on 1.5 m2
 CRUSHES = lb.OrdunaLourenco(2.0, compressive_strength=40e3 / SHARE)
 OWN = lb.Interface("ground", "stone", np.zeros(3), np.eye(3), SQUARE, CRUSHES)
 TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
+TABLE = lb.joints.Materials({"stone": lb.joints.Material(joint=CRUSHES)})
 OVER = np.diag([1.0, -1.0, -1.0])
 
 
@@ -57,7 +58,8 @@ def test_any_orientation_gives_the_same(given):
         (replace(OWN, polygon=SQUARE + 0.1), "is 0.1 m from its origin"),
         (replace(OWN, polygon=SQUARE[[0, 1, 3, 2]]), "not counter-clockwise"),
         (replace(OWN, polygon=np.zeros((3, 3))), "have shapes"),
-        (replace(OWN, joint=SimpleNamespace(friction=0.5)), "cannot be hashed; make it a frozen dataclass"),
+        (replace(OWN, joint=SimpleNamespace(friction=0.5)), "cannot be hashed; expected a frozen dataclass"),
+        (replace(OWN, joint=TABLE), "expected a frozen dataclass, or Materials.between"),
     ],
 )
 def test_numbers_that_are_wrong_are_refused(given, said):

@@ -4,11 +4,8 @@ import json
 
 import compas
 import numpy as np
-import pytest
 from compas.datastructures import Mesh
 from compas.geometry import Box, Frame, Rotation, Translation
-
-import limitblocks as lb
 
 CUBES = [Box(1.0, 1.0, 1.0, Frame([0.0, 0.0, k + 0.5], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])) for k in range(2)]
 
@@ -16,13 +13,6 @@ CUBES = [Box(1.0, 1.0, 1.0, Frame([0.0, 0.0, k + 0.5], [1.0, 0.0, 0.0], [0.0, 1.
 def written(path, document):
     path.write_text(json.dumps(document), encoding="utf-8")
     return path
-
-
-def fault(path):
-    with pytest.raises(lb.ModelError) as caught:
-        lb.files.read_blocks(path)
-    assert all("\n" not in line and line.startswith(str(path)) for line in caught.value.problems)
-    return str(caught.value)
 
 
 def mesh_data(k=0, name=None, dtype="compas.datastructures/Mesh"):

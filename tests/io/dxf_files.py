@@ -2,7 +2,6 @@
 
 import ezdxf
 import numpy as np
-import pytest
 
 import limitblocks as lb
 from limitblocks.geometry.polygon import areas
@@ -37,10 +36,3 @@ def elevation(model, scale=1.0, jitter=0.0):
         corners = block.vertices[list(front)][:, [0, 2]]
         outlines[block.name] = (corners + rng.uniform(-jitter, jitter, corners.shape)) * scale
     return outlines
-
-
-def fault(read, path, **options):
-    with pytest.raises(lb.ModelError) as caught:
-        read(path, **options)
-    assert all("\n" not in line and line.startswith(str(path)) for line in caught.value.problems)
-    return str(caught.value)

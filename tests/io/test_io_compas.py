@@ -11,12 +11,12 @@ from compas_documents import (
     CUBES,
     assembly_document,
     compas_1_document,
-    fault,
     model_document,
     network_document,
     old_model_document,
     written,
 )
+from reading import fault
 
 import limitblocks as lb
 

@@ -4,7 +4,8 @@ import re
 
 import numpy as np
 import pytest
-from dxf_files import JOINT, STRUCTURES, drawn, elevation, fault, total_area
+from dxf_files import JOINT, STRUCTURES, drawn, elevation, total_area
+from reading import fault
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -133,24 +134,24 @@ def test_drawing_layers(tmp_path):
     assert set(lb.files.read_drawing(path, thickness=1.0, layers="stone").layers.values()) == {"stone"}
     block = lb.files.read_drawing(path, thickness=0.5, units="mm").blocks[0]
     assert block.volume == pytest.approx(1e-3 * 1e-3 * 0.5, rel=1e-12)  # the thickness is in m
-    assert "did you mean 'stone'" in fault(lb.files.read_drawing, path, thickness=1.0, layers="stones")
+    assert "did you mean 'stone'" in fault(path, lb.files.read_drawing, thickness=1.0, layers="stones")
 
 
 def test_wrong_drawings(tmp_path):
     bow = [(0, 0), (1, 1), (1, 0), (0, 1)]
     path = drawn(tmp_path / "a.dxf", lambda space: space.add_lwpolyline(bow, close=True))
-    assert "crosses or touches itself" in fault(lb.files.read_drawing, path, thickness=1.0)
-    assert "read_drawing" in fault(lb.files.read_blocks, path)
+    assert "crosses or touches itself" in fault(path, lb.files.read_drawing, thickness=1.0)
+    assert "read_drawing" in fault(path)
     for thickness in (0.0, -1.0, np.nan, np.inf):
-        assert "thickness is" in fault(lb.files.read_drawing, path, thickness=thickness)
+        assert "thickness is" in fault(path, lb.files.read_drawing, thickness=thickness)
     path = drawn(tmp_path / "o.dxf", lambda space: space.add_lwpolyline([(0, 0), (1, 0), (1, 1)]))
-    assert "open by 1.41" in fault(lb.files.read_drawing, path, thickness=1.0)
+    assert "open by 1.41" in fault(path, lb.files.read_drawing, thickness=1.0)
     path = drawn(tmp_path / "b.dxf", lambda space: space.add_line((0, 0), (1, 0)))
-    assert "no closed outline but 1 LINE" in fault(lb.files.read_drawing, path, thickness=1.0)
+    assert "no closed outline but 1 LINE" in fault(path, lb.files.read_drawing, thickness=1.0)
     path = drawn(
         tmp_path / "c.dxf", lambda space: space.add_lwpolyline([(0, 0), (1e200, 0), (0, 1)], close=True)
     )
-    assert "finite numbers" in fault(lb.files.read_drawing, path, thickness=1.0)
+    assert "finite numbers" in fault(path, lb.files.read_drawing, thickness=1.0)
 
 
 def test_outlines_that_retrace_an_edge_are_counted_once(tmp_path):

@@ -148,7 +148,7 @@ TEXTS = {
     "digits": (json.dumps(PORTAL).replace("24000.0", "9" * 5000).encode(), ["not JSON"]),
     "duplicate key": (b'{"schema_version": 1, "name": "a", "name": "b"}', ["'name' appears twice"]),
     "encoding": (json.dumps(PORTAL).replace("Portal", "Säule").encode("latin-1"), ["UTF-8"]),
-    "UTF-16": (json.dumps(PORTAL).encode("utf-16"), ["UTF-8"]),
+    "UTF-16": (json.dumps(PORTAL).encode("utf-16"), ["is UTF-16 text; save it as UTF-8"]),
     "lone surrogate": (json.dumps(PORTAL).replace("Portal", "\\ud800").encode(), ["not JSON"]),
     "nested lists": (b"[" * 100_000, ["nests too deeply"]),
     "nested a little": (b'{"blocks":' + b"[" * 500 + b"]" * 500 + b"}", []),

@@ -60,6 +60,14 @@ def test_a_file_that_lies_on_its_side_is_turned_with_a_warning(tmp_path):
         assert all(np.allclose(a.centroid, b.centroid) for a, b in zip(made.blocks, meant, strict=True))
 
 
+def test_a_stepped_pyramid_on_its_side_hangs_over_nothing(tmp_path):
+    """Eight slabs on one another, each smaller: on the side the largest lies on the ground alone."""
+    slabs = [lb.Block.box(f"b{k}", (9 - k, 9 - k, 0.5), (0, 0, 0.5 * k)) for k in range(8)]
+    lying = [slab.moved(Y_UP, (0.0, 0.0, 0.0)) for slab in slabs]
+    (warning,) = lb.files.read_blocks(lb.files.write_blocks(lying, tmp_path / "y.obj")).guesses
+    assert "taken as Y: 7 of 8 blocks would have nothing below with Z up, 0 with Y up" in warning
+
+
 def test_supports_by_name_tell_the_axis_up_of_a_dome(tmp_path):
     blocks = EXAMPLES["dome"](JOINT).blocks
     named = [replace(b, name=f"base {k}" if b.unit_weight is None else f"b{k}") for k, b in enumerate(blocks)]

@@ -300,6 +300,26 @@ def falsified(path, change, file):
     return lb.read_result(file)
 
 
+@pytest.mark.parametrize(
+    ("steps", "said"),
+    [
+        (lambda step: (), "the load path has no steps"),
+        (lambda step: 5, "steps is 5, expected a sequence of PathStep"),
+        (lambda step: (5,), "steps holds 5, expected a sequence of PathStep"),
+        (lambda step: (step, replace(step, load_factor=np.nan)), "step 1: load_factor is nan, expected"),
+        (
+            lambda step: (step, replace(step, stress_resultants=step.stress_resultants[1:])),
+            r"step 1: stress_resultants has shape \(0, 6\), expected \(1, 6\)",
+        ),
+    ],
+)
+def test_steps_of_a_path_that_are_none_are_refused(steps, said):
+    model = lb.structures.block(lb.PointContact(0.5), width=1.0, height=2.0)
+    path = lb.load_path(model)
+    with pytest.raises(lb.ModelError, match=said):
+        lb.check_mcp(model, replace(path, steps=steps(path.steps[0])))
+
+
 @pytest.mark.parametrize("joint", [lb.PointContact(0.5), lb.OrdunaLourenco(0.5)])
 def test_a_path_that_was_changed_is_found_out(tmp_path, joint):
     model = lb.structures.portal(joint, span=2.0, pier_width=0.5, pier_blocks=2)

@@ -51,9 +51,7 @@ MODELS = {
     "two joints": two_joints(),
     "loads": portal(lb.OrdunaLourenco(0.6), LOADS, dead=1.1 * lb.self_weight() + LOADS),
     "rotated": portal(lb.OrdunaLourenco(0.6), lb.mass_proportional((1, 0, 0)), turn=rotation((1, 2, 3), 0.7)),
-    "arch": lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.9, voussoirs=13)
-    if hasattr(lb, "structures")
-    else portal(lb.PointContact(0.5), lb.mass_proportional((0, 1, 0))),
+    "arch": lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=0.9, voussoirs=13),
     "whole numbers": portal(lb.OrdunaLourenco(1), lb.mass_proportional((1, 0, 0))),
     "numpy numbers": portal(
         lb.PointContact(np.float64(0.3)), np.float64(2) * lb.mass_proportional((1, 0, 0))

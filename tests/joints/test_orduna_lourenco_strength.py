@@ -21,6 +21,7 @@ from rectangles import (
     finite_differences,
     states,
 )
+from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.joints.interaction import effective_strength
@@ -71,6 +72,21 @@ def test_along_a_diagonal_the_stress_block_is_a_triangle(share, ratio):
     off = joint.strength(interface, (0, 0, 0, -force * L2, force * L1, 0), (0, 0, -force, 0, 0, 0))
     assert off / (1 - 2 * np.sqrt(2 * share) / 3) == pytest.approx(ratio, abs=1e-3)
     assert f"{ratio - 1:.0%}".removesuffix("%") + " %" in DOCS
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.1, "11 % at 10 %"), (0.5, "18 %, at half")])
+def test_on_a_circle_the_stress_block_is_a_segment(share, said):
+    """A segment of half angle t: area t - sin t cos t of the radius squared, first moment 2/3 sin^3 t."""
+    t = brentq(lambda t: t - np.sin(t) * np.cos(t) - share * np.pi, 0, np.pi)
+    exact = 2 / 3 * np.sin(t) ** 3 / (share * np.pi)  # eccentricity over the radius
+    sides = 2 * np.pi * (np.arange(180) + 0.5) / 180
+    polygon = np.column_stack([np.cos(sides), np.sin(sides)])
+    joint = lb.OrdunaLourenco(MU, compressive_strength=1 / (share * np.pi))
+    interface = lb.joints.interface(polygon, joint)
+    found = joint.strength(interface, (0, 0, 0, 0, 1, 0), (0, 0, -1.0, 0, 0, 0))
+    assert found / exact == pytest.approx((1 - share) / exact, rel=1e-3)  # the polygon is smaller
+    assert f"{(1 - share) / exact - 1:.0%}".replace("%", " %") in said
+    assert said in DOCS
 
 
 def test_eq_39_becomes_eq_36_as_the_strength_grows():

@@ -112,6 +112,7 @@ STATE = [(0.0, 0.0, -3.0, 0.0, 0.0, 0.0)]
     [
         (JOINT, RECTANGLE, {"x": "V3"}, "x, y are 'V3', 'T'; expected two of V1"),
         (JOINT, RECTANGLE, {"x": "T"}, "expected two of"),
+        (JOINT, RECTANGLE, {"y": "V3"}, "x, y are 'V1', 'V3'; expected two of V1"),
         (JOINT, RECTANGLE, {"N": 5.0}, "N is 5.0, expected a compressive force"),
         (WEAK, RECTANGLE, {}, "N is missing"),
         (WEAK, RECTANGLE, {"N": -2.0, "stress_resultants": STATE}, "N = -3 N, but the curve is for N = -2 N"),
@@ -190,7 +191,7 @@ def test_load_path_of_nothing_is_refused(block, component, message):
 
 def test_curves_of_something_else_are_refused_by_name():
     for draw, said in (
-        (lambda: lb.plots.load_path(path(), rocking()), "model is a LoadPath, expected Model"),
+        (lambda: lb.plots.load_path(path(), rocking()), "model is a LoadPath, expected a Model"),
         (lambda: lb.plots.load_path(rocking(), bounds(rocking)), "path is a Bounds, expected LoadPath"),
         (lambda: lb.plots.capacity(bounds(rocking)), "curve is a Bounds, expected CapacityCurve"),
         (lambda: lb.plots.settlement(path()), "curve is a LoadPath, expected SettlementCurve"),

@@ -9,7 +9,16 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
-from limitblocks.practice import PartialFactors, adequacy, answered, capacity_curve, reinforced, tie
+from limitblocks.practice import (
+    PartialFactors,
+    adequacy,
+    answered,
+    capacity_curve,
+    dowel,
+    reinforced,
+    strip,
+    tie,
+)
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 B, H = 0.2, 1.0
@@ -262,3 +271,43 @@ def test_a_wall_held_at_its_top_bends_outwards():
     turns = [brentq(lambda a, d=d: centres(a)[2].real - d, 1e-6, 0.3) for d in curve.displacements[1:]]
     assert curve.load_factors[1:] == pytest.approx([load_factor(a) for a in turns], abs=1e-7)
     assert len(turns) > 3
+
+
+@pytest.mark.parametrize(("across", "at", "arm"), [(0, -0.5, 0.0), (1, B / 2, 0.0), (1, -B / 2, B)])
+def test_a_strip_stays_on_its_joint(across, at, arm):
+    """F arm cos(phi / 2) about the toe, along the chord of its opening; none where the joint stays closed."""
+    stones = [
+        lb.Block.box("floor", (3, 3, 0.2), (0, 0, -0.1)),
+        lb.Block.box("plinth", (1.0, 1, 0.2), (0, 0, 0.1), 20e3),
+        lb.Block.box("block", (B, 1, H), (0, 0, 0.2 + H / 2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    model = lb.Model(stones, ["floor"], found, lb.self_weight(), PUSH)
+    weight, force = 20e3 * B * H, 500.0
+    band = strip(found[across], (at, 0, 0.2 * across), width=0.1, capacity=force)
+    curve = capacity_curve(reinforced(model, band), control=("block", (B / 2, 0, 0.2 + H)), steps=2)
+    phi = np.arcsin(curve.displacements / H)
+    lever = (H * np.cos(phi) + B * np.sin(phi)) / 2  # of the push about the toe
+    held = force * arm * np.cos(phi / 2) / (weight * lever)
+    assert curve.load_factors == pytest.approx(np.tan(np.arctan(B / H) - phi) + held, abs=1e-9)
+    assert curve.zero is not None
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_dowel_shears_off_as_its_joint_slides(order):
+    """alpha = mu + F / W before, mu from then on."""
+    model = lb.structures.block(lb.PointContact(0.2), width=1.0, height=0.4)
+    pin = dowel(model.interfaces[0], model.interfaces[0].centroid, diameter=0.05, capacity=800.0)
+    held = reinforced(model, pin)
+    curve = capacity_curve(replace(held, interfaces=held.interfaces[::order]), steps=2, largest=0.05)
+    assert curve.load_factors == pytest.approx([0.3] + [0.2] * (len(curve.points) - 1), rel=1e-6)
+    assert curve.points[1].changes == (f"{pin.interface.name} shears off",)
+    assert [own.joint for own in curve.points[-1].model.interfaces] == [lb.PointContact(0.2)]
+
+
+def test_a_strip_across_a_joint_that_slides_does_not_bridge_the_way():
+    """Normal to its joint it leaves mu to mu (1 + F / W), however far; along the way it would add F / W."""
+    model = lb.structures.block(lb.PointContact(0.2), width=1.0, height=0.4)
+    band = strip(model.interfaces[0], model.interfaces[0].centroid, width=0.1, capacity=2e3)
+    found = capacity_curve(reinforced(model, band), steps=2, largest=0.05).load_factors
+    assert ((found > 0.2 - 1e-9) & (found < 0.2 * (1 + 2e3 / 8e3) + 1e-9)).all()

@@ -11,7 +11,15 @@ import limitblocks as lb
 from limitblocks.arrays import read_only
 from limitblocks.evidence.ending import Status
 from limitblocks.loads import pressure
-from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
+from limitblocks.practice import (
+    CapacityPoint,
+    Control,
+    capacity,
+    capacity_curve,
+    passive_fill,
+    reinforced,
+    settlement_to_collapse,
+)
 from limitblocks.practice.displaced import assembly_of
 
 JOINT = lb.PointContact(0.6)
@@ -51,6 +59,15 @@ def test_load_that_stays_behind():
     )  # fmt: skip
     with pytest.raises(lb.ModelError, match="does not move with the blocks"):
         capacity_curve(loaded)
+
+
+def test_fill_that_stays_behind():
+    """Its resistance is that of the depth at which a face is, along the deck whatever the way."""
+    arch = lb.structures.arch(JOINT, radius=3.0, thickness=0.6, voussoirs=8)
+    filled = reinforced(arch, *passive_fill(arch, 4.0, unit_weight=17e3, coefficient=3.0))
+    for analysis in (capacity_curve, lambda one: settlement_to_collapse(one, "right support", (1, 0, 0))):
+        with pytest.raises(lb.ModelError, match="passive fill does not move with the blocks"):
+            analysis(filled)
 
 
 def test_blocks_that_meet_stop_the_curve():

@@ -231,6 +231,11 @@ def test_an_anchor_off_its_block_is_refused_with_the_distance():
         anchored(-T / 2 - 3.0, 0, H + 4.0)
     with pytest.raises(lb.ModelError, match="30 mm off"):
         anchored(-T / 2 - 0.03, 0, 1.0)
+    with pytest.raises(
+        lb.ModelError,
+        match=r"within [0-9.]+ mm; in a support it may lie anywhere; that point is in block 'ground'",
+    ):
+        anchored(-T / 2, 0, -0.05)
     for x in (-T / 2 - 1e-4, -T / 2, 0.0):  # on the face, as far as drawings are good, and in the wall
         assert len(anchored(x, 0, 1.0).interfaces) == 2
 

@@ -91,6 +91,7 @@ def test_animations(block, tmp_path):
         wrong = run(*words)
         assert wrong.exit_code == 2
         assert said in wrong.output
+        assert not wrong.stdout  # refused before the analysis
 
 
 def test_verify(block, tmp_path):

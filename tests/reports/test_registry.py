@@ -12,6 +12,7 @@ import facades
 import jsonschema
 import numpy as np
 import pytest
+from chapters import chapter, rows
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -205,3 +206,21 @@ def test_a_sensitivity_is_its_chapter(practised):
     values = {row[0].text: row[1].text for row in chapter.parts[1].rows}
     assert float(values["Friction, all together"]) == pytest.approx(0.6, abs=1e-4)
     assert values["Unit weights, all together"] == "0"  # weight and push grow alike, but for rounding
+
+
+def test_a_sensitivity_names_the_points_of_loads_and_says_where_no_datum_governs():
+    """Tipped by its weight: alpha = b / h, whatever the data; by F at z: W b / (2 F z), by z -alpha / z."""
+    model = lb.structures.block(lb.PointContact(2.0), width=0.5, height=2.0)
+    (stone,) = model.free_blocks
+    pushed = replace(model, live=lb.loads.force(stone.name, (1e3, 0, 0), at=(0, 0, 2.0)))
+    found = [lb.sensitivities(one, lb.bounds(one)) for one in (model, pushed)]
+    assert "0.25: no friction or unit weight changes it" in str(found[0])
+    headline, *parts = chapter(lb.report(model, found[0]), "Sensitivity").parts
+    assert headline.number == "none"
+    assert [part.caption for part in parts if hasattr(part, "caption")] == ["Result"]
+    alpha = stone.weight * 0.5 / (2 * 1e3 * 2.0)
+    report = lb.report(pushed, found[1])
+    assert [one.name for one in found[1].governing()] == [stone.name]
+    assert float(rows(report, "Sensitivity", "Data that govern")["unit weight"][2]) == pytest.approx(alpha)
+    (place,) = rows(report, "Sensitivity", "Points of loads").values()
+    assert place == ["live, term 1", stone.name, f"(0, 0, {-alpha / 2.0:g})"]

@@ -189,6 +189,10 @@ def test_an_acceleration_is_said_where_the_live_load_is_one(house, results):
     assert " g = " not in Answer(0.5, True, "").quantity(still)
     moved = replace(still, live=lb.mass_proportional((0, 1, 0), [tank]))
     assert f"{0.5:#.4g} g" in Answer(0.5, True, "").quantity(moved)
+    uneven = replace(moved, live=moved.live + lb.mass_proportional((0, 1, 0)))  # 2 of all but the tank
+    across = replace(house, live=house.live + lb.mass_proportional((1, 0, 0)))
+    for one in (uneven, across):
+        assert " g = " not in Answer(0.5, True, "").quantity(one)
     pushed = replace(
         house, live=house.live + lb.loads.force(house.free_blocks[0].name, (1e3, 0, 0), (0, 0, 0))
     )

@@ -189,7 +189,7 @@ def test_fill_moment_is_that_of_its_column():
     ("build", "change", "message"),
     [
         ("arch", {"stereotomy": "oblique"}, "stereotomy is 'oblique', expected 'radial' or 'vertical'"),
-        ("arch", {"facets": 0}, "facets is 0, expected at least 1"),
+        ("arch", {"facets": 0}, "facets is 0, expected a whole number of at least 1"),
         ("arch", {"piers": (0.2, 2)}, "pier width is 0.2"),
         ("arch", {"piers": (1.2, 0)}, "pier blocks is 0"),
         ("arch", {"fill": (-1.0,)}, "fill height is -1.0"),

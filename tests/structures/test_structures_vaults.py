@@ -175,7 +175,7 @@ def test_cut_is_the_body_between_its_planes():
 @pytest.mark.parametrize(
     ("build", "change", "message"),
     [
-        ("dome", {"stones": 3}, "stones is 3, expected at least 4"),
+        ("dome", {"stones": 3}, "stones is 3, expected a whole number of at least 4"),
         ("dome", {"courses": 0}, "courses is 0"),
         ("dome", {"embrace": 2.0, "courses": 8, "stones": 4}, "stones is 4, expected more for 8 courses"),
         ("dome", {"oculus": 3.2}, "oculus is 3.2"),
@@ -185,7 +185,7 @@ def test_cut_is_the_body_between_its_planes():
         ("dome_lunes", {"angle": 3.2}, "angle is 3.2"),
         ("groin_vault", {"length": 4.4}, "length is 4.4, expected more than 4.4 m"),
         ("groin_vault", {"stone_length": 0.0}, "stone length is 0.0"),
-        ("groin_vault", {"courses": 1}, "courses is 1, expected at least 2"),
+        ("groin_vault", {"courses": 1}, "courses is 1, expected a whole number of at least 2"),
         ("pavilion_vault", {"stone_length": -1.0}, "stone length is -1.0"),
     ],
 )

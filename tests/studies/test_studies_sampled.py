@@ -8,6 +8,7 @@ from scipy import stats
 
 import limitblocks as lb
 from limitblocks.studies import sampled
+from limitblocks.studies.pool import failed
 
 
 def block(friction=0.5, width=1.0):
@@ -53,6 +54,15 @@ def test_samples_are_those_of_the_seed_and_fill_the_interval(sampler, monkeypatc
     assert 1.0 <= runs[0].values.min() < 1.2
     assert 2.8 < runs[0].values.max() <= 3.0
     assert runs[0].values.mean() == pytest.approx(2.0, abs=0.2)
+
+
+def test_a_sample_without_an_answer_has_no_mode(monkeypatch):
+    """NotConverged carries the best state: what its joints do is no mechanism of the sample."""
+    best = lb.bounds(block(0.4))
+    monkeypatch.setattr(sampled, "analyse", lambda *_: failed(lb.NotConverged("no path", best)))
+    found = lb.study(block, {"friction": (0.3, 0.5)}, 2)
+    assert found.modes == ("", "")
+    assert np.isnan(found.load_factors).all()
 
 
 def test_a_study_that_was_killed_before_its_first_line_begins_anew(tmp_path):

@@ -14,11 +14,10 @@ import numpy as np
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
 from limitblocks.analysis.known import known
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
-from limitblocks.analysis.nonassociated.start import Start, start_stresses
+from limitblocks.analysis.nonassociated.start import Start, permanent, start_stresses
 from limitblocks.analysis.nonassociated.ways import Half, no_half
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
@@ -143,10 +142,8 @@ def _start(
         return plane.stresses_of(x) if plane.symmetric(x) else None
     if carried(model.problem) is None:
         dead_load_state(model.problem)
-    ratios = np.round(own / plane.problem.compliance, 9).tobytes()
-    return known(
-        problem, ("permanent state in the plane", ratios), lambda: permanent_state(plane.problem, own)
-    )
+    usual = _in_units_of(model, problem, Choice.FLOWING)  # one for all choices of rows
+    return permanent(usual.problem, own)
 
 
 def way_in_plane(how: str, where: str = "in the plane") -> str:

@@ -158,11 +158,17 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
         return _given(model, problem, start)
     if carried(model.problem) is None:  # a least-norm state of what falls may look like one
         dead_load_state(model.problem)
-    ratios = np.round(weights / problem.compliance, 9).tobytes()
-    x = known(problem, ("permanent state", ratios), lambda: permanent_state(problem, weights))
+    x = permanent(problem, weights)
     if x is None:
         raise SolveError("no state of the permanent loads was found, though they stand")
     return x
+
+
+def permanent(problem: LimitProblem, weights: Array) -> Array | None:
+    """Least stresses under the permanent loads, the same to the last digit whichever analysis asks first."""
+    ratios = np.round(weights / problem.compliance, 9)
+    kept = ("permanent state", ratios.tobytes())
+    return known(problem, kept, lambda: permanent_state(problem, ratios * problem.compliance))
 
 
 def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:

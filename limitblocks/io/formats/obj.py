@@ -42,6 +42,8 @@ def contents(path: Path) -> Contents:
     for number, (word, *rest) in _lines(data):
         try:
             if word == "v":
+                if len(rest) < 3:
+                    raise ValueError("a vertex has three numbers")
                 x, y, z = map(float, rest[:3])
                 vertices.extend((x, y, z))
                 if len(rest) == 6:  # x y z and red green blue, as many programs write

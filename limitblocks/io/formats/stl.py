@@ -36,12 +36,13 @@ def contents(path: Path) -> Contents:
         refuse_many(faces=count)
         records = np.frombuffer(data, _RECORD, offset=_HEADER)
         return Contents(_solids(path.stem, records["corners"].astype(np.float64)))
-    if data.lstrip()[:5].lower() != b"solid" or b"\0" in data:
+    text = data.decode("utf-8-sig", "replace")  # editors on Windows write a byte order mark
+    if text.lstrip()[:5].lower() != "solid" or "\0" in text:
         raise ModelError(
             f"is no sound STL: {len(data)} bytes for {count} triangles, expected "
             f"{_HEADER + count * _RECORD.itemsize}; or text that begins with 'solid'"
         )
-    return Contents(_text(data.decode("utf-8", "replace"), path.stem))
+    return Contents(_text(text, path.stem))
 
 
 def _solids(name: str, corners: Array) -> list[Solid]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.load import (
     Load,
@@ -147,10 +147,11 @@ def mass_proportional(direction: Sequence[float], added: Sequence[AddedMass] = (
     Raises
     ------
     ModelError
-        If the direction is not three finite numbers or is zero.
+        If the direction is not three finite numbers or is zero, or `added` is no sequence of masses.
     """
     unit = unit_vector(direction, "mass-proportional load: direction")
-    return of(MassProportional(unit), *(replace(mass, direction=unit) for mass in added))
+    masses = sequence_of("added", added, AddedMass)
+    return of(MassProportional(unit), *(replace(mass, direction=unit) for mass in masses))
 
 
 def added_mass(

@@ -35,6 +35,11 @@ class Load:
     terms: tuple[tuple[float, Term], ...] = ()
 
     def __add__(self, other: Load) -> Load:
+        if not isinstance(other, Load):
+            raise ModelError(
+                f"{other!r} cannot be added to a load; masses go into self_weight([mass]) and "
+                "mass_proportional(direction, [mass])"
+            )
         return Load(self.terms + other.terms)
 
     def __mul__(self, factor: float) -> Load:

@@ -40,6 +40,12 @@ def pseudo_inverses(matrices: Array) -> Array:
     return np.asarray(inverses if exact else np.linalg.pinv(matrices, hermitian=True))
 
 
+def without_rounding(turn: Array) -> Array:
+    """The turn with 0, 1 and -1 where rounding is off them, lest a solver's last digits depend on it."""
+    whole = np.rint(turn)
+    return np.asarray(np.where(np.abs(turn - whole) <= AGREE, whole, turn))
+
+
 def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
     """Which linear row or cone (K, members) of `other` each one of `kind` is, its stresses turned.
 

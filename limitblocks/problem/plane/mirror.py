@@ -14,7 +14,16 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, owned
 from limitblocks.problem.limit_problem import LimitProblem, Units
-from limitblocks.problem.plane.alike import EXACT, alike, classes, close, pseudo_inverses, size_of, used
+from limitblocks.problem.plane.alike import (
+    EXACT,
+    alike,
+    classes,
+    close,
+    pseudo_inverses,
+    size_of,
+    used,
+    without_rounding,
+)
 from limitblocks.problem.plane.candidates import candidates
 from limitblocks.problem.plane.places import Place, kinds_of
 
@@ -247,4 +256,4 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
         image, least = np.where(fits, there, image), np.where(fits, far, least)
         turn = np.where(fits[:, None, None], back.transpose(0, 2, 1), turn)
     lost = image == K  # their turn is zero, which is no mirror
-    return np.where(lost, np.arange(K), image), turn
+    return np.where(lost, np.arange(K), image), without_rounding(turn)

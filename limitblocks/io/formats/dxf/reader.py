@@ -72,7 +72,10 @@ def opened(path: Path) -> Any:
     if written_there.startswith(b"AC10"):
         raise ModelError("is a DWG, not a DXF; save it as DXF")
     with foreign("DXF"):
-        drawing = ezdxf.readfile(path)
+        try:
+            drawing = ezdxf.readfile(path)
+        except OSError:
+            raise ModelError("is not a DXF file: it does not begin as one") from None
         if b"$INSUNITS" not in written_there:
             drawing.header["$INSUNITS"] = 0  # ezdxf says metres for a file without a header
     return drawing
