@@ -4,9 +4,7 @@ The values are exact by definition: NIST Special Publication 811 (2008), Appendi
 1 lb = 0.45359237 kg, standard gravity 9.80665 m/s2. The weight of a mass is ``mass * units.gravity``.
 """
 
-from __future__ import annotations
-
-from math import pi
+from math import pi as _pi
 
 # length, m
 m = 1.0
@@ -46,4 +44,4 @@ kgf_per_m3 = kgf
 pcf = lbf / ft**3
 
 # angle, rad
-deg = pi / 180
+deg = _pi / 180

@@ -37,3 +37,9 @@ def test_products():
     assert 180 * units.deg == math.pi
     assert 10 * units.mm == units.cm
     assert units.Pa == units.N_per_m3 == units.N
+
+
+def test_a_public_name_is_a_number():
+    assert {name for name in dir(units) if not name.startswith("_")} >= {"m", "deg"}
+    assert all(isinstance(getattr(units, name), float) for name in dir(units) if not name.startswith("_"))
+    assert not hasattr(units, "pi")

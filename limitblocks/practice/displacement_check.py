@@ -79,8 +79,21 @@ def displacement_check(
 
 
 def _least_at(curve: CapacityCurve, displacement: float) -> float:
-    """Least load factor at a displacement before the zero: a curve that snaps may pass there again."""
+    """Least load factor at a displacement before the zero: a curve that snaps may pass there again.
+
+    Between two points it is on the chord or, if that is less, on the higher of the chords beside it drawn on:
+    at most that of a curve that bends one way.
+    """
     until = len(curve.points) - curve.points[-1].snapped
     x, y = curve.displacements[:until] - displacement, curve.load_factors[:until]
-    k = np.flatnonzero(x[:-1] * x[1:] <= 0.0)
-    return float((y[k] + (y[k + 1] - y[k]) * x[k] / (x[k] - x[k + 1])).min())
+    way = np.diff(x)
+    found = []
+    for k in np.flatnonzero(x[:-1] * x[1:] <= 0.0):
+        drawn_on = [
+            y[j] - x[j] * (y[j + 1] - y[j]) / way[j]
+            for j in (k - 1, k + 1)
+            if 0 <= j < len(way) and way[j] * way[k] > 0.0
+        ]
+        chord = y[k] - x[k] * (y[k + 1] - y[k]) / way[k]
+        found.append(min(chord, max(drawn_on, default=chord)))
+    return float(min(found))

@@ -104,17 +104,31 @@ def test_ground_accelerations_of_the_linear_checks(facade, answer):
 
 
 def test_acceleration_on_the_capacity_curve(facade, answer, curve):
-    """[C8.7.1.3]: that of the displaced wall, beside the straight line; linear between the curve's points."""
+    """[C8.7.1.3]: that of the displaced wall, beside the straight line."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve, damping=(0.05, 0.07))
-    order = np.argsort(curve.displacements)
     scale = G / (found["e*"] * FC)
-    there = np.interp(0.4 * curve.zero, curve.displacements[order], curve.load_factors[order])
-    assert found["a*_SLV,c"] == pytest.approx(there * scale)
+    assert found["a*_SLV,c"] == pytest.approx(_least_at(curve, 0.4 * curve.zero) * scale)
     assert found["T_SLV,c"] == pytest.approx(1.68 * np.pi * np.sqrt(0.4 * found["d0*"] / found["a*_SLV,c"]))
     exact = np.tan(np.arctan(found["alpha0"]) - np.arcsin(0.4 * curve.zero / H)) * scale
     assert found["a*_SLV,c"] == pytest.approx(exact, rel=2e-3)
     assert found["a*_SLV"] == pytest.approx(0.6 * found["a0*"])
     assert found["xi_SLV"] == 0.05
+
+
+@pytest.mark.parametrize("steps", [3, 8])
+def test_between_the_points_of_a_curve_the_load_factor_is_on_the_safe_side(curve, steps):
+    """On (1 - d)^1.2, which bends upwards, chords are above; on 1 - d^2 they are below."""
+    d = np.linspace(0.0, 1.0, steps + 1)
+
+    def of(factors):
+        points = tuple(
+            replace(curve.points[0], displacement=at, load_factor=a) for at, a in zip(d, factors, strict=True)
+        )
+        return replace(curve, points=points)
+
+    for at in np.linspace(0.01, 0.99, 50):
+        assert _least_at(of((1.0 - d) ** 1.2), at) <= (1.0 - at) ** 1.2 + 1e-12
+        assert _least_at(of(1.0 - d**2), at) == pytest.approx(np.interp(at, d, 1.0 - d**2))
 
 
 def test_a_curve_that_snaps_back_counts_with_its_least_load_factor(curve):
