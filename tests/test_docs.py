@@ -143,11 +143,12 @@ def test_a_fault_breaks_the_build(tmp_path):
     source.mkdir()
     for name in ("conf.py", "generated.py"):
         shutil.copy(DOCS / name, source)
-    page = "# Page\n\n[a page that is missing](missing.md) and $\\nonsense{$\n"
+    page = "# Page\n\n[missing](missing.md), [no heading](index.md#heading) and $\\nonsense{$\n"
     (source / "index.md").write_text(page, encoding="utf-8")
     done = build(source, tmp_path / "site")
     assert done.returncode != 0
     assert "missing.md" in done.stderr
+    assert "id not found in doc 'index': 'heading'" in done.stderr
     assert "maths" in done.stderr
 
 

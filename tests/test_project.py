@@ -75,6 +75,20 @@ def test_what_contributors_are_sent_to_is_there():
     assert missing == []
 
 
+def test_pages_that_texts_and_messages_name_are_there():
+    rooms = [ROOT / room for room in ("limitblocks", "docs", "examples", "scripts", "tests")]
+    pages = chain(ROOT.glob("*.md"), *(room.rglob(kind) for room in rooms for kind in ("*.md", "*.py")))
+    named = {}
+    for file in pages:
+        text = file.read_text(encoding="utf-8")
+        named |= dict.fromkeys(re.findall(r"\bdocs/[\w/-]+\.md\b", text), file.name)
+        if file.suffix == ".md" and file.parent in (ROOT, ROOT / "examples"):  # the others are built
+            links = re.findall(r"\]\((?!\w+:)([^)#\s]+)", text)
+            named |= {(file.parent / link).relative_to(ROOT).as_posix(): file.name for link in links}
+    assert len(named) > 50
+    assert {page: by for page, by in named.items() if not (ROOT / page).exists()} == {}
+
+
 def test_lowest_versions_are_the_lower_bounds():
     lowest = runpy.run_path(str(ROOT / "scripts" / "lowest"))["lowest"]()
     assert "numpy==" in " ".join(lowest)
