@@ -112,7 +112,7 @@ class Prover:
         kinematic = self.kinematic.reach(state.u, state.y).times(reserve)
         upper = _upper(p, state, kinematic, reserve) / p.units.live if kinematic.proven else np.inf
         return Proof(
-            lower=float(state.load_factor) / p.units.live if static.proven else -np.inf,
+            lower=float(state.load_factor / p.units.live) if static.proven else -np.inf,
             upper=float(upper),
             static=_why("lower bound", "stresses", p, static),
             kinematic=_why("upper bound", "multipliers", p, kinematic)

@@ -32,6 +32,7 @@ from limitblocks.joints.limit_surface import (
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinge_gradients, hinging, stacked
+from limitblocks.joints.stress_block import CRUSHING
 from limitblocks.joints.torsion import torsion_constant, torsion_integrals
 
 SIGNS = (1.0, -1.0)
@@ -72,8 +73,8 @@ class ExactTorsion(Queries):
     side : {"inner", "outer"}
         Safe or unsafe.
     compressive_strength : float, optional
-        Effective strength fcef, Pa, of hinging, Eq. (39); infinite unless given. Torsion and shear are
-        not reduced by crushing.
+        Effective strength fcef, Pa, of hinging, Eq. (39), whose moments are up to 1 + sqrt(-N / (A fcef))
+        times those of the stress block; infinite unless given. Torsion and shear are not reduced.
 
     Raises
     ------
@@ -110,7 +111,7 @@ class ExactTorsion(Queries):
             f"Papadopoulos 1991), by {8 * self.fineness**2} planes from {self._from}.",
             "Torsion under bending is that of the effective area, Eqs (19)-(20), by planes from there, too.",
             "Shear and bending reduce torsion independently of each other; there is no cohesion.",
-            "Torsion and shear are not reduced by crushing.",
+            *((CRUSHING,) if self.compressive_strength is not None else ()),
         )
 
     def yield_rows(self, polygons: Array, stress_unit: float = 1.0) -> YieldRows:

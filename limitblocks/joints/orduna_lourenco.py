@@ -23,6 +23,7 @@ from limitblocks.joints.base import (
 )
 from limitblocks.joints.queries import Queries
 from limitblocks.joints.rows import Rows, frictional, hinging, shear_directions, stacked
+from limitblocks.joints.stress_block import CRUSHING
 from limitblocks.joints.torsion import rectangle_torsion_constant, torsion_constants
 
 SIGNS = (1.0, -1.0)
@@ -73,11 +74,11 @@ class OrdunaLourenco(Queries):
       the moments are divided by the largest |x1| + |x2| of a corner, which is l1 + l2 on a rectangle;
     - shear and bending reduce torsion independently of each other;
     - with a compressive strength, Eq. (39) reduces the moment strength to zero at N = -A fcef; that is the
-      exact stress block for bending about one axis of a rectangle, and an approximation for other shapes and
-      oblique bending: along the diagonal of a rectangle the moment is 1.28 times that of the stress block, a
-      triangle, at a tenth of A fcef, and up to 1.5 times at a half; towards a corner of a triangle it is
-      1 + sqrt(-N / (A fcef)) times as large. Areas divided into convex pieces have the errors of each.
-      Torsion and shear are not reduced by crushing;
+      exact stress block for bending about one axis of a rectangle. Elsewhere the moment is up to
+      1 + sqrt(-N / (A fcef)) times that of the stress block, on any convex polygon: so much towards a corner
+      of a triangle; along the diagonal of a rectangle 1.28 times at a tenth of A fcef, and up to 1.5 times at
+      a half. Areas divided into convex pieces have the errors of each. Torsion and shear are not reduced by
+      crushing;
     - cohesion acts on the whole area whatever the eccentricity, which overestimates it once a joint opens.
 
     Parameters
@@ -138,10 +139,7 @@ class OrdunaLourenco(Queries):
         crushing = (
             "Joints do not crush: a hinge is at the very edge of a contact area."
             if self.compressive_strength is None
-            else "Crushing reduces the moment that a joint carries, Eq. (39), not its shear or torsion; the "
-            "equation is the exact stress block for bending about one axis of a rectangle; along its "
-            "diagonal the moment is overestimated by up to half, 28 % at a tenth of the crushing force, and "
-            "on areas divided into convex pieces, as an L, by about as much."
+            else CRUSHING
         )
         cohesion = "Cohesion acts on the whole area whatever the eccentricity, which overestimates it."
         tension = (

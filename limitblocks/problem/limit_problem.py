@@ -201,7 +201,7 @@ class LimitProblem:
     def in_si(self, state: State) -> State:
         """Return the state in SI units; the live load of the model does the work 1 N m on its rates."""
         return State(
-            state.load_factor / self.units.live,
+            float(state.load_factor / self.units.live),
             state.x * self.stress_units,
             state.u * self.rate_units,
             state.y * self.multiplier_units,

@@ -48,8 +48,9 @@ def pdf(document: Document) -> bytes:
     sides = dict.fromkeys(("leftMargin", "rightMargin", "topMargin", "bottomMargin"), _MARGIN)
     author = dict(document.about).get("Author", "")
     named = {"title": document.title, "author": author, "creator": CREATOR}
-    template = SimpleDocTemplate(stream, pagesize=_PAGE, **named, **sides)
-    template.build(list(_story(document)), canvasmaker=numbered(latin(document.title), document.digest))
+    template = SimpleDocTemplate(stream, pagesize=_PAGE, invariant=1, **named, **sides)
+    made = numbered(latin(document.title), document.digest, document.date)
+    template.build(list(_story(document)), canvasmaker=made)
     return stream.getvalue()
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import UTC, datetime
 from typing import Any
 
 from reportlab.pdfgen.canvas import Canvas
@@ -10,13 +11,17 @@ _SIDE, _FOOT, _SIZE = 51.0, 25.0, 7.0  # points
 _LONGEST = 90  # letters of the title above a page
 
 
-def numbered(title: str, digest: str) -> type[Canvas]:
-    """Return a canvas that writes title, hash and "page k of n", known only when all pages are there."""
+def numbered(title: str, digest: str, date: datetime) -> type[Canvas]:
+    """Return a canvas that writes title, hash and "page k of n", known only when all pages are there.
+
+    The file is dated as the report is, whenever it is saved.
+    """
 
     class Numbered(Canvas):  # type: ignore[misc] # reportlab has no types
         def __init__(self, *args: Any, **settings: Any) -> None:
             super().__init__(*args, **settings)
             self._pages: list[dict[str, Any]] = []
+            self.setDateFormatter(lambda *_: f"{date.astimezone(UTC):D:%Y%m%d%H%M%SZ}")
 
         def showPage(self) -> None:
             self._pages.append(dict(self.__dict__))

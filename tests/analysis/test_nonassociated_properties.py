@@ -14,14 +14,15 @@ from limitblocks.analysis.scales import unmoved
 
 MU = 0.65
 KINDS = [lb.OrdunaLourenco, lb.PointContact]
+WALLS = [{"friction": mu, "courses": courses} for mu in (0.5, 0.65, 0.8) for courses in (3, 4)]
 NAMES = ["equilibrium", "yield", "flow", "normalisation", "multipliers", "complementarity", "dissipation"]
 
 
-def wall(kind, scale=1.0, unit_weight=20e3, direction=(1, 0, 0)):
+def wall(kind, scale=1.0, unit_weight=20e3, direction=(1, 0, 0), friction=MU, courses=4):
     return structures.wall(
-        kind(MU),
+        kind(friction),
         length=1.2 * scale,
-        courses=4,
+        courses=courses,
         block_length=0.4 * scale,
         block_height=0.2 * scale,
         thickness=0.2 * scale,
@@ -90,6 +91,15 @@ def test_units_change_nothing(kind, reference, change):
     """Up to rounding, which decides where in an interval of solutions the path is closed."""
     found = lb.nonassociated(wall(kind, **change))
     assert found.load_factor == pytest.approx(reference[1].load_factor, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "change", [{"scale": 2.0**-10}, {"scale": 2.0**10}, {"unit_weight": 20e3 * 2.0**20}], ids=str
+)
+def test_units_that_round_alike_change_nothing_at_all(kind, change):
+    for one in WALLS:
+        was, now = (lb.nonassociated(wall(kind, **one, **by), confirm=False) for by in ({}, change))
+        assert now.load_factor == pytest.approx(was.load_factor, rel=1e-12)
 
 
 def test_a_mirror_image_has_the_same_answer(kind, reference):

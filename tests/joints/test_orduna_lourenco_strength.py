@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 from rectangles import (
@@ -25,6 +26,8 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.joints.interaction import effective_strength
+from limitblocks.joints.stress_block import over_stress_block
+from limitblocks.reports.sections import section
 
 DOCS = (Path(__file__).parents[2] / "docs/choosing-a-joint.md").read_text(encoding="utf-8")
 
@@ -218,3 +221,52 @@ def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
     assert moment == pytest.approx(L2 * (AREA * c / MU - N), rel=1e-9)
     assert any(f"tensile strength {c / MU / 1e3:.4g} kPa counts" in line for line in joint.assumed())
     assert not any("tensile" in line for line in SLIPS["bonded"].assumed())
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1, 0.5, 0.9])
+@pytest.mark.parametrize("shape", [[(0, 0), (1, 0), (3, 0.4)], [(0, 0), (2, 0), (1.3, 1), (0.7, 1)]])
+def test_moments_of_crushing_beside_the_stress_block(shape, share):
+    """Cut by bisection: the block's own moment is 1; at the corners Eq. (39) is at most 1 + sqrt(n)."""
+    polygon = lb.joints.interface(shape, PAPER).polygon
+    whole = shapely.Polygon(polygon)
+
+    def over(e):
+        return over_stress_block(polygon, 1.0 / (share * whole.area), np.array([0, 0, -1, -e[1], e[0], 0]))
+
+    for angle in np.linspace(0.1, 6.3, 7):
+        out = np.array([np.cos(angle), np.sin(angle)])
+        across = 10.0 * np.array([-out[1], out[0]])
+
+        def cut(depth, out=out, across=across):
+            near, far = depth * out, (depth + 20.0) * out
+            return whole & shapely.Polygon([near - across, near + across, far + across, far - across])
+
+        depth = brentq(lambda depth, cut=cut: cut(depth).area / whole.area - share, -5.0, 5.0, xtol=1e-13)
+        assert over(np.array(cut(depth).centroid.coords[0])) == pytest.approx(1.0, abs=1e-3)
+    most = max(over((1.0 - share) * corner) for corner in polygon)
+    assert most <= (1.0 + np.sqrt(share)) * 1.001
+    assert len(polygon) > 3 or most == pytest.approx(1.0 + np.sqrt(share), rel=1e-3)
+
+
+def test_moments_beside_the_stress_block_of_both_strengths():
+    """A rectangle about one axis: M = l (A ft - N) (1 - (A ft - N) / (A (fcef + ft)))."""
+    force = 5.0 + 2.0 * AREA
+    moment = L2 * force * (1 - force / (AREA * 1002.0))
+    found = over_stress_block(RECTANGLE, 1000.0, np.array([0, 0, -5.0, moment / 2, 0, 0]), 2.0)
+    assert found == pytest.approx(0.5, abs=5e-4)
+    assert over_stress_block(RECTANGLE, 1000.0, np.array([1.0, 0, -5.0, 0, 0, 1.0])) == 0.0
+    assert over_stress_block(RECTANGLE, 5.0 / AREA, np.array([0, 0, -5.0, 1.0, 0, 0])) == np.inf
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])
+def test_reports_say_how_far_crushing_is_beyond_the_stress_block(joint):
+    """Towards a corner of a triangle 1 + sqrt(n); about an axis of a rectangle nothing."""
+    share, height, said = 0.25, 6.0, "times the moment of the exact stress block"
+    own = joint(2.0, compressive_strength=20e3 * height / share)
+    assert "sqrt(-N / (A fcef))" in " ".join(own.assumed())
+    assert "sqrt(" not in " ".join(joint(2.0).assumed())
+    corner = pushed(prism([(0, 0.4), (0, -0.4), (0.9, 0)], height), own, (1.0, 0.0))
+    for analysis in (lb.bounds, lb.nonassociated):
+        assert f"ground|foot carries 1.50 {said}" in " ".join(section(corner, analysis(corner)).warnings)
+    flat = pushed(prism([(0, 0), (1, 0), (1, 0.7), (0, 0.7)], height), own, (1.0, 0.0))
+    assert said not in " ".join(section(flat, lb.bounds(flat)).warnings)

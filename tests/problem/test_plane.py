@@ -217,6 +217,18 @@ def test_lifted_states_satisfy_everything_out_of_the_plane_too(name):
         assert all(np.allclose(*pair) for pair in ((again.x, x), (again.u, u), (again.y, y)))
 
 
+def test_rounding_does_not_decide_which_stresses_come_first():
+    """Of a wall in mm, m and km: those that mirror each other are as large but for rounding."""
+    patterns = []
+    for scale in (1e-3, 1.0, 1e3):
+        size = {"length": 1.2, "block_length": 0.4, "block_height": 0.2, "thickness": 0.2}
+        scaled = {name: scale * one for name, one in size.items()}
+        model = structures.wall(PAPER, courses=4, **scaled)
+        stresses = in_plane(model.problem, Choice.FLOWING).stresses
+        patterns.append((stresses.indptr.tolist(), stresses.indices.tolist()))
+    assert patterns[0] == patterns[1] == patterns[2]
+
+
 def test_rows_left_out_are_implied():
     problem = wall(JOINTS["both"]).problem
     mirror = mirror_of(problem)

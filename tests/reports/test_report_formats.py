@@ -1,7 +1,9 @@
 import builtins
 import json
 import re
+import time
 from dataclasses import replace
+from datetime import datetime, timedelta, timezone
 
 import jsonschema
 import pytest
@@ -130,6 +132,20 @@ def test_suffix_chooses_the_format(report, tmp_path, suffix):
     assert report.save(file) == file
     with pytest.raises(lb.LimitBlocksError, match="exists"):
         report.save(file, overwrite=False)
+
+
+@pytest.mark.parametrize("suffix", [".html", ".json", ".md", ".pdf"])
+def test_a_report_saved_later_is_the_same_file(suffix, tmp_path, monkeypatch):
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    model = lb.structures.column(lb.PointContact(0.7), count=1, width=0.5, height=1.0)
+    evening = datetime(2026, 12, 31, 23, 30, 5, tzinfo=timezone(timedelta(hours=-1)))
+    report = replace(lb.report(model, lb.bounds(model)), date=evening)
+    now = report.save(tmp_path / f"now{suffix}").read_bytes()
+    with monkeypatch.context() as patch:
+        patch.setattr(time, "time", lambda: 2e9)
+        assert report.save(tmp_path / f"later{suffix}").read_bytes() == now
+    if suffix == ".pdf":  # ISO 32000-1, 7.9.4: the date in universal time
+        assert re.findall(rb"Date \((.*?)\)", now) == [b"D:20270101003005Z"] * 2
 
 
 @pytest.mark.parametrize("name", ["arch.docx", "arch"])

@@ -107,7 +107,7 @@ def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | Non
 
     def tell(state: State | None, how: str, known: float = float("nan")) -> None:
         if progress is not None:
-            factor = state.load_factor / problem.units.live if state else known
+            factor = float(state.load_factor / problem.units.live) if state else known
             progress(Iteration(factor, how, 0.0, {}, 0, 0))
 
     x0 = start_stresses(model, problem, problem.compliance, None)
@@ -129,7 +129,7 @@ def _result(
     return LoadFactorRange(
         load_path=first,
         answers=tuple(answers),
-        intervals=tuple((low / live, high / live) for low, high in collected.intervals),
+        intervals=tuple((float(low / live), float(high / live)) for low, high in collected.intervals),
         unlimited=collected.beyond is not None,
         frictionless=task.enclosing.frictionless,
         associated=task.enclosing.associated,

@@ -142,4 +142,4 @@ def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
     one = state and Certified(state, "mixed-integer program", Origin.SEARCHED)
     best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
     near = state is not None and abs(state.load_factor - bound) <= AGREES * task.scale
-    return Extreme(best, bound / live, near, stresses, multipliers, seconds)
+    return Extreme(best, float(bound / live), near, stresses, multipliers, seconds)

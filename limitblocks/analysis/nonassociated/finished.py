@@ -35,7 +35,7 @@ ASK_FIRST = (
 
 def end(flow: Flow, state: State) -> Iteration:
     """What the polished end tells the user."""
-    load_factor = state.load_factor / flow.problem.units.live
+    load_factor = float(state.load_factor / flow.problem.units.live)
     return Iteration(load_factor, "polish", 0.0, mcp_residuals(flow, state).to_dict(), 0, 0)
 
 

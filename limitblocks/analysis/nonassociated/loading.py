@@ -58,7 +58,7 @@ class Pushed:
         return Iteration(
             load_factor=float(self.state.load_factor / unit),
             kind="step",
-            step_size=1.0 / self.increment.rho,
+            step_size=float(1.0 / self.increment.rho),
             residuals=self.residuals.to_dict(),
             inner=self.factorisations,
             failures=self.failures,

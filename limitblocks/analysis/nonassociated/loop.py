@@ -165,7 +165,7 @@ def end_of_first_path(
         raise KeyboardInterrupt
     solved = mcp_residuals(at, state).worst.value <= tolerance
     solved &= planar is None or planar.accepted(state, tolerance) is not None
-    return state.load_factor / at.problem.units.live if solved else np.nan
+    return float(state.load_factor / at.problem.units.live) if solved else np.nan
 
 
 def _not_looked_for() -> None:
@@ -174,6 +174,6 @@ def _not_looked_for() -> None:
 
 def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
     """What a round of the outer loop tells the user."""
-    load_factor = state.load_factor / flow.problem.units.live
+    load_factor = float(state.load_factor / flow.problem.units.live)
     residuals = mcp_residuals(flow, state).to_dict()
     return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)

@@ -240,5 +240,5 @@ def left_over(left: Residuals, tolerance: float) -> tuple[bool, float]:
 
 def _point(problem: LimitProblem, at: Progress) -> Iteration:
     """What a point of the path tells the user."""
-    load_factor = at.load_factor / problem.units.live
-    return Iteration(load_factor, "path", at.theta, {"theta": at.theta}, at.factorisations, 0)
+    load_factor, theta = float(at.load_factor / problem.units.live), float(at.theta)
+    return Iteration(load_factor, "path", theta, {"theta": theta}, at.factorisations, 0)

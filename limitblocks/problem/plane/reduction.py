@@ -23,6 +23,7 @@ from limitblocks.problem.plane.planar import Planar
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
+ALIKE = 6  # digits: of columns as large as each other the first is taken, whatever rounding says
 NOTHING = 1e-13  # of the largest entry of a row: rounding of what vanishes by symmetry
 
 
@@ -154,7 +155,7 @@ def symmetric(turn: Array) -> Array:
     left, basis = (np.eye(c) + turn) / 2.0, np.zeros((K, c, c))
     for k in range(c):
         sizes = np.linalg.norm(left, axis=1)
-        largest = sizes.argmax(axis=1)
+        largest = sizes.round(ALIKE).argmax(axis=1)
         size = sizes[np.arange(K), largest][:, None]
         column = np.where(
             size > SMALLEST, left[np.arange(K), :, largest] / np.where(size > SMALLEST, size, 1.0), 0.0
