@@ -120,10 +120,16 @@ def __dir__() -> list[str]:
 
 if not TYPE_CHECKING:  # a type checker would take it for leave to use any name
 
+    def _elsewhere(name: str) -> str:
+        """Where a name is that the parts show; plots, which a name here may be pictured by, are left out."""
+        parts = () if name.startswith("_") else sorted({*__all__} - {*_HOMES, "plots"})
+        homes = [part for part in parts if name in dir(import_module(f"limitblocks.{part}"))]
+        return f"; it is limitblocks.{homes[0]}.{name}" if homes else ""
+
     def __getattr__(name: str) -> Any:
         """Import a public name when it is first asked for."""
         if name not in __all__:
-            raise AttributeError(f"module 'limitblocks' has no attribute {name!r}")
+            raise AttributeError(f"module 'limitblocks' has no attribute {name!r}{_elsewhere(name)}")
         if name not in _HOMES:
             return import_module(f"limitblocks.{name}")
         value = globals()[name] = getattr(import_module(f"limitblocks.{_HOMES[name]}"), name)

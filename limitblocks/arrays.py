@@ -37,6 +37,12 @@ def largest_in_rows(matrix: sparse.csr_array) -> Array:
     return largest
 
 
+def in_columns(matrix: sparse.csr_array, weights: Array) -> Array:
+    """Sums of the sizes of the entries of each column, those of each row times its weight."""
+    sizes = np.abs(matrix.data) * np.repeat(weights, np.diff(matrix.indptr))
+    return np.bincount(matrix.indices, sizes, matrix.shape[1]).astype(np.float64)
+
+
 def positions(owner: Indices) -> Indices:
     """Running number of each entry among those of its owner, shape (len,)."""
     position = np.empty(len(owner), dtype=np.int64)

@@ -33,6 +33,21 @@ def test_every_name_is_there_once_and_no_other():
         lb.bound  # noqa: B018
 
 
+@pytest.mark.parametrize(
+    ("name", "home"),
+    [("ExactTorsion", "joints"), ("pressure", "loads"), ("Bounds", "results"), ("kN", "units")],
+)
+def test_a_name_of_a_part_is_told_where_it_is(name, home):
+    with pytest.raises(AttributeError, match=f"no attribute '{name}'; it is limitblocks.{home}.{name}$"):
+        getattr(lb, name)
+
+
+def test_what_tools_ask_a_module_for_loads_nothing():
+    assert (
+        loaded("import limitblocks; hasattr(limitblocks, '__wrapped__'), hasattr(limitblocks, '_x')") == set()
+    )
+
+
 def test_type_checkers_see_the_names_that_python_finds():
     tree = ast.parse(Path(lb.__file__).read_text(encoding="utf-8"))
     block = next(node for node in tree.body if isinstance(node, ast.If))

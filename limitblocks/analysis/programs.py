@@ -165,7 +165,8 @@ def solved(program: Program, solver: Solver) -> Solution:
             program.problem.solve(solver=solver.name, warm_start=False, **solver.settings)
             status = str(program.problem.status)
         except (cp.SolverError, ValueError, ArithmeticError) as error:
-            status = f"{type(error).__name__}: {error}"
+            status = "failed"
+            log.info("%s: %s", type(error).__name__, error)
     log.info("%s: %s", solver.name, status)
     values = tuple(_number(variable.value, variable.shape) for variable in program.variables)
     return Solution(solver.name, status, values, tuple(map(_dual, program.problem.constraints)))

@@ -141,35 +141,20 @@ class Kinematic:
         p, m, parts = self.problem, len(self.problem.interfaces), []
         rows, row = owned(p.row_interface, m)
         columns, column = owned(p.stress_interface, m)
-        F, most = p.F.tocoo(), rows.shape[1]
-        place = column[F.col] * most + row[F.row]
-        number, matrix = _alike(p.row_interface[F.row], place, F.data, (m, columns.shape[1] * most))
-        tall, wide = (rows < len(p.g)).sum(axis=1), (columns < F.shape[1]).sum(axis=1)
+        F, tall, wide = p.F.tocoo(), (rows < len(p.g)).sum(axis=1), (columns < p.F.shape[1]).sum(axis=1)
+        owner = p.row_interface[F.row]
         for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
             these = np.flatnonzero((tall == r) & (wide == c))
-            its, kind = np.unique(number[these], return_inverse=True)
-            inverse = _right_inverse(matrix[its].reshape(len(its), -1, most)[:, :c, :r])
-            parts.append((rows[these, :r], columns[these, :c], kind.ravel(), *inverse))
+            number = np.full(m, -1)
+            number[these] = np.arange(len(these))
+            at = number[owner] >= 0
+            matrix = np.zeros((len(these), c, r))
+            matrix[number[owner[at]], column[F.col[at]], row[F.row[at]]] = F.data[at]
+            seen: dict[bytes, int] = {}
+            kind = np.array([seen.setdefault(own.tobytes(), len(seen)) for own in matrix])
+            inverse = _right_inverse(matrix[np.unique(kind, return_index=True)[1]])
+            parts.append((rows[these, :r], columns[these, :c], kind, *inverse))
         return parts
-
-
-def _alike(owner: Indices, place: Indices, data: Array, shape: tuple[int, int]) -> tuple[Indices, Array]:
-    """The kind (m,) of m owners of entries `data` at `place`, `shape` (m, places); entries (kinds, places).
-
-    Of one kind are those with the same sum of entries times numbers without a pattern, if these are the same.
-    """
-    m, places = shape
-    mix = np.cos(np.arange(places) ** 2 + 1.0)
-    total, count = np.bincount(owner, data * mix[place], m), np.bincount(owner, minlength=m)
-    _, first, kind = np.unique(total, return_index=True, return_inverse=True)
-    first, kind = first[kind.ravel()], kind.ravel()
-    for _ in range(2):
-        matrix, its = np.zeros((int(kind.max(initial=-1)) + 1, places)), first[owner] == owner
-        matrix[kind[owner[its]], place[its]] = data[its]
-        if (matrix[kind[owner], place] == data).all() and (count == count[first]).all():
-            break
-        first = kind = np.arange(m)
-    return kind, matrix
 
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:

@@ -6,6 +6,7 @@ rectangles; the effective area of other convex polygons is this library's. N <= 
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -232,10 +233,12 @@ def effective_strength(fc: float) -> float:
     Raises
     ------
     ModelError
-        Outside 0.01 to 60 MPa. The formula is Nielsen's (1999) for concrete up to 60 MPa; it is no more than
-        borrowed for masonry, and beyond 70 MPa it would let a stronger material carry less.
+        No number, or outside 0.01 to 60 MPa. The formula is Nielsen's (1999) for concrete up to 60 MPa; it is
+        no more than borrowed for masonry, and beyond 70 MPa it would let a stronger material carry less.
     """
     low, high = STRENGTH_RANGE
+    if not isinstance(fc, Real):
+        raise ModelError(f"compressive strength fc is {fc!r}, expected a number in Pa")
     if not low <= fc <= high:
         raise ModelError(f"compressive strength fc is {fc:g} Pa; Eq. (42) holds from {low:g} to {high:g} Pa")
     return (0.7 - fc / 200e6) * fc

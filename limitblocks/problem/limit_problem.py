@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, read_only, tied
+from limitblocks.arrays import Array, Indices, in_columns, read_only, tied
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.modes import Mode
 
@@ -158,9 +158,9 @@ class LimitProblem:
     @cached_property
     def stress_interface(self) -> Indices:
         """Interface of each generalised stress, shape (s,)."""
-        entries = self.resultants.tocoo()
-        interface = np.zeros(entries.shape[1], dtype=np.int64)
-        interface[entries.col] = entries.row // 6
+        Q, m = self.resultants, len(self.interfaces)
+        interface = np.zeros(Q.shape[1], dtype=np.int64)
+        interface[Q.indices] = np.repeat(np.arange(m), np.diff(Q.indptr[::6]))
         return interface
 
     @cached_property
@@ -181,11 +181,9 @@ class LimitProblem:
     @cached_property
     def stress_units(self) -> Array:
         """Units of the generalised stresses, N or N m, shape (s,)."""
-        forces = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces))
-        is_force, k = abs(self.resultants).T @ forces > 0, self.stress_interface
-        return np.asarray(
-            self.units.interface_force[k] * np.where(is_force, 1.0, self.units.interface_length[k])
-        )
+        forces, k = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(self.interfaces)), self.stress_interface
+        length = np.where(in_columns(self.resultants, forces) > 0.0, 1.0, self.units.interface_length[k])
+        return np.asarray(self.units.interface_force[k] * length)
 
     @cached_property
     def rate_units(self) -> Array:
@@ -233,7 +231,7 @@ class LimitProblem:
         loads, stresses = old.loads / units.loads, at_ends / old.interface_force
         columns, rows = stresses[self.stress_interface], stresses[self.row_interface]  # F and G stay
         live_share = old.live / live
-        return replace(
+        found = replace(
             self,
             C=in_units(self.C, columns, loads),
             dead=read_only(self.dead * loads),
@@ -242,3 +240,6 @@ class LimitProblem:
             compliance=read_only(self.compliance * columns**2),
             units=units,
         )
+        same = ("stress_interface", "parts", "member_interface")  # in all units
+        vars(found).update({key: vars(self)[key] for key in same if key in vars(self)})
+        return found

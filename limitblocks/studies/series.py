@@ -138,8 +138,10 @@ def sweep(
     Raises
     ------
     ModelError
-        If there is no value.
+        If there is no value, or `values` is no sequence.
     """
+    if not isinstance(values, Iterable):
+        raise ModelError(f"values is {values!r}, expected a sequence of values of the parameter")
     given = tuple(values)
     if not given:
         raise ModelError("sweep: there are no values, expected at least one")

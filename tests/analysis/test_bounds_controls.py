@@ -246,6 +246,8 @@ def test_tolerance_is_obeyed():
     said = str(caught_error.value)
     assert said.startswith("no pair of bounds within 1e-18; the best of ")
     assert said.count("residual") == 1
+    assert "verbose" not in said
+    assert "Error" not in said
 
 
 def test_proven_bounds_of_an_accurate_solution_are_returned_although_wider_than_the_tolerance(monkeypatch):

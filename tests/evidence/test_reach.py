@@ -10,8 +10,8 @@ from scipy import sparse
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.arrays import same_rows
-from limitblocks.evidence.reach import Kinematic, Static, _alike
+from limitblocks.arrays import in_columns, same_rows
+from limitblocks.evidence.reach import Kinematic, Static
 from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
 
@@ -165,15 +165,23 @@ def test_rows_are_classed_by_their_numbers():
         assert first[of].tolist() == expected
 
 
-def test_unlike_entries_of_one_sum_are_of_different_kinds():
-    """Entries are weighed by cosines a, b: those of sizes b and a, at places 0 and 1, have one sum."""
-    a, b = np.cos(np.arange(2) ** 2 + 1.0)
-    owner, place = np.array([0, 1, 2, 3, 3]), np.array([0, 1, 0, 0, 1])
-    for data in ([b, a, b, b, 0.0], [1.0, 2.0, 1.0, 3.0, 4.0]):
-        kind, matrix = _alike(owner, place, np.array(data), (4, 2))
-        expected = np.zeros((4, 2))
-        expected[owner, place] = data
-        np.testing.assert_array_equal(matrix[kind], expected)
+def test_interfaces_share_an_inverse_where_their_numbers_are_the_same(model):
+    """One entry by a rounding error another: the interface has an inverse of its own."""
+    p = model.problem
+    for factor in (1.0, 1.0 + 2.0**-52):
+        F = p.F.copy()
+        F.data[np.flatnonzero(F.data)[0]] *= factor
+        parts = Kinematic(replace(p, F=F))._inverses
+        for rows, columns, kind, _, _ in parts:
+            blocks = [F[own][:, its].T.toarray() for own, its in zip(rows, columns, strict=True)]
+            same = np.array([[(a == b).all() for b in blocks] for a in blocks])
+            np.testing.assert_array_equal(same, kind[:, None] == kind)
+
+
+def test_sizes_in_columns_are_summed_by_the_weights_of_their_rows():
+    A, weights = scattered(9, 5), np.abs(scattered(9))
+    found = in_columns(sparse.csr_array(A), weights)
+    np.testing.assert_allclose(found, np.abs(A).T @ weights, rtol=1e-14)
 
 
 def test_what_is_made_up_is_bounded(model):

@@ -194,6 +194,8 @@ DAMAGE = {
     "glb of another length": ("binary.glb", lambda d: d[:8] + b"\xff" * 4 + d[12:], "4294967295"),
     "glb chunk of another length": ("binary.glb", lambda d: d[:12] + b"\xff" * 4 + d[16:], "4294967295"),
     "glb garbage": ("binary.glb", lambda _: b"glTF" + bytes(range(256)) * 8, "not whole"),
+    "gltf of text": ("text.gltf", lambda _: b"a wall of ten stones", "is neither glTF (JSON) nor GLB"),
+    "gltf of Latin text": ("text.gltf", lambda _: b"arc \xe9pais", "is neither glTF (JSON) nor GLB"),
     "gltf cut": ("text.gltf", lambda d: d[:-40], "not JSON"),
     "gltf of version 1": ("text.gltf", lambda d: changed(d, b'"2.0"', b'"1.0"'), "version"),
     "gltf far beyond its buffer": (

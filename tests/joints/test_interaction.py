@@ -193,6 +193,8 @@ def test_effective_strength_is_eqs_41_and_42():
     for fc in (0.0, -1e6, 20.0, 60.1e6, np.inf, np.nan):
         with pytest.raises(ModelError, match=r"strength fc is .* Pa.*from 10000 to 6e\+07 Pa"):
             effective_strength(fc)
+    with pytest.raises(ModelError, match="strength fc is '3e6', expected a number in Pa"):
+        effective_strength("3e6")
 
 
 def test_impossible_questions_are_named():

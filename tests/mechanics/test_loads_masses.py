@@ -109,6 +109,13 @@ def test_compass_points():
         lb.loads.compass(0)
 
 
+def test_a_list_of_loads_has_a_sum():
+    one, two = lb.self_weight(), lb.loads.moment("block", (1.0, 0.0, 0.0))
+    assert sum([one, two]) == one + two
+    with pytest.raises(lb.ModelError, match="1 cannot be added to a load"):
+        sum([one, two], 1)
+
+
 def test_turned_load_keeps_factors_and_masses():
     mass = lb.loads.added_mass("block", (0, 0, 3), weight=1e3)
     load = 0.3 * lb.mass_proportional((1, 0, 0), [mass])

@@ -42,6 +42,9 @@ class Load:
             )
         return Load(self.terms + other.terms)
 
+    def __radd__(self, other: Any) -> Load:
+        return self if other == 0 else self + other  # sum() begins with 0
+
     def __mul__(self, factor: float) -> Load:
         times = number(factor, "factor of a load", "")
         return Load(tuple((times * own, term) for own, term in self.terms))

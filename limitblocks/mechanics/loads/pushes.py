@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, mass_proportional, self_weight
 from limitblocks.mechanics.loads.load import Load, unit_vector, vector
 
@@ -21,10 +22,9 @@ def compass(count: int, *, vertical: bool = False) -> Array:
     Raises
     ------
     ModelError
-        If `count` is less than one.
+        If `count` is no whole number of at least one.
     """
-    if count < 1:
-        raise ModelError(f"count of directions is {count}, expected at least 1")
+    checked_count("count of directions", count, 1)
     angles = 2 * np.pi * np.arange(count) / count
     along = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(count)])
     along[np.abs(along) < 1e-15] = 0.0  # cos(90 deg) in floating point

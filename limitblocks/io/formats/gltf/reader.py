@@ -64,9 +64,12 @@ def _parts(data: bytes) -> tuple[dict[str, Any], bytes]:
         chunks = dict(_chunks(data))
         data, binary = chunks.get(JSON_CHUNK, b""), chunks.get(BINARY_CHUNK, b"")
     try:
-        document = strict_json.parse(data.decode("utf-8-sig"))
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise ModelError("is neither glTF (JSON) nor GLB") from None
+        text = ""
+    if not text.lstrip().startswith(("{", "[")):
+        raise ModelError("is neither glTF (JSON) nor GLB")
+    document = strict_json.parse(text)
     version = document.get("asset", {}).get("version") if isinstance(document, dict) else None
     if not str(version).startswith("2."):
         raise ModelError(f"glTF version is {version!r}; 2.0 is read")
