@@ -99,7 +99,7 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
     """
     held, sliding = _motion(assembly, displacements)
     was, least = [own.ways[:, 2] for own in assembly.contacts], 10.0 * CLOSED * assembly.size
-    rigid = np.concatenate([np.full(len(own.on_i), not own.tied) for own in assembly.contacts])
+    rigid = np.concatenate([np.full(len(own.on_i), own.rigid) for own in assembly.contacts])
     share, before, trials = 1.0, np.concatenate(was), 0
     while share >= SHORTEST:
         goal, left = closed_up(moved(assembly, share * displacements), held, sliding, displacements)
@@ -150,7 +150,7 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]
         ]
         relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
         closed = (own.ways[:, 2] <= 10.0 * CLOSED * assembly.size) & (relative[:, 2] <= least)
-        held.append(closed & (not own.tied))
+        held.append(closed & own.rigid)
         sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
     return held, sliding
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -13,12 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Block, Interface
-from limitblocks.joints import Tie
-from limitblocks.mechanics import Load
-from limitblocks.mechanics.loads.forces import AddedMass, PointForce
-from limitblocks.mechanics.loads.load import Term, Vector
+from limitblocks.joints import Dowel, Tie
 from limitblocks.model import Model
-from limitblocks.practice.elements import Element
+from limitblocks.practice.carried_loads import carried_load, prestress
 from limitblocks.practice.resting import half_way, resting_axes, rims_at
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
@@ -28,7 +25,6 @@ EVEN = 1e-3  # sine of an angle: a rim nearer to the way across a hinge does not
 BOND = ("cohesion", "tensile_strength")  # strengths of a joint that hold until it moves
 
 Truths = npt.NDArray[np.bool_]
-Pulls = dict[tuple[str, Vector], tuple[Array, PointForce]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +39,7 @@ class Contact:
         Blocks i and j, in model order.
     on_i, on_j : Array, shape (k, 3)
         Its corners as material points of block i and of block j, global axes, m; they coincide where it is
-        closed. A tie has its two anchors.
+        closed. A tie has its two anchors, a dowel the point where it crosses the joint, k times.
     axes_i, axes_j : Array, shape (3, 3)
         Its axes as they turn with block i and with block j.
     rims_i, rims_j : Array, shape (k, 2, 2)
@@ -108,6 +104,11 @@ class Contact:
         return isinstance(self.interface.joint, Tie)
 
     @property
+    def rigid(self) -> bool:
+        """True where the blocks themselves touch: not of a tie or a dowel, which keep no gap closed."""
+        return not isinstance(self.interface.joint, Tie | Dowel)
+
+    @property
     def bond(self) -> tuple[str, ...]:
         """Names of the strengths that its joint has by a bond."""
         return tuple(name for name in BOND if getattr(self.interface.joint, name, 0.0))
@@ -142,7 +143,8 @@ def assembly_of(model: Model) -> Assembly:
 def contact(own: Interface, blocks: Sequence[Block], place: dict[str, int]) -> Contact:
     """Return an interface as both of its blocks see it where it is closed."""
     half = own.joint.length / 2.0 * own.axes[2] if isinstance(own.joint, Tie) else None
-    corners = own.centroid + own.polygon @ own.axes[:2]
+    spread = 0.0 if isinstance(own.joint, Dowel) else 1.0
+    corners = own.centroid + spread * own.polygon @ own.axes[:2]
     on_i = corners if half is None else (own.centroid - half)[None]
     on_j = corners if half is None else (own.centroid + half)[None]
     ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 2, 2))
@@ -195,40 +197,16 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
     pulls = {
         (old.block, old.at): (np.array(old.force), new)
         for own, turned in zip(assembly.contacts, contacts, strict=True)
-        for old, new in zip(_prestress(own, model), _prestress(turned, model), strict=True)
+        for old, new in zip(prestress(own.interface, model), prestress(turned.interface, model), strict=True)
     }
     place = {block.name: k for k, block in enumerate(model.blocks)}
     dead, live = (
-        _carried(load, lambda name, point: at(place[name], point), pulls) for load in (model.dead, model.live)
+        carried_load(load, lambda name, point: at(place[name], point), pulls)
+        for load in (model.dead, model.live)
     )
     interfaces = tuple(own.interface for own in contacts)
     now = replace(model, blocks=blocks, interfaces=interfaces, dead=dead, live=live)
     return Assembly(now, tuple(contacts))
-
-
-def _carried(load: Load, at: Callable[[str, Array], Array], pulls: Pulls) -> Load:
-    """The load on moved blocks: `at` says where a point of a block is, `pulls` what becomes of prestress."""
-    terms: list[tuple[float, Term]] = []
-    for factor, term in load.terms:
-        if isinstance(term, PointForce) and (term.block, term.at) in pulls:
-            pull, after = pulls[term.block, term.at]
-            share = float(pull @ term.force) / float(pull @ pull)  # a partial factor may be in either
-            if np.allclose(share * pull, term.force):
-                terms.append((factor * share, after))
-                continue
-        if isinstance(term, AddedMass | PointForce):
-            x, y, z = at(term.block, np.array(term.at)).tolist()
-            terms.append((factor, replace(term, at=(x, y, z))))
-        else:
-            terms.append((factor, term))
-    return Load(tuple(terms))
-
-
-def _prestress(own: Contact, model: Model) -> list[PointForce]:
-    """Forces of the prestress of a tie, which are among the dead loads of a structure with it."""
-    free = {block.name for block in model.free_blocks}
-    found = (term for _, term in Element(own.interface).loads(free).terms)
-    return [term for term in found if isinstance(term, PointForce)]
 
 
 def _screw_shift(displacements: Array) -> Array:

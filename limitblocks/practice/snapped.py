@@ -97,7 +97,7 @@ def steepest(assembly: Assembly) -> tuple[Array, float]:
     rows = (rows_of(assembly) @ sparse.diags_array(scale.ravel())).tocsr()
     gap = np.concatenate([own.ways[:, 2] for own in assembly.contacts])
     corners = [len(own.on_i) for own in assembly.contacts]
-    rigid = ~np.repeat([own.tied for own in assembly.contacts], corners)
+    rigid = np.repeat([own.rigid for own in assembly.contacts], corners)
     pressed = np.repeat([own.pressed for own in assembly.contacts], corners)
     stuck = rigid & pressed & (gap <= 10.0 * CLOSED * assembly.size)
     along = np.flatnonzero(np.outer(stuck, [True, True, False]))

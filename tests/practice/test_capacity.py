@@ -305,6 +305,22 @@ def test_a_dowel_shears_off_as_its_joint_slides(order):
     assert [own.joint for own in curve.points[-1].model.interfaces] == [lb.PointContact(0.2)]
 
 
+@pytest.mark.parametrize(("at", "friction"), [(B / 2 - 0.02, 0.8), (B / 2, 0.1)])
+def test_a_dowel_at_the_edge_about_which_its_joint_turns_keeps_nothing_from_closing(at, friction):
+    """alpha = tan(atan(b / h) - phi): half of it lies beyond the edge; on the edge it goes on holding."""
+    model = lb.structures.block(lb.PointContact(friction), width=B, height=H)
+    joint, stone = model.interfaces[0], model.free_blocks[0]
+    pin = dowel(joint, joint.centroid + np.array([at, 0, 0]), diameter=0.05, capacity=20e3 * B * H)
+    top = stone.vertices.max(axis=0)
+    curve = capacity_curve(
+        reinforced(model, pin), control=(stone.name, (top[0], stone.centroid[1], top[2])), steps=2
+    )
+    phi = np.arcsin(np.minimum(curve.displacements / H, 1.0))
+    assert curve.load_factors == pytest.approx(np.tan(np.arctan(B / H) - phi), abs=1e-9)
+    assert len(curve.points) > 3
+    assert (f"{pin.interface.name} opens" in curve.points[1].changes) == (at < B / 2)
+
+
 def test_a_strip_across_a_joint_that_slides_does_not_bridge_the_way():
     """Normal to its joint it leaves mu to mu (1 + F / W), however far; along the way it would add F / W."""
     model = lb.structures.block(lb.PointContact(0.2), width=1.0, height=0.4)
