@@ -6,6 +6,7 @@ from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, refuse_kind
@@ -19,6 +20,7 @@ from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.anchors import anchors_off
 
+BESIDE = 1e-3  # of the size of a joint: a point farther from it is not on it
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
 
 
@@ -216,11 +218,10 @@ def reinforced(model: Model, *elements: Element) -> Model:
 
 def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie | Dowel, word: str) -> Element:
     point = read_only(np.array(vector(at, f"{word}: at")))
-    reach = float(np.linalg.norm(interface.polygon, axis=1).max())
-    if np.linalg.norm(point - interface.centroid) > (1.0 + 1e-6) * reach:
-        raise ModelError(
-            f"{word}: at is {point.tolist()}, not on the joint, within {reach:g} m of its centroid"
-        )
+    x1, x2, out = interface.axes @ (point - interface.centroid)
+    off = float(np.hypot(shapely.distance(shapely.Polygon(interface.polygon), shapely.Point(x1, x2)), out))
+    if off > BESIDE * np.abs(interface.polygon).max():
+        raise ModelError(f"{word}: at is {point.tolist()}, not on the joint, {off:.3g} m off it")
     return Element(
         Interface(
             interface.block_i, interface.block_j, point, interface.axes, read_only(side * CORNERS), joint

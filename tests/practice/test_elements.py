@@ -276,3 +276,14 @@ def test_a_guide_holds_forces_by_its_area_and_moments_by_that_times_its_root():
     most = 42.0 * np.array([1.0, 1.0, *[np.sqrt(6.0)] * 3])
     assert rows.g[0] == pytest.approx(np.concatenate([most, most]))
     assert (np.abs(rows.F[0] @ rows.resultants[0].T) == np.vstack([np.eye(6)[1:]] * 2)).all()
+
+
+@pytest.mark.parametrize("at", [(0.26, 0.0, 0.0), (0.25, 0.0, 0.01), (0.0, 0.51, 0.0)])
+def test_a_strip_or_dowel_off_its_joint_is_refused(at):
+    """The joint is 0.5 x 1 m; the circle about it reaches to 0.56 m. On its edge it is taken."""
+    joint = lb.structures.block(lb.PointContact(0.6), width=0.5, height=1.0, depth=1.0).interfaces[0]
+    start = joint.centroid
+    for made, size in ((strip, {"width": 0.1}), (dowel, {"diameter": 0.1})):
+        assert made(joint, start + np.array([0.25, 0.5, 0.0]), **size, capacity=1e3)
+        with pytest.raises(lb.ModelError, match=r"not on the joint, 0\.01 m off it"):
+            made(joint, start + np.array(at), **size, capacity=1e3)
