@@ -179,9 +179,8 @@ def test_a_load_factor_that_stands_still_is_not_enough():
 
 
 def test_a_loop_that_is_not_closed_raises_with_its_best_state():
-    model = flat_block(lb.PointContact(MU))
     with pytest.raises(lb.NotConverged) as stopped:
-        lb.nonassociated(model, method="fixed point", tolerance=1e-30)
+        lb.nonassociated(lintel(lb.PointContact), method="fixed point", tolerance=1e-30)
     best = stopped.value.result
     assert "not closed" in best.how
     assert not best.converged
