@@ -122,7 +122,7 @@ def claim_of(model: Model, result: Any) -> Claim:
     if missing:
         raise ModelError(
             f"{type(result).__name__} has no {' and no '.join(missing)}; expected a Claim, or the result of "
-            "bounds, nonassociated or path; of a range, one of its answers"
+            "bounds, nonassociated or path; of a range, one of its answers (answer.solution.save(file))"
         )
     refuse_other(model, result)
     problem, shapes = model.problem, {}

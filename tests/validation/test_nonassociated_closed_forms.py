@@ -8,6 +8,7 @@ from boxes import jammed, leaves
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated.start import bracket
 
 CLOSE = 1e-5  # residuals of 1e-6 allow the load factor an error a few times as large
 
@@ -104,6 +105,13 @@ def test_a_jammed_block_with_dilatancy_has_no_mechanism_and_says_so(joint_type):
         )
     assert caught.value.result.residuals["flow"] > 1e-3
     assert caught.value.result.associated == np.inf
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.PointContact])
+@pytest.mark.parametrize("mu", [0.2, 0.5, 0.7])
+def test_nothing_holds_the_jammed_block_without_friction(joint, mu):
+    enclosing = bracket(jammed(joint(mu)))
+    assert (enclosing.frictionless, enclosing.associated) == (0.0, np.inf)  # no rounding is told as a load
 
 
 @pytest.mark.parametrize("ceiling_force", [0.0, 2.0])

@@ -23,7 +23,7 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
-NOISE = 1e-9  # of the associated load factor: a frictionless one below it is zero
+NOISE = 1e-9  # of the associated load factor, or of the dead loads: a frictionless one below it is zero
 CLOSER = (0.1, 1e-3)  # of the tolerance: bounds that may solve where flow is associated
 GIVEN = 1e-6  # residual up to which a state that is given may be started from
 
@@ -62,7 +62,9 @@ def _bracket(model: Model) -> Bracket:
         limit_load = None
     upper = limit_load.upper if limit_load else np.inf
     lower, unclaimed = load_factor_without_shear(model.problem, limit_load is not None)
-    noise = np.isfinite(upper) and abs(lower) < NOISE * abs(upper)
+    problem = model.problem
+    scale = abs(upper) if np.isfinite(upper) else load_scale(problem, upper) / problem.units.live
+    noise = abs(lower) < NOISE * scale
     return Bracket(0.0 if noise else lower, upper, limit_load, unclaimed)
 
 
