@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -83,6 +83,25 @@ def advanced(assembly: Assembly, control: Control, rates: Array, step: float) ->
         return None
     there, changes = found
     return Advanced(there, carried(assembly, there, control), changes)
+
+
+def shut(there: Advanced, numbers: Collection[int]) -> Advanced | None:
+    """Return the structure with some of its contacts, by number, closed; None if what is closed bars it.
+
+    Supports stay. A contact that opened on the way has not; another one closes.
+    """
+    assembly, least = there.assembly, 10.0 * CLOSED * there.assembly.size
+    held = [
+        ((own.ways[:, 2] <= least) | (k in numbers)) & own.rigid for k, own in enumerate(assembly.contacts)
+    ]
+    goal, left = closed_up(assembly, held, [False] * len(held))
+    meets = any(own.rigid and own.ways[:, 2].min() < -least for own in goal.contacts)
+    if left > CLOSED * assembly.size or meets or meet(goal):
+        return None
+    names = [assembly.contacts[k].interface.name for k in numbers]
+    said = [one for one in there.changes if one not in {f"{name} opens" for name in names}]
+    said += [f"{name} closes" for name in names if f"{name} opens" not in there.changes]
+    return replace(there, assembly=goal, changes=tuple(said))
 
 
 def stopped(displacement: float) -> str:

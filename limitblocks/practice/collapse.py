@@ -13,7 +13,7 @@ from limitblocks.errors import NoEquilibrium, SolveError
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model, checked_model
 from limitblocks.practice import displaced as moving
-from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, stopped
+from limitblocks.practice.advance import Advanced, advanced, farthest, refuse_left_behind, shut, stopped
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.collapse_result import SettlementCurve, SettlementPoint
 from limitblocks.practice.displaced import CLOSED, Assembly
@@ -42,7 +42,8 @@ def settlement_to_collapse(
 
     At each point the least reaction of the displaced structure is found as by
     :func:`~limitblocks.practice.settlement`, from its permanent loads; the mechanism that follows the support
-    moves the blocks by finite screws, and the contacts that it does not open are brought together again.
+    moves the blocks by finite screws, and the contacts that it does not open are brought together again. So are
+    those that then press across a gap, where the structure stands without it.
     Where a step leads to a structure that cannot stand on supports at rest, it is halved, until the interval
     in which it falls is as short as `accuracy`.
 
@@ -135,8 +136,8 @@ def _way(
             if step < accuracy:
                 yield falls, why
                 return
+        there, point = _settled(there, at, answer, found)
         assembly, control = there.assembly, there.control
-        point = _point(at, answer, there)
         if falls is not None and falls - at < accuracy:
             falls = None  # it stands as near: it was the length of the step that fell
         step = min(GROWTH * step, longest) if falls is None else (falls - at) / 2.0
@@ -153,11 +154,31 @@ def _bears(assembly: Assembly, control: Control, found: Settlement) -> bool:
     return float(np.linalg.norm(resultant)) > CLOSED * found.settling.unit
 
 
-def _point(at: float, answer: Settlement, there: Advanced) -> SettlementPoint:
+def _settled(
+    there: Advanced, at: float, answer: Settlement, found: Callable[[Model], Settlement]
+) -> tuple[Advanced, SettlementPoint]:
+    """The point after a step; joints that press across a gap are closed where it then stands without any.
+
+    Of several mechanisms at one reaction a step may be one that opens joints on which it cannot stand.
+    """
+    pressed = _across(there, answer)
+    point = SettlementPoint(at, answer, there.changes, tuple(pressed.values()))
+    closed = shut(there, pressed) if pressed else None
+    if closed is None:
+        return there, point
+    try:
+        again = found(closed.assembly.model)
+    except SolveError:
+        return there, point
+    if _across(closed, again):
+        return there, point
+    return closed, SettlementPoint(at, again, closed.changes)
+
+
+def _across(there: Advanced, answer: Settlement) -> dict[int, str]:
     end = answer.result or answer.bounds
     forces = end.stress_resultants[: len(there.assembly.contacts)]  # without those of the guide
-    pressed = across(there.assembly, forces, list(range(len(forces))))
-    return SettlementPoint(at, answer, there.changes, tuple(pressed.values()))
+    return across(there.assembly, forces, list(range(len(forces))))
 
 
 def _rates(found: Settlement) -> Array:

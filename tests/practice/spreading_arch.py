@@ -14,11 +14,15 @@ def half_ring(voussoirs, thickness):
 
     A semicircle of radius 1 with straight-edged voussoirs.
     """
-    angles = np.linspace(np.pi, np.pi / 2, voussoirs // 2 + 1)
-    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    inner, outer = (1 - thickness / 2) * ring, (1 + thickness / 2) * ring
+    return ring(np.linspace(np.pi, np.pi / 2, voussoirs // 2 + 1), thickness)
+
+
+def ring(angles, thickness):
+    """The same between joints at any angles."""
+    joints = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    inner, outer = (1 - thickness / 2) * joints, (1 + thickness / 2) * joints
     areas, centres = [], []
-    for k in range(voussoirs // 2):
+    for k in range(len(angles) - 1):
         x, z = np.array([inner[k], outer[k], outer[k + 1], inner[k + 1]]).T
         twice = x * np.roll(z, -1) - np.roll(x, -1) * z
         areas.append(abs(twice.sum()) / 2)
@@ -51,6 +55,37 @@ def three_hinged(voussoirs, thickness, spread, hinge):
 
     a, b = moments(inner), moments(outer)
     return thrust / (2 * areas.sum()), a / (a - b)
+
+
+def beside_the_crown(voussoirs, thickness, spread, left, right):
+    """Of a ring with a stone at the crown: thrust over weight, and where it cuts the left springing.
+
+    One hinge is at the extrados of the joint to the right of that stone, two at the intrados of joints `left`
+    and `right` from the springings. Two bodies turn until the hinges are as far from one another as before.
+    """
+    inner, outer, areas, centres = ring(np.linspace(np.pi, 0.0, voussoirs + 1), thickness)
+    inner, outer, centres = (
+        points @ [1.0, 1j] for points in (inner, outer, centres)
+    )  # a rotation is a factor
+    crown, last = voussoirs // 2 + 1, voussoirs - right
+    a, b, c = inner[left], inner[last] + spread, outer[crown]
+    r, s, base = abs(c - a), abs(c - inner[last]), abs(b - a)
+    along = (r**2 - s**2 + base**2) / (2 * base)
+    top = a + (along + 1j * np.sqrt(r**2 - along**2)) * (b - a) / base
+
+    w1, w2 = areas[left:crown], areas[crown:last]
+    first = w1 @ (a + (centres[left:crown] - a) * (top - a) / (c - a)).real
+    second = w2 @ (b + (centres[crown:last] - inner[last]) * (top - b) / (c - inner[last])).real
+    moments = np.array([[(b - a).real, (a - b).imag], [(top - a).real, (a - top).imag]])  # about b and top
+    loads = [b.real * (w1.sum() + w2.sum()) - first - second, top.real * w1.sum() - first]
+    upwards, thrust = np.linalg.solve(moments, loads)
+
+    def moment(point):  # of all that is above the left springing
+        own = areas[:left] @ (centres[:left].real - point.real)
+        return own + upwards * (a - point).real - thrust * (a - point).imag
+
+    cut = moment(inner[0]) / (moment(inner[0]) - moment(outer[0]))
+    return thrust / areas.sum(), cut
 
 
 def first_hinge(voussoirs, thickness):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-from spreading_arch import first_hinge, fourth_hinge, half_ring, three_hinged
+from spreading_arch import beside_the_crown, first_hinge, fourth_hinge, half_ring, three_hinged
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
@@ -55,6 +55,25 @@ def test_arch_spreads_until_its_thrust_leaves_the_springing(voussoirs, thickness
     assert len(curve.points[1].changes) == 3
     crown = f"voussoir {voussoirs // 2}|voussoir {voussoirs // 2 + 1} opens"
     assert set(curve.points[1].changes) >= {crown, f"voussoir {hinge}|voussoir {hinge + 1} opens"}
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.8), lb.PointContact(0.8)], ids=["planes", "points"])
+def test_a_stone_at_the_crown_goes_with_one_side(joint):
+    """The first mechanism may open both of its joints, by any parts; then one of them closes again.
+
+    The arch leans to that side, where the hinge moves from the first joint to the second. It pressed across
+    the gaps of both, from the first step on, and was said to fall at .175 in place of .162.
+    """
+    fourth = brentq(lambda d: beside_the_crown(9, 0.16, d, 2, 1)[1] - 1.0, 0.01, 0.2)
+    model, weight = arch(9, 0.16, joint)
+    curve = settlement_to_collapse(model, "right support", SPREAD, step=0.03, accuracy=1e-3)
+    assert not any(point.across for point in curve.points)
+    d = curve.displacements
+    expected = [beside_the_crown(9, 0.16, one, 2, 1)[0] * weight for one in d]
+    assert curve.reactions[0] == pytest.approx(beside_the_crown(9, 0.16, 0.0, 1, 1)[0] * weight, rel=1e-6)
+    assert curve.reactions[d > 0.02] == pytest.approx(np.array(expected)[d > 0.02], rel=1e-6)
+    assert curve.stands_to <= fourth <= curve.falls
+    assert curve.falls - curve.stands_to <= 2e-3
 
 
 @pytest.mark.parametrize("thickness", [0.15, 0.2])
