@@ -1,4 +1,4 @@
-"""The mirror plane of a limit problem, found once, and the problem reduced by it."""
+"""The limit problem reduced by its mirror plane."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def in_plane(problem: LimitProblem, choice: Choice = Choice.FEW) -> Planar | Non
     choice : Choice
         FEW rows serve the associated flow, FLOWING ones any, EVERY one margins.
     """
-    mirror = known(problem, "mirror", lambda: mirror_of(problem))
+    mirror = mirror_of(problem)
     if mirror is None:
         return None
     return known(problem, ("plane", choice), lambda: reduced(problem, mirror, choice))

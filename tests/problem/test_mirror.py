@@ -217,6 +217,12 @@ def test_octagons_askew_are_not_halved_but_mirrored_ones_are():
         assert (plane is not None) is symmetric
 
 
+def test_a_mirror_is_sought_once():
+    """By the bounds, the analysis and its backward error alike."""
+    problem = structures.EXAMPLES["dome"](lb.PointContact(0.6)).problem
+    assert mirror_of(problem) is mirror_of(problem) is not None
+
+
 def test_a_wrong_half_costs_time_and_no_more():
     """Proven in the whole problem, or the whole one is solved: also where the loads are not symmetric."""
     model = facade(JOINTS["points"])

@@ -8,6 +8,7 @@ mapped to a place between the images of its blocks. docs/planar.md has the proof
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
@@ -103,11 +104,20 @@ class Mirror:
         return bool((self.image == np.arange(len(self.image))).all() and all(k.own.all() for k in self.kinds))
 
 
+_FOUND: WeakKeyDictionary[LimitProblem, Mirror | None] = WeakKeyDictionary()
+
+
 def mirror_of(problem: LimitProblem) -> Mirror | None:
     """Return a plane about which the problem is symmetric; None where none is found up to EXACT.
 
-    The plane parallel to which everything acts comes first.
+    The plane parallel to which everything acts comes first. A problem is frozen, and its mirror sought once.
     """
+    if problem not in _FOUND:
+        _FOUND[problem] = _mirror_of(problem)
+    return _FOUND[problem]
+
+
+def _mirror_of(problem: LimitProblem) -> Mirror | None:
     if problem.C.shape[1] != 6 * len(problem.blocks) or not len(problem.blocks):
         return None
     strain = _strain_by_end(problem)
