@@ -42,8 +42,8 @@ def settlement_to_collapse(
 
     At each point the least reaction of the displaced structure is found as by
     :func:`~limitblocks.practice.settlement`, from its permanent loads; the mechanism that follows the support
-    moves the blocks by finite screws, and the contacts that it does not open are brought together again. So are
-    those that then press across a gap, where the structure stands without it.
+    moves the blocks by finite screws, and the contacts that it does not open are brought together again.
+    So are those that then press across a gap, where the structure stands without it.
     Where a step leads to a structure that cannot stand on supports at rest, it is halved, until the interval
     in which it falls is as short as `accuracy`.
 
