@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import typer
 
@@ -27,6 +28,10 @@ from limitblocks.cli.options import (
     Turns,
     Way,
 )
+from limitblocks.errors import CheckFailed, ModelError, few
+
+if TYPE_CHECKING:
+    from limitblocks.evidence.check import Check
 
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
 
@@ -110,15 +115,38 @@ def check(
     backward_error: BackwardLimit = None,
     as_json: AsJson = False,
 ) -> None:
-    """Check a result file against Eqs (54)-(59) of its model."""
+    """Check a result file against Eqs (54)-(59) of its model; of a range every answer."""
     with clean_errors():
         from limitblocks.evidence.check import check_mcp
         from limitblocks.io import read, read_result
+        from limitblocks.results import LoadFactorRange
 
         structure = read(model)
         claim = read_result(result, structure)
-        checked = check_mcp(structure, claim, tolerance=tolerance, backward_error=backward_error)
+        judged = partial(check_mcp, structure, tolerance=tolerance, backward_error=backward_error)
+        if isinstance(claim, LoadFactorRange):
+            _require([(one.load_factor, judged(one.solution)) for one in claim.answers], as_json)
+            return
+        checked = judged(claim)
         if not claim.digest:
             typer.echo(f"warning: {result} does not say which model it belongs to", err=True)
         show(structure, checked, as_json)
         checked.require()
+
+
+def _require(checks: list[tuple[float, Check]], as_json: bool) -> None:
+    """Print the checks of a range's answers, with their load factors; raise CheckFailed if one failed."""
+    from limitblocks.io.strict_json import text
+
+    if not checks:
+        raise ModelError("the range has no answer that could be checked")
+    failed = [load_factor for load_factor, one in checks if not one.accepted]
+    if as_json:
+        answers = [{"load_factor": load_factor, "check": one.to_dict()} for load_factor, one in checks]
+        typer.echo(text({"analysis": "check", "accepted": not failed, "answers": answers}))
+    else:
+        for load_factor, one in checks:
+            typer.echo(f"load factor {load_factor:.6g}: {one}")
+    if failed:
+        named = few([f"{load_factor:.6g}" for load_factor in failed])
+        raise CheckFailed(f"{len(failed)} of {len(checks)} answers failed the check: load factor {named}")

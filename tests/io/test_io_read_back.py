@@ -115,6 +115,40 @@ def test_a_range_with_an_answer_that_is_none_is_refused(tmp_path):
         lb.report(MODEL, lb.read_result(changed(file, answers=answers)))
 
 
+def test_check_judges_every_answer_of_a_range(tmp_path):
+    """Two answers; then the load factor of the second is 1 % too large, and the first stays a solution."""
+    model, file = MODEL.save(tmp_path / "model.json"), SAVED["range"].save(tmp_path / "range.json")
+    first, second = (json.loads(file.read_text(encoding="utf-8"))["answers"][0] for _ in range(2))
+    answers = [first, second]
+    changed(file, answers=answers)
+
+    def check(*options):
+        return CliRunner().invoke(app, ["check", str(model), str(file), *options])
+
+    done = check()
+    assert (done.exit_code, done.stderr) == (0, "")
+    assert [line.partition(": worst")[0] for line in done.stdout.splitlines()] == [
+        f"load factor {one['load_factor']:.6g}: check passed" for one in answers
+    ]
+    assert check("--tolerance", "1e-20").exit_code == 1
+    second["solution"]["load_factor"] *= 1.01
+    changed(file, answers=answers)
+    done = check()
+    assert done.exit_code == 1
+    named = f"load factor {second['solution']['load_factor']:.6g}"
+    assert [line.partition(": worst")[0] for line in done.stdout.splitlines()] == [
+        f"load factor {first['load_factor']:.6g}: check passed",
+        f"{named}: check FAILED",
+    ]
+    assert done.stderr.splitlines() == [f"error: 1 of 2 answers failed the check: {named}"]
+    said = json.loads(check("--json").stdout)
+    passed = [one["check"]["passed"] for one in said["answers"]]
+    assert (said["accepted"], passed) == (False, [True, False])
+    changed(file, answers=[], load_path_place=None)
+    assert "error: the range has no answer that could be checked" in check().stderr
+    assert check().exit_code == 2
+
+
 def test_a_check_and_a_stability_that_were_read_prove_nothing(tmp_path):
     for kind in ("check", "stability"):
         made = lb.report(MODEL, lb.read_result(SAVED[kind].save(tmp_path / f"{kind}.json")))
