@@ -231,6 +231,7 @@ def test_governing_joints_and_stones_come_first():
     assert sizes == sorted(sizes, reverse=True)
     everything = np.concatenate([found.of_interfaces, found.of_blocks])
     assert sizes[0] == np.abs(everything).max()
+    assert len(found.governing(10**3)) == (np.abs(everything) > 1e-9 * found.load_factor).sum()
     assert {one.kind for one in first} <= {"friction", "unit weight"}
     assert str(first[0]).startswith(f"{first[0].kind} of {first[0].name}")
 

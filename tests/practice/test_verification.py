@@ -131,6 +131,13 @@ def test_between_the_points_of_a_curve_the_load_factor_is_on_the_safe_side(curve
         assert _least_at(of(1.0 - d**2), at) == pytest.approx(np.interp(at, d, 1.0 - d**2))
 
 
+def test_between_the_points_of_a_curve_that_changes_its_bend_the_chord_counts(curve):
+    """Slopes of -.4, -.2 and -.8: at .75 m the chord has .85, the one before drawn on .8, the one after 1."""
+    way = ((0.0, 1.1), (0.5, 0.9), (1.0, 0.8), (1.5, 0.4))
+    points = tuple(replace(curve.points[0], displacement=d, load_factor=a) for d, a in way)
+    assert _least_at(replace(curve, points=points), 0.75) == pytest.approx(0.85)
+
+
 def test_a_curve_that_snaps_back_counts_with_its_least_load_factor(curve):
     """Straight from 1 to .5 over .4 m, back to .8 at .2 m, to 0 at 1 m: at .3 m .625, .65 and .7."""
     way = ((0.0, 1.0), (0.4, 0.5), (0.2, 0.8), (1.0, 0.0))
