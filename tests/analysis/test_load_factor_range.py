@@ -226,6 +226,7 @@ def test_the_command_prints_the_three_ranges(pushed, tmp_path):
         assert part in done.stdout
     assert json.loads(output.read_text())["analysis"] == "range"
     done = CliRunner().invoke(app, ["check", str(file), str(output)])
-    assert done.exit_code == 2
-    assert "LoadFactorRange has no load_factor" in done.stderr
-    assert "one of its answers" in done.stderr
+    found = lb.read_result(output, pushed)
+    assert (done.exit_code, done.stdout.count("load factor ")) == (0, len(found.answers))
+    with pytest.raises(lb.ModelError, match=r"LoadFactorRange has no load_factor.*one of its answers"):
+        lb.check_mcp(pushed, found)
