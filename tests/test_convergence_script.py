@@ -1,30 +1,16 @@
 """The script that counts how often the analysis converges: its limits of time and its counts."""
 
 import contextlib
-import sys
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
-from pathlib import Path
 
 import pytest
+import scripts_as_modules
 
 import limitblocks as lb
-
-ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture(scope="module")
 def script():
-    loader = SourceFileLoader("convergence_script", str(ROOT / "scripts" / "convergence"))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    sys.modules[loader.name] = module  # its dataclass looks itself up there
-    try:
-        loader.exec_module(module)
-    finally:
-        sys.dont_write_bytecode = writes
-        del sys.modules[loader.name]
-    return module
+    return scripts_as_modules.script("convergence")
 
 
 @pytest.mark.parametrize(

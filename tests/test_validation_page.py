@@ -1,26 +1,17 @@
 """The validation page is that of the registry; its cases can fail."""
 
-import sys
 from dataclasses import replace
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import pytest
+import scripts_as_modules
 
 ROOT = Path(__file__).parents[1]
 
 
 @pytest.fixture(scope="module")
 def validation():
-    loader = SourceFileLoader("validation_script", str(ROOT / "scripts" / "validation"))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    writes, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    try:
-        loader.exec_module(module)
-    finally:
-        sys.dont_write_bytecode = writes
-    return module
+    return scripts_as_modules.script("validation")
 
 
 @pytest.fixture(scope="module")

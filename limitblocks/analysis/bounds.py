@@ -18,7 +18,6 @@ from limitblocks.analysis.direct import Programs
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.known import known
 from limitblocks.analysis.limit_state import IN_HALF, limit_state, programs_of
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.polish import polish
@@ -44,6 +43,7 @@ from limitblocks.evidence.residuals import (
     bounds_residuals,
     nearest,
 )
+from limitblocks.known import known
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from limitblocks.analysis.known import known
+from limitblocks.known import known
 from limitblocks.problem import LimitProblem
 from limitblocks.problem.plane import Choice, Planar, mirror_of, reduced
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.known import known
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, read_only
+from limitblocks.known import known
 from limitblocks.problem import LimitProblem
 
 

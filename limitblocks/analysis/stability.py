@@ -13,7 +13,6 @@ from scipy import sparse
 from limitblocks.analysis.falling import Fall, falling
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
-from limitblocks.analysis.known import known
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.programs import ROUNDS, Program, in_cone, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
@@ -23,6 +22,7 @@ from limitblocks.errors import NoEquilibrium, SolverFailure
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability, Standing, arising_residuals, mechanism_residuals
+from limitblocks.known import known
 from limitblocks.model import Model
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice

@@ -47,11 +47,9 @@ class Verbs(TyperGroup):
         try:
             return super().invoke(ctx)
         except typer.BadParameter as error:
-            faults: list[dict[str, Any]] = getattr(
-                error.__cause__, "errors", list
-            )()  # of pydantic, by which typer reads numbers
-            if faults:
-                error.message = _wrong_value(faults[0])
+            cause: Any = error.__cause__
+            if hasattr(cause, "errors"):  # of pydantic, by which typer reads numbers
+                error.message = _wrong_value(cause.errors()[0])
             raise
 
 

@@ -150,10 +150,11 @@ class Kinematic:
             at = number[owner] >= 0
             matrix = np.zeros((len(these), c, r))
             matrix[number[owner[at]], column[F.col[at]], row[F.row[at]]] = F.data[at]
-            seen: dict[bytes, int] = {}
-            kind = np.array([seen.setdefault(own.tobytes(), len(seen)) for own in matrix])
-            inverse = _right_inverse(matrix[np.unique(kind, return_index=True)[1]])
-            parts.append((rows[these, :r], columns[these, :c], kind, *inverse))
+            numbers = (
+                matrix.reshape(len(these), -1).view(f"V{8 * c * r}").ravel()
+            )  # one for each, by its bytes
+            _, first, kind = np.unique(numbers, return_index=True, return_inverse=True)
+            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix[first])))
         return parts
 
 

@@ -12,10 +12,10 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.direct import Programs
-from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated import least_norm
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.analysis.stability import dead_load_state
+from limitblocks.known import known
 from limitblocks.structures.examples import EXAMPLES
 
 

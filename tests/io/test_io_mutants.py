@@ -3,28 +3,20 @@
 Here are 200 with one seed, in this process; the script reads 20,000 in a process with bounds.
 """
 
-from importlib.machinery import SourceFileLoader
-from importlib.util import module_from_spec, spec_from_loader
-from pathlib import Path
-
 import numpy as np
 import pytest
+import scripts_as_modules
 
 import limitblocks as lb
 from limitblocks.io.formats import WRITTEN
 
-SCRIPT = Path(__file__).parents[2] / "scripts" / "mutants"
 COUNT, SEED = 20, 13
 KINDS = [*(f"a{suffix}" for suffix in WRITTEN), "a.gltf", "model.json", "result.json"]
 
 
 @pytest.fixture(scope="module")
 def mutants():
-    """The script as a module."""
-    loader = SourceFileLoader("mutants", str(SCRIPT))
-    module = module_from_spec(spec_from_loader(loader.name, loader))
-    loader.exec_module(module)
-    return module
+    return scripts_as_modules.script("mutants")
 
 
 @pytest.fixture(scope="module")

@@ -21,8 +21,7 @@ from limitblocks.arrays import Array
 from limitblocks.problem import Flow, State
 from limitblocks.shown import many
 
-# With .3 a facade of 508 blocks (point contacts, out) stays open, with .4 it closes in two minutes; rows of
-# 160 to 223 blocks cost the same in sum.
+# With .3 a facade of 508 blocks (point contacts, out) stays open, with .4 it closes in two minutes.
 FALLS = 0.4  # a round: where the gap falls less, on average since the first, rounds are given up
 EPSILON = float(np.finfo(float).eps)
 NEAR = 1e-5  # residual where pivots are tried: from 1e-4 on they change nothing

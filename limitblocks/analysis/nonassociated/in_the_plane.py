@@ -13,7 +13,6 @@ import numpy as np
 
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
@@ -22,6 +21,7 @@ from limitblocks.analysis.nonassociated.ways import Half, no_half
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.known import known
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar

@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.known import known
 from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.polish import polish
@@ -20,6 +19,7 @@ from limitblocks.errors import ModelError, SolveError, SolverFailure, UnlimitedL
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.known import known
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 

@@ -8,12 +8,12 @@ mapped to a place between the images of its blocks. docs/planar.md has the proof
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, owned
+from limitblocks.known import known
 from limitblocks.problem.limit_problem import LimitProblem, Units
 from limitblocks.problem.plane.alike import (
     EXACT,
@@ -104,17 +104,12 @@ class Mirror:
         return bool((self.image == np.arange(len(self.image))).all() and all(k.own.all() for k in self.kinds))
 
 
-_FOUND: WeakKeyDictionary[LimitProblem, Mirror | None] = WeakKeyDictionary()
-
-
 def mirror_of(problem: LimitProblem) -> Mirror | None:
     """Return a plane about which the problem is symmetric; None where none is found up to EXACT.
 
     The plane parallel to which everything acts comes first. A problem is frozen, and its mirror sought once.
     """
-    if problem not in _FOUND:
-        _FOUND[problem] = _mirror_of(problem)
-    return _FOUND[problem]
+    return known(problem, "mirror", lambda: _mirror_of(problem))
 
 
 def _mirror_of(problem: LimitProblem) -> Mirror | None:

@@ -10,15 +10,12 @@ from collections.abc import Callable, Hashable
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
-from limitblocks.model import Model
-from limitblocks.problem import LimitProblem
-
 Answer = TypeVar("Answer")
 
-_KNOWN: WeakKeyDictionary[Model | LimitProblem, dict[Hashable, Any]] = WeakKeyDictionary()
+_KNOWN: WeakKeyDictionary[Hashable, dict[Hashable, Any]] = WeakKeyDictionary()
 
 
-def known(of: Model | LimitProblem, name: Hashable, solve: Callable[[], Answer]) -> Answer:
+def known(of: Hashable, name: Hashable, solve: Callable[[], Answer]) -> Answer:
     """Return the answer `name` of a model or a problem, solved where it is asked for first.
 
     The answer must be frozen, and must not hold `of`. What is raised is not kept.
