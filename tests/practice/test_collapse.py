@@ -9,9 +9,12 @@ from scipy.optimize import brentq
 from spreading_arch import beside_the_crown, first_hinge, fourth_hinge, half_ring, three_hinged
 
 import limitblocks as lb
+from limitblocks.arrays import read_only
 from limitblocks.evidence.ending import Status
 from limitblocks.loads import pressure
-from limitblocks.practice import settlement_to_collapse
+from limitblocks.practice import Control, settlement_to_collapse
+from limitblocks.practice.advance import Advanced, shut
+from limitblocks.practice.displaced import assembly_of, moved
 
 DEPTH, WEIGHT = 1.0, 20e3
 SPREAD = (1.0, 0.0, 0.0)
@@ -74,6 +77,37 @@ def test_a_stone_at_the_crown_goes_with_one_side(joint):
     assert curve.reactions[d > 0.02] == pytest.approx(np.array(expected)[d > 0.02], rel=1e-6)
     assert curve.stands_to <= fourth <= curve.falls
     assert curve.falls - curve.stands_to <= 2e-3
+
+
+@pytest.mark.parametrize(
+    ("top", "sinks", "aside", "closes"),
+    [(0.0, 2e-3, 0.0, True), (0.0, 2e-3, 1e-3, False), (0.0, 1e-3, 0.0, False), (-1e-3, 0.0, 0.0, False)],
+)
+def test_a_gap_is_closed_unless_another_block_bars_it(top, sinks, aside, closes):
+    """A support sinks by 2 mm, and the beam follows: unless another one, joined or not, is met 1 mm before.
+
+    Nor on two that have moved apart: where faces do not slide they are as they were.
+    """
+    stones = [
+        lb.Block.box("left", (0.5, 1, 0.5), (-1, 0, -0.25)),
+        lb.Block.box("other", (0.5, 1, 0.5), (1, 0, top - 0.25)),
+        lb.Block.box("beam", (3, 1, 0.4), (0, 0, 0.2), 20e3),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    assert len(found) == 2 - (top == -1e-3)
+    first = assembly_of(lb.Model(stones, ["left", "other"], found, lb.self_weight(), lb.self_weight()))
+    ways = np.zeros((3, 6))
+    ways[:2, 2], ways[1, 0] = (-2e-3, -sinks), aside
+    sunk = moved(first, ways)
+    control = Control("beam", read_only(np.zeros(3)), read_only(np.array([0.0, 0, -1])))
+    both = [0, 1][: 1 + (sinks == 2e-3)]
+    there = shut(
+        Advanced(sunk, control, tuple(f"{first.contacts[k].interface.name} opens" for k in both)), both
+    )
+    assert (there is not None) == closes
+    if there:
+        assert there.assembly.model.blocks[2].vertices[:, 2].min() == pytest.approx(-2e-3, abs=1e-8)
+        assert there.changes == ()
 
 
 @pytest.mark.parametrize("thickness", [0.15, 0.2])
