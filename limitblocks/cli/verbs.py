@@ -136,14 +136,14 @@ def check(
 
 def _require(checks: list[tuple[float, Check]], as_json: bool) -> None:
     """Print the checks of a range's answers, with their load factors; raise CheckFailed if one failed."""
-    from limitblocks.io.strict_json import text
+    from limitblocks.io.result_file import headed_text
 
     if not checks:
         raise ModelError("the range has no answer that could be checked")
     failed = [load_factor for load_factor, one in checks if not one.accepted]
     if as_json:
         answers = [{"load_factor": load_factor, "check": one.to_dict()} for load_factor, one in checks]
-        typer.echo(text({"analysis": "check", "accepted": not failed, "answers": answers}))
+        typer.echo(headed_text({"analysis": "check", "accepted": not failed, "answers": answers}))
     else:
         for load_factor, one in checks:
             typer.echo(f"load factor {load_factor:.6g}: {one}")

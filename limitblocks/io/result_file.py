@@ -88,8 +88,13 @@ def write_result(result: Result, file: str | Path, *, overwrite: bool = False) -
 
 def result_text(result: Result) -> str:
     """Return the text of the result file; undefined and infinite numbers are null."""
+    return headed_text(result.to_dict())
+
+
+def headed_text(numbers: dict[str, Any]) -> str:
+    """Return numbers as JSON below the versions that they are of."""
     head = {"schema_version": RESULT_SCHEMA_VERSION, "versions": versions()}
-    return strict_json.text(head | result.to_dict())
+    return strict_json.text(head | numbers)
 
 
 def versions() -> dict[str, str]:

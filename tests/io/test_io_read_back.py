@@ -144,6 +144,7 @@ def test_check_judges_every_answer_of_a_range(tmp_path):
     said = json.loads(check("--json").stdout)
     passed = [one["check"]["passed"] for one in said["answers"]]
     assert (said["accepted"], passed) == (False, [True, False])
+    assert (said["schema_version"], said["versions"]["limitblocks"]) == (1, lb.__version__)
     changed(file, answers=[], load_path_place=None)
     assert "error: the range has no answer that could be checked" in check().stderr
     assert check().exit_code == 2
