@@ -12,11 +12,12 @@ from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
-from limitblocks.mechanics.loads.load import Load, triple, vector
+from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
 from limitblocks.practice.rejoined import closed_up, joined, meet, slid
+from limitblocks.shown import coordinates
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
@@ -65,7 +66,7 @@ def control_point(model: Model, name: str, at: Sequence[float]) -> tuple[Block, 
     block, point = named[name], np.array(vector(at, "control point"))
     low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
     if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
-        here, first, last = (triple(place.tolist()) for place in (point, low, high))
+        here, first, last = (coordinates(one.tolist()) for one in (point, low, high))
         raise ModelError(
             f"control point {here} is not on block {block.name!r}, which reaches from {first} to {last} m"
         )
