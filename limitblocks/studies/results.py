@@ -59,7 +59,7 @@ def unanswered(load_factors: Array, errors: Sequence[str]) -> str:
     """Return in words how many load factors are unlimited and how many missing, with why the first is."""
     lost, unlimited = np.isnan(load_factors), int(np.isinf(load_factors).sum())
     words = [f"{unlimited} unlimited"] if unlimited else []
-    words += [f"{lost.sum()} without an answer ({errors[lost.argmax()]})"] if lost.any() else []
+    words += [f"{lost.sum()} without an answer ({errors[int(lost.argmax())]})"] if lost.any() else []
     return "".join(f"; {word}" for word in words)
 
 
