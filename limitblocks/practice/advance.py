@@ -10,7 +10,8 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.joints import Backfill
+from limitblocks.joints import Backfill, Dowel, Guide, Tie
+from limitblocks.joints.base import joint_of, refuse_nameless_strength
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
 from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
@@ -48,6 +49,9 @@ def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
     """Raise ModelError for a load of these names, or passive fill, that stays behind as its block moves."""
     if any(isinstance(own.joint, Backfill) for own in model.interfaces):
         raise ModelError(f"passive fill does not move with the blocks; a {what} needs a structure without it")
+    for joint in {joint_of(own) for own in model.interfaces}:
+        if not isinstance(joint, Tie | Dowel | Guide):
+            refuse_nameless_strength(joint, f"a {what}")
     for word in words:
         load: Load = getattr(model, word)
         for _, term in load.terms:
