@@ -166,7 +166,7 @@ def test_uplift_in_a_radial_joint_that_crosses_the_level():
 
 
 def test_no_water_in_ties_strips_dowels_and_passive_fill():
-    """Water of depth h lifts a wedge by gamma h A, whatever holds it; what is no joint cannot be asked for."""
+    """Water of depth h lifts a wedge by gamma h A, whatever holds it; what is no joint is refused."""
     model, h = wedge(), 0.5
     bed = model.interfaces[0]
     held = reinforced(
