@@ -94,7 +94,8 @@ def judged_bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
     found = check.residuals
     proof = Proof(bounds.lower, bounds.upper) if bounds.proven else bounds.proof  # the check has proven them
     gap, worth = found["gap"], found["worth"]
-    return replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
+    bounds = replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
+    return replace(bounds, remarks=check.remarks)
 
 
 def judged_nonassociated(model: Model, result: Nonassociated) -> Nonassociated | CheckedClaim:
