@@ -153,7 +153,7 @@ def test_a_facade_of_37_blocks(joint, push):
     assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
     assert curve.load_factors[-1] < 0.96 * curve.load_factors[0]
     if joint is JOINTS[0]:  # with the paper's it may rise: the load factor is not unique
-        assert (np.diff(curve.load_factors) < 1e-3 * curve.load_factors[0]).all()  # else unique to some 1e-4
+        assert (np.diff(curve.load_factors) < 3e-4 * curve.load_factors[0]).all()  # it is unique to some 1e-4
         assert curve.load_factors[-1] < (1 - 0.05 / 0.6) * curve.load_factors[0]  # straight to .6 m
     assert curve.points[1].changes
 
