@@ -76,11 +76,9 @@ def flow_words(dilatancy: float) -> str:
     return f"with a dilatancy of {dilatancy:g}" if np.isfinite(dilatancy) else "associated"
 
 
-def remarks(
-    model: Model, collapse: Any, confidence: float, curve: CapacityCurve | None = None
-) -> tuple[str, ...]:
-    """Return what C8.7.1.2.1 asks that a model and its mechanism do not follow, and what is not proven."""
-    said, rates = [], collapse.displacement_rates
+def unproven(collapse: Any, curve: CapacityCurve | None) -> tuple[str, ...]:
+    """Return where the load factor is of joints that lift as they slide, and a curve not computed here."""
+    said = []
     if collapse.dilatancy > 0.0:
         said.append(
             f"alpha0 is {flow_words(collapse.dilatancy)}: where joints slide, real friction may give less"
@@ -88,6 +86,12 @@ def remarks(
         )
     if curve and curve.from_file:
         said.append("the capacity curve is as a file says, not computed here")
+    return tuple(said)
+
+
+def remarks(model: Model, rates: Array, confidence: float) -> tuple[str, ...]:
+    """Return what C8.7.1.2.1 asks that a model and its mechanism (n, 6) do not follow."""
+    said = []
     crushing = any(getattr(own.joint, "compressive_strength", None) is not None for own in model.interfaces)
     if confidence < LC1 and not crushing:
         said.append(

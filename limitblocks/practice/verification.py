@@ -16,7 +16,16 @@ from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.displacement_check import displacement_check
-from limitblocks.practice.inputs import GIVEN, LC1, carried, flow_words, given, refuse_unproven, remarks
+from limitblocks.practice.inputs import (
+    GIVEN,
+    LC1,
+    carried,
+    flow_words,
+    given,
+    refuse_unproven,
+    remarks,
+    unproven,
+)
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
 from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
@@ -119,7 +128,11 @@ def verification(
             more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
             found += steps(state, more)
             checks.append(check)
-    said = (*of_ground(demand.a_g), *remarks(model, collapse, confidence, curve))
+    said = (
+        *of_ground(demand.a_g),
+        *unproven(collapse, curve),
+        *remarks(model, collapse.displacement_rates, confidence),
+    )
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)
 
 
