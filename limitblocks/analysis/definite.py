@@ -24,7 +24,8 @@ def solver_of(K: sparse.csr_array) -> Callable[[Array], Array]:
     diagonal = K.diagonal()  # in units of a state its entries are far apart
     more = REGULAR * np.where(diagonal > 0.0, diagonal, 1.0)
     order = csgraph.reverse_cuthill_mckee(K, symmetric_mode=True).astype(np.int64)
-    place = np.empty_like(order)
+    order = order[np.diff(K.indptr)[order] > 0]  # rates out of a plane have no equations
+    place = np.empty(len(more), dtype=np.int64)
     place[order] = np.arange(len(order))
     column = np.repeat(place, np.diff(K.indptr))
     below = place[K.indices] - column
@@ -52,7 +53,7 @@ def _banded(
     factor = cholesky_banded(band, overwrite_ab=True, lower=True, check_finite=False)
 
     def solve(b: Array) -> Array:
-        x = np.empty_like(b)
+        x = b / more
         x[order] = cho_solve_banded((factor, True), b[order], overwrite_b=True, check_finite=False)
         return x
 

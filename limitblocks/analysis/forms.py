@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import cvxpy as cp
 import numpy as np
@@ -49,9 +49,10 @@ class Stresses:
         p = self.problem
         (s, n), F, pushed = p.C.shape, p.F, np.flatnonzero(p.live)
         v, least = cp.Variable(1 + s), -np.eye(1, 1 + s)[0]
-        columns = (np.concatenate(pair) for pair in ((-p.live[pushed], p.C.data), (pushed, p.C.indices)))
+        data, equation = np.append(-p.live[pushed], p.C.data), np.append(pushed, p.C.indices)
         start = np.concatenate([[0], len(pushed) + p.C.indptr])  # columns of C^T are the rows of C
-        balance = sparse.csc_array((*columns, start), shape=(n, 1 + s)) @ v == p.dead
+        columns: Any = (data, equation, start)
+        balance = sparse.csc_array(columns, shape=(n, 1 + s)) @ v == p.dead
         rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
         inside = map_in_cone(rows, v, p.cones, p.g)
         return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))

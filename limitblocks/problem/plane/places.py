@@ -8,9 +8,8 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, owned
+from limitblocks.arrays import Array, Indices, in_blocks, owned
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.places import places
 
@@ -77,6 +76,7 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     for its, linear, cones in _alike(problem, of_member, of_stress, count):
         c, r = int((of_stress == its[0]).sum()), linear + sum(cones)
         own, its_rows = columns[its, :c], rows[its, :r]
+        unit = problem.units.row[its_rows]
         number = np.full(count, -1)
         number[its] = np.arange(len(its))
         first = np.where(number[of_row] >= 0, (number[of_row] * r + row) * c, -1)
@@ -89,21 +89,10 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
             strain=at,
             middle=_means(at, problem.stress_interface[own[:, 0]]),
-            F=_dense(problem.F, problem.units.row, first, column, (len(its), r, c)),
-            G=_dense(problem.G, problem.units.row, first, column, (len(its), r, c)),
-            g=problem.g[its_rows] * problem.units.row[its_rows],
+            F=in_blocks(problem.F, first, column, (len(its), r, c)) * unit[..., None],
+            G=in_blocks(problem.G, first, column, (len(its), r, c)) * unit[..., None],
+            g=problem.g[its_rows] * unit,
         )
-
-
-def _dense(
-    matrix: sparse.csr_array, unit: Array, first: Indices, column: Indices, shape: tuple[int, int, int]
-) -> Array:
-    """Rows of a matrix times their `unit` (R,) as `shape`, where each has its `first` place, -1 for none."""
-    size, values = np.diff(matrix.indptr), np.zeros(shape)
-    start, data = np.repeat(first, size), matrix.data * np.repeat(unit, size)
-    kept = slice(None) if first.min(initial=0) >= 0 else start >= 0
-    values.ravel()[(start + column[matrix.indices])[kept]] = data[kept]
-    return values
 
 
 def _means(values: Array, of: Indices) -> Array:
