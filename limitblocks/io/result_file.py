@@ -136,10 +136,11 @@ def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
             stated.get("limitblocks") if isinstance(stated, dict) else None,
             versions()["limitblocks"],
         )
-        if saved:
-            said += f"; it was saved by limitblocks {saved}, this is limitblocks {own}"
         if saved and saved != own:
-            said += ", which may know the same model by another digest: analyse it again"
+            said += (
+                f"; it was saved by limitblocks {saved}, this is limitblocks {own}, which may know the same "
+                "model by another digest: analyse it again"
+            )
         raise ModelError(said)
 
 

@@ -203,6 +203,18 @@ def test_worst_position_is_the_end_of_the_overhang():
     assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
 
 
+def test_a_vehicle_runs_in_the_middle_of_a_bridge_wherever_that_is():
+    """A bridge drawn beside the X axis: the overhang tips about x = 3, P (x - 3) = W (3 - 2)."""
+    moved = [
+        lb.Block(one.name, np.add(one.vertices, (0, 7.5, 0)), one.faces, one.unit_weight)
+        for one in beam().blocks
+    ]
+    model = replace(beam(), blocks=moved, interfaces=lb.find_interfaces(moved, JOINT))
+    found = worst_position(model, Vehicle((10e3,), contact=1e-3), Deck(level=0.5), (3.2, 3.95), positions=4)
+    assert (found.deck.y, Deck(0.5, y=7.2).on(model).y) == (7.5, 7.2)
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
 def test_the_search_finds_the_worst_position_between_the_first_ones():
     """Beyond the end at x = 4 nothing stands on the beam: worst is the end itself, P (4 - 3) = W (3 - 2)."""
     model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-4), Deck(level=0.5)
