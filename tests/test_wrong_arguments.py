@@ -185,3 +185,20 @@ def test_copies_are_as_read_only_as_what_they_are_of(wall, again):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 1.0
     assert model.digest == wall.digest
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+@pytest.mark.parametrize(
+    "error",
+    [
+        lb.ModelError("left: no unit weight", "right: no unit weight"),
+        lb.errors.NoEquilibrium(("left", "lintel"), ("pier",)),
+        lb.NotConverged("not converged", "the best state"),
+        lb.errors.UnlimitedLoad("jams"),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_an_error_of_another_process_says_the_same(error, again):
+    """One that cannot be read back breaks the pool of processes, and the work of all its tasks is lost."""
+    copied = again(error)
+    assert (type(copied), str(copied), vars(copied)) == (type(error), str(error), vars(error))

@@ -20,8 +20,8 @@ CRUSHING = (
     "Crushing reduces the moment that a joint carries, Eq. (39), not its shear or torsion. The equation is "
     "the exact stress block for bending about one axis of a rectangle; elsewhere it overestimates the moment "
     "by at most sqrt(-N / (A fcef)): along the diagonal of a rectangle by 28 % at a tenth of the crushing "
-    "force and up to half, towards a corner of a triangle by 32 % and up to all of it. Reports of bounds and "
-    "solutions warn where it does."
+    "force and up to half, towards a corner of a triangle by 32 % and up to all of it. Bounds, solutions and "
+    "checks say where it does."
 )
 
 

@@ -23,6 +23,8 @@ Analysis = Literal["bounds", "nonassociated"]
 Result = Bounds | Nonassociated
 Progress = Callable[[int, int], None]
 INTERRUPTED = "KeyboardInterrupt: interrupted before this one was done"
+#: What costs its own row only: errors of this package, and those of numbers in a maker or a solver.
+FAILURES = (LimitBlocksError, ArithmeticError, ValueError, MemoryError)
 ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}
 
 
@@ -57,7 +59,7 @@ def analyse(model: Model, analysis: Analysis, settings: dict[str, Any]) -> Outco
     """Analyse one model; an error becomes an outcome."""
     try:
         result = ANALYSES[analysis](model, **settings)
-    except (LimitBlocksError, ArithmeticError, ValueError, MemoryError) as error:
+    except FAILURES as error:
         return failed(error)
     return Outcome(result.lower if isinstance(result, Bounds) else result.load_factor, result, "")
 

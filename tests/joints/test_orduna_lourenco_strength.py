@@ -259,7 +259,7 @@ def test_moments_beside_the_stress_block_of_both_strengths():
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])
-def test_reports_say_how_far_crushing_is_beyond_the_stress_block(joint):
+def test_results_say_how_far_crushing_is_beyond_the_stress_block(joint, tmp_path):
     """Towards a corner of a triangle 1 + sqrt(n); about an axis of a rectangle nothing."""
     share, height, said = 0.25, 6.0, "times the moment of the exact stress block"
     own = joint(2.0, compressive_strength=20e3 * height / share)
@@ -267,6 +267,10 @@ def test_reports_say_how_far_crushing_is_beyond_the_stress_block(joint):
     assert "sqrt(" not in " ".join(joint(2.0).assumed())
     corner = pushed(prism([(0, 0.4), (0, -0.4), (0.9, 0)], height), own, (1.0, 0.0))
     for analysis in (lb.bounds, lb.nonassociated):
-        assert f"ground|foot carries 1.50 {said}" in " ".join(section(corner, analysis(corner)).warnings)
+        result = analysis(corner)
+        assert " ".join(section(corner, result).warnings).count(f"ground|foot carries 1.50 {said}") == 1
+        assert f"; crushing by Eq. (39): ground|foot carries 1.50 {said}; " in str(result)
+        kept = lb.read_result(result.save(tmp_path / "result.json", overwrite=True))
+        assert kept.remarks == lb.check_mcp(corner, kept).remarks == result.remarks
     flat = pushed(prism([(0, 0), (1, 0), (1, 0.7), (0, 0.7)], height), own, (1.0, 0.0))
-    assert said not in " ".join(section(flat, lb.bounds(flat)).warnings)
+    assert said not in " ".join([str(lb.bounds(flat)), *section(flat, lb.bounds(flat)).warnings])

@@ -107,10 +107,9 @@ def test_acceleration_on_the_capacity_curve(facade, answer, curve):
     """[C8.7.1.3]: that of the displaced wall, beside the straight line."""
     found = verification(facade, answer, SITE, q=2.0, confidence=FC, curve=curve, damping=(0.05, 0.07))
     scale = G / (found["e*"] * FC)
-    assert found["a*_SLV,c"] == pytest.approx(_least_at(curve, 0.4 * curve.zero) * scale)
     assert found["T_SLV,c"] == pytest.approx(1.68 * np.pi * np.sqrt(0.4 * found["d0*"] / found["a*_SLV,c"]))
     exact = np.tan(np.arctan(found["alpha0"]) - np.arcsin(0.4 * curve.zero / H)) * scale
-    assert found["a*_SLV,c"] == pytest.approx(exact, rel=2e-3)
+    assert found["a*_SLV,c"] == pytest.approx(exact, rel=1e-4)
     assert found["a*_SLV"] == pytest.approx(0.6 * found["a0*"])
     assert found["xi_SLV"] == 0.05
 

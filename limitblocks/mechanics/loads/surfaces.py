@@ -23,6 +23,7 @@ from limitblocks.mechanics.loads.load import (
     unit_vector,
     vector,
 )
+from limitblocks.shown import coordinate, coordinates
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -83,8 +84,8 @@ class Pressure:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        where = f"at {triple(self.at)} m" if self.at else f"facing {triple(self.facing or ())}"
-        linear = f"{self.unit_weight / 1e3:.4g} kN/m³ times the depth below Z = {self.level:.4g} m"
+        where = f"at {coordinates(self.at)} m" if self.at else f"facing {triple(self.facing or ())}"
+        linear = f"{self.unit_weight / 1e3:.4g} kN/m³ times the depth below Z = {coordinate(self.level)} m"
         parts = [f"{self.pressure / 1e3:.4g} kPa"] * bool(self.pressure) + [linear] * bool(self.unit_weight)
         return f"a pressure of {' plus '.join(parts)} on the face {where} of {some(self.blocks)}"
 
@@ -129,7 +130,7 @@ class Fill:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {self.level:.4g} m"
+        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {coordinate(self.level)} m"
         said += f" on {some(self.blocks) if self.blocks else 'all blocks'}"
         if not self.coefficient:
             return said

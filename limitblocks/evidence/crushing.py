@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.evidence.associated import Bounds
-from limitblocks.evidence.results import Nonassociated
+from limitblocks.arrays import Array
 from limitblocks.joints.stress_block import over_stress_block
 from limitblocks.model import Model
 
 SAID = 1.01  # of the moment of the stress block: from there it is told
 
 
-def beyond_stress_block(model: Model, result: Bounds | Nonassociated) -> tuple[str, ...]:
-    """Return a sentence where joints carry more moment than the exact stress block lets them."""
-    if not np.isfinite(result.stress_resultants).all():
+def beyond_stress_block(model: Model, stress_resultants: Array) -> tuple[str, ...]:
+    """Return a remark where stress resultants (m, 6) have more moment than the exact stress block has."""
+    if not np.isfinite(stress_resultants).all():
         return ()
     over = {}
-    for own, Q in zip(model.interfaces, result.stress_resultants, strict=True):
+    for own, Q in zip(model.interfaces, stress_resultants, strict=True):
         strength = getattr(own.joint, "compressive_strength", None)
         if strength is not None:
             tension = getattr(own.joint, "counted_tension", 0.0)
