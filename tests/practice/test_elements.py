@@ -287,5 +287,6 @@ def test_a_strip_or_dowel_off_its_joint_is_refused(at):
     start = joint.centroid
     for made, size in ((strip, {"width": 0.1}), (dowel, {"diameter": 0.1})):
         assert made(joint, start + np.array([0.25, 0.5, 0.0]), **size, capacity=1e3)
+        assert made(joint, start + np.array([0.0, 0.5, 4e-4]), **size, capacity=1e3)  # within 1e-3 of 0.5 m
         with pytest.raises(lb.ModelError, match=r"not on the joint, 0\.01 m off it"):
             made(joint, start + np.array(at), **size, capacity=1e3)

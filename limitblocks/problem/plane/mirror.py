@@ -12,13 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, owned
+from limitblocks.arrays import Array, Indices, owned, same_rows
 from limitblocks.known import known
 from limitblocks.problem.limit_problem import LimitProblem, Units
 from limitblocks.problem.plane.alike import (
+    AGREE,
     EXACT,
     alike,
-    classes,
     close,
     pseudo_inverses,
     size_of,
@@ -184,8 +184,8 @@ def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
         return None
     still = (np.where(kind.ends >= 0, blocks[kind.ends], -1) == kind.ends).all(axis=1)
     own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT) & _plane_of_its_own(kind, turn, rates)
-    values = np.concatenate([used(part) for part in (kind.F, kind.g, kind.G)], axis=1)[:, None]
-    first, sort = classes(values / size_of(values), turn)
+    values = np.concatenate([used(part) for part in (kind.F, kind.g, kind.G)], axis=1)
+    first, sort = same_rows(np.concatenate([values / size_of(values), used(turn)], axis=1), AGREE)
     partner = _partners(kind, image, turn, own, first, sort)
     if partner is None and own.any():
         own = np.zeros_like(own)  # not by planes of their own, but as pairs
@@ -213,10 +213,8 @@ def _partners(
         if within is None:
             return None
         partner[own] = within[its[1]]
-        there = kind.taken(image[own])
-        if (image != np.arange(len(own))).any() and alike(
-            kind.taken(np.flatnonzero(own)), there, None
-        ) is None:
+        moved = np.flatnonzero(own & (image != np.arange(len(own))))
+        if len(moved) and alike(kind.taken(moved), kind.taken(image[moved]), None) is None:
             return None
     if not own.all():
         rest = np.flatnonzero(~own)
@@ -238,8 +236,9 @@ def _images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]
     table, _ = owned(here, count)
     number = np.bincount(here, minlength=count)[wanted]
     scale = np.abs(kind.strain).max(axis=(1, 2, 3))
-    wide = np.concatenate([kind.strain, kind.middle], axis=3)
-    mirrored = (wide.reshape(K, 2, c, 2, 6) @ rates).reshape(wide.shape)
+    whole = kind.middle is kind.strain  # one place at each interface
+    wide = kind.strain if whole else np.concatenate([kind.strain, kind.middle], axis=3)
+    mirrored = (wide.reshape(K, 2, c, -1, 6) @ rates).reshape(wide.shape)
     free = np.where(goal[:, 0] >= 0, 0, 1)
     least, image, turn = np.full(K, np.inf), np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, largest_in_rows, read_only
+from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read_only
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.alike import EXACT
@@ -114,7 +114,8 @@ def _stresses_and_rows(
     for kind in mirror.kinds:
         first = np.flatnonzero(kind.image >= np.arange(len(kind.image)))
         paired = kind.paired[first, None, None]
-        basis = np.where(paired, np.eye(kind.turn.shape[1]), symmetric(kind.turn[first]))
+        turns, of_turn = equal_rows(kind.turn[first].reshape(len(first), -1))
+        basis = np.where(paired, np.eye(kind.turn.shape[1]), symmetric(kind.turn[first[turns]])[of_turn])
         for d in np.unique(basis.any(axis=1).sum(axis=1)).tolist():
             if d == 0:  # a tie across the plane carries nothing in it
                 continue
