@@ -58,6 +58,19 @@ def test_html_has_a_picture(name):
     assert f"<title>{MODEL.free_blocks[0].name}</title>" in SHOWN[name]._repr_html_()
 
 
+def test_blocks_of_a_file_are_a_line(tmp_path):
+    """Of a survey of a thousand blocks, too."""
+    file = lb.files.write_blocks(
+        lb.structures.wall(lb.PointContact(0.6), length=4.0, courses=8), tmp_path / "a.obj"
+    )
+    found = lb.files.read_blocks(file)
+    assert repr(found) == f"<{len(found.blocks)} blocks, 1 support>"
+    assert str(replace(found, guesses=("mm", "y"))) == f"{len(found.blocks)} blocks, 1 support, 2 guesses"
+    for one in (found, lb.files.look(file)):
+        assert len(repr(one)) < 200
+        assert f"{len(found.blocks)} blocks" in one._repr_html_()
+
+
 def test_a_large_model_has_a_table_alone(monkeypatch):
     monkeypatch.setattr("limitblocks.notebook._MOST_BLOCKS", len(MODEL.blocks) - 1)
     for thing in (MODEL, FOUND):

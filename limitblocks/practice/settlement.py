@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, UnlimitedLoad
+from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
@@ -242,6 +242,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
 
 def _other_supports(model: Model, support: str) -> list[str]:
     """Supports that stay; ModelError where `support` is none, or the only one."""
+    refuse_kind(support, str, "support")
     others = [name for name in model.supports if name != support]
     if support not in model.supports:
         kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
