@@ -56,9 +56,9 @@ LARGE_MEANS = (
 # (point contacts, out) in 89.
 LARGEST_MEANS = (LARGE_MEANS[0], Means(Barrier(3.0, 2.0, 1e-12), 1, 4000))
 # In one half points cost a quarter, and the path goes on while theta falls to a third in 600 factorisations:
-# that of a groin vault of 292 blocks (point contacts, diagonal) closes so, and else not in 60 s. Of what is left
+# that of a groin vault of 292 blocks (point contacts, diagonal) closes so, and else not in 60 s. Of the rest
 # that of 0.2 closes a dome of 289 (point contacts, along) in 1,952 factorisations; that of 3 without
-# compliance, followed however it winds, the dome pushed out in 5,160, the vault (no crushing) in 5,721 and 6,601.
+# compliance, followed however it winds, the dome pushed out in 5,160, the vault (no crushing) in some 6,000.
 LARGE_HALF_MEANS = (
     LARGE_MEANS[0],
     LARGE_MEANS[1]._replace(budget=3000, patience=600),
