@@ -60,8 +60,9 @@ def _open_beds(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
         if across:
             names, apart = few([one.name for one in across]), _distance(across, blocks)
             return [
-                f"{names} would touch with gap={gap:g} (block lengths, {millimetres(gap * wide.length)}; import "
-                f"--gap {gap:g}): are these joints drawn open? They are typically {millimetres(apart)} wide"
+                f"{names} would touch with gap={gap:g} (block lengths, {millimetres(gap * wide.length)}; "
+                f"import --gap {gap:g}): are these joints drawn open? They are typically "
+                f"{millimetres(apart)} wide"
             ]
     return []
 

@@ -85,9 +85,9 @@ def test_one_bed_drawn_open_is_told_with_the_option(tmp_path):
     file = lb.files.write_blocks(stones, tmp_path / "bed.obj")
     refused = run(file, *OPTIONS, "--supports", "base")
     assert refused.exit_code == 2
-    assert "error: 1|2 would touch with gap=0.05 (block lengths, " in refused.stderr
-    assert "import --gap 0.05): are these joints drawn open? They are typically 20 mm wide" in refused.stderr
-    assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.05").exit_code == 0
+    assert "error: 1|2 would touch with gap=0.1 (block lengths, " in refused.stderr
+    assert "import --gap 0.1): are these joints drawn open? They are typically 20 mm wide" in refused.stderr
+    assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.1").exit_code == 0
 
 
 def test_noisy_meshes_are_refused_and_healed(tmp_path):
