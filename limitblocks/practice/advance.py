@@ -113,7 +113,7 @@ def stopped(displacement: float) -> str:
     """Return why a curve ends at a displacement, m, from which contacts allow no step."""
     if displacement == 0.0:
         return "a contact closes at once, in the first step, and stops the mechanism"
-    return f"blocks meet at {displacement:.6g} m and stop the mechanism"
+    return f"contacts that close, or blocks that meet, stop the mechanism at {displacement:.6g} m"
 
 
 def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assembly, tuple[str, ...]] | None:

@@ -161,10 +161,14 @@ def _ahead(
         if found is None:
             return stopped(point.displacement)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        beyond = -_to_zero(point, found[2])  # the zero lies as far behind
-        if left >= -ZERO * scale or min(way, beyond) <= JUMP * assembly.size or found[2].snapped:
+        beyond = -_to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
+        if left >= -ZERO * scale or min(abs(way), beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
-        step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
+        step, most = (
+            (way if way > 0.0 else step)
+            * max(HALVING, min(most, point.load_factor / (point.load_factor - left))),
+            HALVING,
+        )
 
 
 def _next_step(assembly: Assembly, before: CapacityPoint | None, point: CapacityPoint, steps: int) -> float:

@@ -69,8 +69,8 @@ class Deck:
         Horizontal over vertical of the dispersion through the fill along the deck: 0.5 of the usual 2:1 rule.
         An axle acts evenly on the length ``contact + 2 spread depth`` of the extrados, straight down.
     y : float, optional
-        Of the line, m; left out, the middle of the blocks that can move. Across the deck the axle is taken to
-        spread over the whole width.
+        Of the line, m; left out, the middle of the blocks that can move. A block that spans the width takes
+        the axle as if spread over all of it; of several across the deck those below the line carry all.
 
     Raises
     ------

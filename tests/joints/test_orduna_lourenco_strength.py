@@ -223,6 +223,12 @@ def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
     assert not any("tensile" in line for line in SLIPS["bonded"].assumed())
 
 
+def _over(polygon, strength, Q, tension=0.0, least=0.0):
+    """Return how many times the moment of the stress block the moments of one joint are."""
+    one = [np.array([each], dtype=float) for each in (polygon, strength, Q, tension)]
+    return float(over_stress_block(*one, least)[0])
+
+
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.5, 0.9])
 @pytest.mark.parametrize("shape", [[(0, 0), (1, 0), (3, 0.4)], [(0, 0), (2, 0), (1.3, 1), (0.7, 1)]])
 def test_moments_of_crushing_beside_the_stress_block(shape, share):
@@ -231,7 +237,7 @@ def test_moments_of_crushing_beside_the_stress_block(shape, share):
     whole = shapely.Polygon(polygon)
 
     def over(e):
-        return over_stress_block(polygon, 1.0 / (share * whole.area), np.array([0, 0, -1, -e[1], e[0], 0]))
+        return _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -e[1], e[0], 0])
 
     for angle in np.linspace(0.1, 6.3, 7):
         out = np.array([np.cos(angle), np.sin(angle)])
@@ -243,6 +249,10 @@ def test_moments_of_crushing_beside_the_stress_block(shape, share):
 
         depth = brentq(lambda depth, cut=cut: cut(depth).area / whole.area - share, -5.0, 5.0, xtol=1e-13)
         assert over(np.array(cut(depth).centroid.coords[0])) == pytest.approx(1.0, abs=1e-3)
+        e = 1.02 * np.array(cut(depth).centroid.coords[0])  # what is certainly less is left out, no more
+        assert _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -e[1], e[0], 0], least=1.01) > 1.0
+        near = 0.9 * (1.0 - np.sqrt(share)) * e
+        assert _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -near[1], near[0], 0], least=1.01) < 1.0
     most = max(over((1.0 - share) * corner) for corner in polygon)
     assert most <= (1.0 + np.sqrt(share)) * 1.001
     assert len(polygon) > 3 or most == pytest.approx(1.0 + np.sqrt(share), rel=1e-3)
@@ -252,10 +262,10 @@ def test_moments_beside_the_stress_block_of_both_strengths():
     """A rectangle about one axis: M = l (A ft - N) (1 - (A ft - N) / (A (fcef + ft)))."""
     force = 5.0 + 2.0 * AREA
     moment = L2 * force * (1 - force / (AREA * 1002.0))
-    found = over_stress_block(RECTANGLE, 1000.0, np.array([0, 0, -5.0, moment / 2, 0, 0]), 2.0)
+    found = _over(RECTANGLE, 1000.0, [0, 0, -5.0, moment / 2, 0, 0], 2.0)
     assert found == pytest.approx(0.5, abs=5e-4)
-    assert over_stress_block(RECTANGLE, 1000.0, np.array([1.0, 0, -5.0, 0, 0, 1.0])) == 0.0
-    assert over_stress_block(RECTANGLE, 5.0 / AREA, np.array([0, 0, -5.0, 1.0, 0, 0])) == np.inf
+    assert _over(RECTANGLE, 1000.0, [1.0, 0, -5.0, 0, 0, 1.0]) == 0.0
+    assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1.0, 0, 0]) == np.inf
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])

@@ -81,7 +81,7 @@ def test_blocks_that_meet_stop_the_curve():
     model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
     assert curve.zero is None
-    assert curve.ended.startswith("blocks meet at 0.05")
+    assert curve.ended.startswith("contacts that close, or blocks that meet, stop the mechanism at 0.05")
     assert curve.displacements[-1] == pytest.approx(0.05, abs=1e-4)
     assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
 from limitblocks.mechanics.loads.faces import faces_through, faces_towards, integrals, part_where
@@ -241,7 +241,7 @@ def fill(
 
 
 def _names(blocks: str | Sequence[str]) -> tuple[str, ...]:
-    return (blocks,) if isinstance(blocks, str) else tuple(blocks)
+    return (blocks,) if isinstance(blocks, str) else sequence_of("blocks", blocks, str)
 
 
 def _keep(term: object, **values: float) -> None:
