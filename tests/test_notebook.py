@@ -32,6 +32,8 @@ SHOWN = {
     "diagnosis": lb.diagnose(MODEL),
     "range": lb.load_factor_range(MODEL, paths=1, mechanisms=0),
     "report": lb.report(MODEL, BOUNDS),
+    "residuals": FOUND.residuals,
+    "backward error": FOUND.backward_error,
     "view": FOUND.view(),
 }
 COLLAPSING = {"bounds": BOUNDS, "nonassociated": FOUND, "path": PATH}
@@ -69,6 +71,15 @@ def test_blocks_of_a_file_are_a_line(tmp_path):
     for one in (found, lb.files.look(file)):
         assert len(repr(one)) < 200
         assert f"{len(found.blocks)} blocks" in one._repr_html_()
+
+
+def test_residuals_are_asked_for_by_name():
+    assert FOUND.residuals["equilibrium"] == FOUND.residuals.to_dict()["equilibrium"]
+    assert list(FOUND.residuals.to_frame()["residual"]) == list(FOUND.residuals.to_dict())
+    with pytest.raises(
+        lb.ModelError, match="there is no residual 'equilbrium'; there are equilibrium, yield, "
+    ):
+        FOUND.residuals["equilbrium"]
 
 
 def test_a_large_model_has_a_table_alone(monkeypatch):

@@ -74,6 +74,11 @@ def test_units(tmp_path):
     path = drawn(tmp_path / "mm.dxf", lambda space: cube().render_mesh(space), units=4)
     assert lb.files.read_blocks(path).blocks[0].size == pytest.approx(1e-3, rel=1e-12)
     assert lb.files.read_blocks(path, units="cm").blocks[0].size == pytest.approx(1e-2, rel=1e-12)
+    (said,) = lb.files.read_blocks(path, units="cm").guesses
+    assert said.endswith(
+        "says that its unit is mm: taken in cm, as asked, the structure is 0.01 m large, not 0.001 m"
+    )
+    assert lb.files.read_blocks(path, units="mm").guesses == ()
     path = drawn(tmp_path / "none.dxf", lambda space: cube().render_mesh(space), units=0)
     imported = lb.files.read_blocks(path)
     assert imported.blocks[0].size == pytest.approx(1.0, rel=1e-12)

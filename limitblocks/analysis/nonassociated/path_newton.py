@@ -13,8 +13,8 @@ from limitblocks.problem.barrier import slope
 
 REFINED = 1e-4  # theta below which directions are refined: without it paths stall near 1e-8
 # Flow that a direction may leave over its largest multiplier, and the most refinements. Elimination loses all
-# of it where joints that flow carry 1e9 times their slacks and others 1e-9: three to seven make it good.
-ACCURATE, MOST = 1e-8, 12
+# of it where joints that flow carry 1e9 times their slacks and others 1e-9: two to six mend it.
+ACCURATE, MOST = 1e-4, 12
 
 
 class Newton:
@@ -57,12 +57,12 @@ class Newton:
         multiplier = q.multiplier + self.fall(q.slack)
         loads = np.concatenate([q.balance, q.work[None]])
         d = self._eliminated(np.concatenate([q.flow + self.GT @ multiplier, loads]))
-        x, w, slack, y = np.split(d, self._ends)  # which are views
-        slack -= q.slack
+        x, w, y = np.split(d, self._ends)  # which are views
         y += multiplier
         if self.z.theta < REFINED:
             self._refine(d, np.concatenate([q.flow, loads]))
-        own = zip(*(np.ascontiguousarray(part.T) for part in (x, w[:-1], w[-1], slack, y)), strict=True)
+        parts = x, w[:-1], w[-1], self.path.flow.problem.F @ x - q.slack, y
+        own = zip(*(np.ascontiguousarray(part.T) for part in parts), strict=True)
         return [Point(x, u, float(load_factor), s, y, 0.0) for x, u, load_factor, s, y in own]
 
     def _refine(self, d: Array, right: Array) -> None:
@@ -72,42 +72,43 @@ class Newton:
         all unknowns: multipliers that are taken from the stresses again have their rounding.
         """
         n, tried = len(self.elastic), list[tuple[Array, Array]]()
-        y = d[self._ends[-1] :]
+        y, left = d[self._ends[-1] :], right - self._taken(d)
         for _ in range(MOST):
-            left = right - self._taken(d)
             if (np.abs(left[:n]).max(axis=0) <= ACCURATE * np.abs(y).max(axis=0)).all():
                 return
             step = self._eliminated(left)
             takes = self._taken(step)
             for earlier, took in tried:
-                share = (takes * took).sum(axis=0)
-                step, takes = step - share * earlier, takes - share * took
+                share = np.einsum("kc,kc->c", takes, took)
+                step -= share * earlier
+                takes -= share * took
             size = np.linalg.norm(takes, axis=0)
             size[size == 0.0] = 1.0
             tried.append((step / size, takes / size))
-            d += (left * tried[-1][1]).sum(axis=0) * tried[-1][0]
+            share = np.einsum("kc,kc->c", left, tried[-1][1])
+            d += share * tried[-1][0]
+            left -= share * tried[-1][1]
 
     @property
     def _ends(self) -> list[int]:
-        """Where stresses, rates with the load factor, and slacks end in a direction."""
-        p = self.path.flow.problem
-        return [int(end) for end in np.cumsum([p.C.shape[0], p.C.shape[1] + 1, len(p.g)])]
+        """Where stresses, and rates with the load factor, end in a direction."""
+        n, rates = self.path.flow.problem.C.shape
+        return [n, n + rates + 1]
 
     def _eliminated(self, right: Array) -> Array:
-        """Directions (x, u, a, slack, y) for right-hand sides of flow, balance and work."""
+        """Directions (x, u, a, y) for right-hand sides of flow, balance and work."""
         p, layout = self.path.flow.problem, self.path.layout
         n = len(self.elastic)
         free, loads = self._flexed(right[:n]), right[n:].copy()
         loads[:-1] += layout.balance @ free
         w = layout.solved(self.lu, loads)
         x = free + self._flexed(p.C @ w[:-1])
-        slack = p.F @ x
-        return np.concatenate([x, w, slack, -self.fall(slack)])
+        return np.concatenate([x, w, -self.fall(p.F @ x)])
 
     def _taken(self, d: Array) -> Array:
         """What directions take of flow, balance and work; slacks and products are exact."""
         p = self.path.flow.problem
-        x, w, _, y = np.split(d, self._ends)
+        x, w, y = np.split(d, self._ends)
         flow = self.elastic[:, None] * x - p.C @ w[:-1] - self.GT @ y
         if self.turning is not None:
             flow += self.turning @ x
