@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.elimination import Factors, rates_in_order
 from limitblocks.arrays import Array, Indices, owned
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
@@ -175,7 +176,7 @@ class Layout:
         end = np.full(len(loaded), n)
         row = np.concatenate([np.arange(n + 1), loaded, end, i[inside]])
         column = np.concatenate([np.arange(n + 1), end, loaded, j[inside]])
-        order = self._ordering(row, column)
+        order = rates_in_order(self.problem)
         places, at = np.unique(order[column] * (n + 1) + order[row], return_inverse=True)
         constant = np.concatenate([np.append(-1.0 * still, 0.0), live[loaded], live[loaded]])
         data, at = np.bincount(at[: len(constant)], constant, len(places)), at[len(constant) :]
@@ -183,29 +184,15 @@ class Layout:
         assembly = sparse.csr_array((np.ones(len(at)), (at, inside)), shape=(len(places), i.size))
         return pattern, assembly, order
 
-    def _ordering(self, row: Indices, column: Indices) -> Indices:
-        """Where each unknown goes so that factors stay sparse, found once for all points of a path."""
-        n = int(row.max()) + 1
-        matrix = sparse.coo_array((np.ones(len(row)), (row, column)), shape=(n, n)).tocsc()
-        dominant = sparse.csc_array(matrix + abs(matrix).sum() * sparse.eye_array(n))
-        return np.asarray(diagonal_factors(dominant).perm_c)
-
-    def factors(self, parts: Array) -> Any:
+    def factors(self, parts: Array) -> Factors:
         """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
-        pattern, assembly, _ = self._pattern
+        pattern, assembly, order = self._pattern
         data = pattern.data - assembly @ parts.ravel()
         if not np.isfinite(data).all():  # BLAS would print that it is illegal
             raise np.linalg.LinAlgError("the stiffness of a point that ran away is not finite")
         matrix = copy(pattern)  # which is checked once
         matrix.data = data
-        return diagonal_factors(matrix, "NATURAL")
-
-    def solved(self, lu: Any, right: Array) -> Array:
-        """Return the solution of those factors for a right-hand side (6 n + 1,), or several (6 n + 1, c)."""
-        order = self._pattern[-1]
-        ordered = np.empty_like(right)
-        ordered[order] = right
-        return np.asarray(lu.solve(ordered).take(order, axis=0))
+        return Factors(diagonal_factors(matrix, "NATURAL"), order)
 
     @cached_property
     def _stress_at(self) -> Indices:

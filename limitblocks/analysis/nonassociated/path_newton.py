@@ -43,7 +43,7 @@ class Newton:
     @property
     def sign(self) -> float:
         """Sign of det J, but for a factor that is the same all along the path."""
-        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu)
+        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu.factors)
 
     def solve(self, *sides: Equations) -> list[Point]:
         """Return the direction d with J d = q for each q, refined once far down the path.
@@ -69,7 +69,7 @@ class Newton:
         layout, right = self.path.layout, loads.copy()
         free = self._flexed(flow)
         right[:-1] += layout.balance @ free
-        w = layout.solved(self.lu, right)
+        w = self.lu.solve(right)
         return free + self._flexed(self.path.flow.problem.C @ w[:-1]), w
 
     def _left(self, q: _Columns, x: Array, w: Array, y: Array) -> tuple[Array, Array]:
