@@ -48,23 +48,30 @@ class Entries(NamedTuple):
 
 
 class Factors(NamedTuple):
-    """Factors of a matrix whose unknown i is eliminated as number `place[i]`."""
+    """Factors of a matrix, the unknowns of which are eliminated in an `order`; those not in it are zero."""
 
     factors: Any
-    place: Indices
+    order: Indices
 
     def solve(self, right: Array) -> Array:
         """Return the solution for a right-hand side (n,), or several (n, c)."""
-        ordered = np.empty_like(right)
-        ordered[self.place] = right
-        return np.asarray(self.factors.solve(ordered).take(self.place, axis=0))
+        solution = np.zeros_like(right)
+        solution[self.order] = self.factors.solve(right.take(self.order, axis=0))
+        return solution
 
 
-def factors_in_order(K: sparse.csr_array, place: Indices) -> Factors:
-    """Return the factors of a matrix, without row exchanges, unknown i eliminated as number `place[i]`."""
-    data, row, column = Entries.of(K)
+def factors_in_order(K: sparse.csr_array, order: Indices) -> Factors:
+    """Return the factors of a matrix, its unknowns eliminated in an order, without row exchanges."""
+    (data, row, column), place = Entries.of(K), numbered(order)
     matrix = sparse.csc_array((data, (place[row], place[column])), K.shape)
-    return Factors(diagonal_factors(matrix, "NATURAL"), place)
+    return Factors(diagonal_factors(matrix, "NATURAL"), order)
+
+
+def numbered(order: Indices) -> Indices:
+    """Return the number of each unknown in an order of all."""
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    return number
 
 
 def placed(blocks: Sequence[tuple[Entries, int, int]], size: int) -> sparse.csr_array:
@@ -75,17 +82,14 @@ def placed(blocks: Sequence[tuple[Entries, int, int]], size: int) -> sparse.csr_
     return sparse.csr_array((data, (row, column)), (size, size))
 
 
-def places(problem: LimitProblem, interface: Indices) -> Indices:
-    """Where stresses, rates, load factor and rows of some interfaces go, shape (s + 6 n + 1 + rows,)."""
-    last = 2 * len(problem.interfaces) + rates_in_order(problem)
-    order = np.argsort(np.concatenate([2 * problem.stress_interface + 1, last, 2 * interface]), kind="stable")
-    place = np.empty_like(order)
-    place[order] = np.arange(len(order))
-    return place
+def elimination(problem: LimitProblem, interface: Indices) -> Indices:
+    """Return the order of stresses, rates, load factor and rows of some interfaces, (s + 6 n + 1 + rows,)."""
+    last = 2 * len(problem.interfaces) + numbered(rates_in_order(problem))
+    return np.argsort(np.concatenate([2 * problem.stress_interface + 1, last, 2 * interface]), kind="stable")
 
 
 def rates_in_order(problem: LimitProblem) -> Indices:
-    """Where the rates and the load factor go so that factors stay sparse, shape (6 n + 1,)."""
+    """Return the order of the rates and the load factor that keeps factors sparse, shape (6 n + 1,)."""
     return known(problem, "order of the rates", lambda: _rates_in_order(problem))
 
 
@@ -98,4 +102,4 @@ def _rates_in_order(problem: LimitProblem) -> Indices:
     together = sparse.coo_array((np.ones(len(row)), (row, column)), shape).tocsr()
     coupled = together.T @ together
     dominant = sparse.csc_array(coupled + coupled.sum() * sparse.eye_array(n + 1))
-    return np.asarray(diagonal_factors(dominant).perm_c)
+    return np.argsort(diagonal_factors(dominant).perm_c)

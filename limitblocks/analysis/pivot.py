@@ -20,7 +20,7 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.elimination import Entries, Factors, factors_in_order, placed, places
+from limitblocks.analysis.elimination import Entries, Factors, elimination, factors_in_order, placed
 from limitblocks.analysis.polish import admissible, defect, polished
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.residuals import TOLERANCE
@@ -194,7 +194,7 @@ class _Linearised:
             blocks.append((Entries.of(self._turn), 0, 0))
         every = np.arange(a + 1 + height)
         J = placed([*blocks, (Entries(np.full(len(every), self.delta), every, every), 0, 0)], len(every))
-        return J, factors_in_order(J, places(p, p.row_interface[held.indices[held.indptr[:-1]]]))
+        return J, factors_in_order(J, elimination(p, p.row_interface[held.indices[held.indptr[:-1]]]))
 
 
 def _exchanged(table: Array, was_tight: Mask) -> tuple[Array, Array]:

@@ -25,7 +25,7 @@ from enum import IntEnum
 import numpy as np
 from scipy import sparse
 
-from limitblocks.analysis.elimination import Entries, factors_in_order, placed, places
+from limitblocks.analysis.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
@@ -157,7 +157,7 @@ def _proximal_solution(p: LimitProblem, active: Active, J: sparse.csr_array, r: 
     """Solution of J d = r from J + delta I with refinement; the first equations (s,) negated."""
     sign = np.where(np.arange(len(r)) < p.C.shape[0], -1.0, 1.0)
     signed = in_units(J, sign, np.ones(len(r))) + PROXIMAL * sparse.eye_array(len(r), format="csr")
-    factors = factors_in_order(signed, places(p, p.row_interface[active.rows]))
+    factors = factors_in_order(signed, elimination(p, p.row_interface[active.rows]))
     d = factors.solve(sign * r)
     for _ in range(REFINEMENTS):
         d = d + factors.solve(sign * (r - J @ d))

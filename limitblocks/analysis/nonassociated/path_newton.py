@@ -50,7 +50,8 @@ class Newton:
 
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
-        q = _Columns(*(np.stack(parts, axis=-1) for parts in zip(*map(_parts, sides), strict=True)))
+        columns = zip(*map(_parts, sides), strict=True)
+        q = _Columns(*(np.ascontiguousarray(np.array(parts).T) for parts in columns))
         F, multiplier = self.path.flow.problem.F, q.multiplier + self.fall(q.slack)
         x, w = self._eliminated(q.flow + self.GT @ multiplier, np.concatenate([q.balance, q.work[None]]))
         slack = F @ x - q.slack
