@@ -167,7 +167,9 @@ class _Linearised:
     def _refined(self, right: Array) -> Array:
         J, factors = self._system
         ends = factors.solve(right)
-        return np.asarray(ends + factors.solve(right - J @ ends))
+        left = J @ ends
+        ends += factors.solve(np.subtract(right, left, out=left))  # many columns: no more copies than needed
+        return ends
 
     @cached_property
     def _matrix(self) -> sparse.csr_array:

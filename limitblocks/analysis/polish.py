@@ -173,19 +173,21 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
     """Residual of the equations of the yielding rows, and their derivative by (x, u, a, y of the rows)."""
     p = flow.problem
     s = p.F @ now.x + p.g
-    G = flow.matrix(now.x)
     conditions, by_stress, by_multiplier = _complementarity(p, s, now.y, active)
     residual = np.concatenate(
         [
-            p.C @ now.u + G.T @ now.y,
-            p.C.T @ now.x - p.dead - now.load_factor * p.live,
+            p.C @ now.u + flow.strains(now.x, now.y),
+            p.balance @ now.x - p.dead - now.load_factor * p.live,
             [p.live @ now.u - 1.0],
             conditions,
         ]
     )
     n, a = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
     C, yields, loaded = Entries.of(p.C), np.arange(len(active.rows)), np.flatnonzero(p.live)
-    flows, no = Entries(np.ones(len(yields)), yields, active.rows).times(G).T, np.zeros_like(loaded)
+    flows, no = (
+        Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T,
+        np.zeros_like(loaded),
+    )
     blocks = [
         (C, 0, n), (flows, 0, a + 1),
         (C.T, n, 0), (Entries(-p.live[loaded], loaded, no), n, a),

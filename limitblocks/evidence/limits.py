@@ -16,7 +16,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import LimitProblem, in_units
 
 ROUNDING = 4 * np.finfo(float).eps  # of the terms of a row: no change of strength makes up for it
 Flags = npt.NDArray[np.bool_]
@@ -62,9 +62,8 @@ class Limits:
         drops = np.diff(dropped.indptr) > 0
         normal = np.zeros(p.F.shape[1])
         normal[p.resultants[2::6].indices] = 1.0
-        keep = sparse.diags_array(1.0 * (~drops & (self.sign != 0.0)))
-        rubbing = sparse.diags_array(1.0 * (drops & (self.sign != 0.0))) @ dropped
-        return sparse.csr_array((rubbing + keep @ p.F) @ sparse.diags_array(normal))
+        rubbing, along = (1.0 * (these & (self.sign != 0.0)) for these in (drops, ~drops))
+        return sparse.csr_array(in_units(dropped, rubbing, normal) + in_units(p.F, along, normal))
 
     @cached_property
     def constant(self) -> Array:

@@ -95,7 +95,7 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     )
     x = _cheapest(given, choice)
     at = _flowing(given, x, choice)
-    dead = p.C.T @ x - state.load_factor * p.live
+    dead = p.balance @ x - state.load_factor * p.live
     # dilatancy and what turns about the centre of pressure are in G and pivot already
     scaled = given.limits.scaled(_finite(at.change))
     ones = np.ones(len(p.friction))
@@ -139,7 +139,7 @@ def _flowing(given: Given, x: Array, choice: _Choice) -> _Flowing:
     rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
     rates = p.C @ choice.u
     meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
-    off = np.where(meant[columns], rates + flow.matrix(x).T @ y, 0.0)
+    off = np.where(meant[columns], rates + flow.strains(x, y), 0.0)
     lever = _levers(p)
     by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
     tangent = np.where(by_angle > 0.0, np.inf, 0.0)
@@ -162,6 +162,8 @@ def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_arra
 def _aligned(given: Given, s: Array, choice: _Choice) -> Array:
     """The multipliers of cones on the ray opposite to s = F x + g, nearest in flow to those given."""
     p, y = given.flow.problem, choice.y
+    if not p.cones.groups:
+        return y
     ray, fixed = y.copy(), [np.zeros(p.cones.linear, dtype=bool)]
     for rows in p.cones.groups:
         z, w = s[rows][:, 1:], y[rows]
