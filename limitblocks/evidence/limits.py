@@ -75,6 +75,10 @@ class Limits:
             g[second] = -g[first]
         return g
 
+    @cached_property
+    def _sizes(self) -> sparse.csr_array:
+        return abs(self.problem.F)
+
     def changes(self, x: Array) -> Array:
         """Return the relative change of strength that takes each linear row and cone to yield, (degree,).
 
@@ -93,7 +97,7 @@ class Limits:
             at = slice(first, first + len(v))
             lacking[at] = np.where(parabola, bent, lacking[at])
             first += len(v)
-        terms = (abs(p.F) @ np.abs(x) + np.abs(p.g))[heads]
+        terms = (self._sizes @ np.abs(x) + np.abs(p.g))[heads]
         lacking = np.where(np.abs(lacking) <= ROUNDING * terms, 0.0, lacking)
         change = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
         np.divide(lacking, strength, out=change, where=(strength > 0.0) & (lacking != 0.0))

@@ -140,8 +140,7 @@ def _flowing(given: Given, x: Array, choice: _Choice) -> _Flowing:
     rates = p.C @ choice.u
     meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
     off = np.where(meant[columns], rates + flow.strains(x, y), 0.0)
-    lever = _levers(p)
-    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
+    by_angle, whole = (np.bincount(columns, (given.lever * v) ** 2, count) for v in (off, rates))
     tangent = np.where(by_angle > 0.0, np.inf, 0.0)
     np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
     return _Flowing(change, y, off, tangent)
@@ -193,10 +192,3 @@ def _turned(given: Given, at: _Flowing) -> sparse.csr_array:
     E = sparse.coo_array((at.off, (columns, np.arange(s))), shape=(count, s)).tocsr()
     centroid = replace(given.flow, turning=Turning.CENTROID).matrix(given.state.x)
     return sparse.csr_array(centroid - Y @ E)
-
-
-def _levers(p: LimitProblem) -> Array:
-    """What makes rotations of interfaces comparable to displacements: half of their size, else 1, (s,)."""
-    forces = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(p.interfaces))
-    is_force = abs(p.resultants).T @ forces > 0.0
-    return np.where(is_force, 1.0, p.half_sides.max(axis=1)[p.stress_interface])
