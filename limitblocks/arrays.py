@@ -43,6 +43,14 @@ def in_columns(matrix: sparse.csr_array, weights: Array) -> Array:
     return np.bincount(matrix.indices, sizes, matrix.shape[1]).astype(np.float64)
 
 
+def in_blocks(matrix: sparse.csr_array, first: Indices, column: Indices, shape: tuple[int, ...]) -> Array:
+    """Rows of a matrix as an array of a `shape`: the `first` place of each, -1 for none, and of columns."""
+    start, values = np.repeat(first, np.diff(matrix.indptr)), np.zeros(shape)
+    kept = slice(None) if first.min(initial=0) >= 0 else start >= 0
+    values.ravel()[(start + column[matrix.indices])[kept]] = matrix.data[kept]
+    return values
+
+
 def positions(owner: Indices) -> Indices:
     """Running number of each entry among those of its owner, shape (len,)."""
     position = np.empty(len(owner), dtype=np.int64)
@@ -79,6 +87,20 @@ def first_tied(pairs: Indices, count: int) -> Indices:
     """The first of all that each of `count` things is tied to, as in :func:`tied`, (count,)."""
     part = tied(pairs, count)
     return np.asarray(np.unique(part, return_index=True)[1][part])
+
+
+def equal_rows(values: Array) -> tuple[Indices, Indices]:
+    """The first of each class of rows (K, d) with the same bits, and the class of each (K,).
+
+    Rows are sorted by a key of their bits; those of the same key, but not the same, are classes of their own.
+    """
+    bits = np.ascontiguousarray(values).view(np.uint64)
+    odd = np.arange(1, 2 * bits.shape[1], 2, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    key = np.einsum("kd,d->k", bits ^ (bits >> np.uint64(32)), odd)  # modulo 2^64: in any order the same
+    _, first, label = np.unique(key, return_index=True, return_inverse=True)
+    other = np.flatnonzero((values[first[label]] != values).any(axis=1))
+    label[other] = len(first) + np.arange(len(other))
+    return np.concatenate([first, other]), label
 
 
 def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:

@@ -19,6 +19,7 @@ Every message is one line: what is wrong, the name and value, what would be righ
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any
@@ -64,6 +65,9 @@ def missing(left_out: Sequence[str]) -> list[str]:
 
 class LimitBlocksError(Exception):
     """Root of all errors that limitblocks raises on purpose."""
+
+    def __reduce__(self) -> tuple[Any, ...]:  # Exception calls the class with the message alone
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
 class ModelError(LimitBlocksError):

@@ -6,6 +6,7 @@ know no report and no file format.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -17,6 +18,16 @@ from limitblocks.arrays import Sealed
 def many(number: int, word: str, words: str = "") -> str:
     """Return "1 block" or "2 blocks"; `words` where the plural takes more than an s."""
     return f"{number} {word if number == 1 else words or word + 's'}"
+
+
+def coordinate(value: float) -> str:
+    """Return a coordinate in m as text: four digits, and each millimetre however far from the origin."""
+    return f"{round(value, 3):.15g}" if abs(value) >= 1.0 else f"{round(value, 6) + 0.0:.4g}"
+
+
+def coordinates(point: Sequence[float]) -> str:
+    """Return a point in m as text."""
+    return f"({', '.join(map(coordinate, point))})"
 
 
 class Shown(Sealed):

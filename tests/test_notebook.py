@@ -32,6 +32,8 @@ SHOWN = {
     "diagnosis": lb.diagnose(MODEL),
     "range": lb.load_factor_range(MODEL, paths=1, mechanisms=0),
     "report": lb.report(MODEL, BOUNDS),
+    "residuals": FOUND.residuals,
+    "backward error": FOUND.backward_error,
     "view": FOUND.view(),
 }
 COLLAPSING = {"bounds": BOUNDS, "nonassociated": FOUND, "path": PATH}
@@ -56,6 +58,28 @@ def test_html_is_well_formed_and_small(name):
 @pytest.mark.parametrize("name", ["model", "bounds", "nonassociated", "path", "range"])
 def test_html_has_a_picture(name):
     assert f"<title>{MODEL.free_blocks[0].name}</title>" in SHOWN[name]._repr_html_()
+
+
+def test_blocks_of_a_file_are_a_line(tmp_path):
+    """Of a survey of a thousand blocks, too."""
+    file = lb.files.write_blocks(
+        lb.structures.wall(lb.PointContact(0.6), length=4.0, courses=8), tmp_path / "a.obj"
+    )
+    found = lb.files.read_blocks(file)
+    assert repr(found) == f"<{len(found.blocks)} blocks, 1 support>"
+    assert str(replace(found, guesses=("mm", "y"))) == f"{len(found.blocks)} blocks, 1 support, 2 guesses"
+    for one in (found, lb.files.look(file)):
+        assert len(repr(one)) < 200
+        assert f"{len(found.blocks)} blocks" in one._repr_html_()
+
+
+def test_residuals_are_asked_for_by_name():
+    assert FOUND.residuals["equilibrium"] == FOUND.residuals.to_dict()["equilibrium"]
+    assert list(FOUND.residuals.to_frame()["residual"]) == list(FOUND.residuals.to_dict())
+    with pytest.raises(
+        lb.ModelError, match="there is no residual 'equilbrium'; there are equilibrium, yield, "
+    ):
+        FOUND.residuals["equilbrium"]
 
 
 def test_a_large_model_has_a_table_alone(monkeypatch):

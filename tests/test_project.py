@@ -89,6 +89,14 @@ def test_pages_that_texts_and_messages_name_are_there():
     assert {page: by for page, by in named.items() if not (ROOT / page).exists()} == {}
 
 
+def test_every_command_of_the_folder_scripts_knows_help():
+    """`scripts/test --help` made a virtual environment and ran every check."""
+    commands = [file for file in (ROOT / "scripts").iterdir() if file.is_file() and not file.suffix]
+    texts = {file.name: file.read_text(encoding="utf-8") for file in commands}
+    assert len(texts) > 10
+    assert [name for name, text in texts.items() if "ArgumentParser(" not in text] == []
+
+
 def test_lowest_versions_are_the_lower_bounds():
     lowest = runpy.run_path(str(ROOT / "scripts" / "lowest"))["lowest"]()
     assert "numpy==" in " ".join(lowest)

@@ -2,13 +2,14 @@
 
 import copy
 import pickle
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.practice import capacity_curve
+from limitblocks.practice import capacity_curve, settlement
 from limitblocks.practice.advance import farthest
 from limitblocks.reports.words import together
 
@@ -177,6 +178,24 @@ def test_the_seed_of_a_study_may_be_of_numpy(tmp_path):
     assert kept[0] == kept[1]
 
 
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda wall: lb.report(wall, title=5), "title is a int, expected str"),
+        (lambda wall: lb.report(wall, notes=["a", "b"]), "notes is a list, expected str"),
+        (lambda wall: lb.report(wall, demand="0.15"), "demand is '0.15', expected a load factor > 0"),
+        (lambda wall: lb.report(wall, failed="bounds"), "failed is 'bounds', expected a sequence of str"),
+        (lambda wall: lb.nonassociated(wall, means=3), "means is 3, expected a sequence of Means"),
+        (lambda wall: settlement(wall, [], (0, 0, -1)), "support is a list, expected str"),
+        (lambda wall: lb.loads.fill(2e4, 1.0, blocks=3), "blocks is 3, expected a sequence of str"),
+        (lambda wall: lb.loads.pressure([wall], 1.0, facing=(1, 0, 0)), "blocks holds <model"),
+    ],
+)
+def test_labels_means_and_names_are_refused_by_name(wall, ask, said):
+    with pytest.raises(lb.LimitBlocksError, match=re.escape(said)):
+        ask(wall)
+
+
 @pytest.mark.parametrize("again", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
 def test_copies_are_as_read_only_as_what_they_are_of(wall, again):
     """A block whose vertices are written to keeps its centroid, its volume and the digest of the model."""
@@ -185,3 +204,20 @@ def test_copies_are_as_read_only_as_what_they_are_of(wall, again):
         with pytest.raises(ValueError, match="read-only"):
             array[...] = 1.0
     assert model.digest == wall.digest
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+@pytest.mark.parametrize(
+    "error",
+    [
+        lb.ModelError("left: no unit weight", "right: no unit weight"),
+        lb.errors.NoEquilibrium(("left", "lintel"), ("pier",)),
+        lb.NotConverged("not converged", "the best state"),
+        lb.errors.UnlimitedLoad("jams"),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_an_error_of_another_process_says_the_same(error, again):
+    """One that cannot be read back breaks the pool of processes, and the work of all its tasks is lost."""
+    copied = again(error)
+    assert (type(copied), str(copied), vars(copied)) == (type(error), str(error), vars(error))

@@ -35,6 +35,7 @@ from limitblocks.analysis.unlimited import explain
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import (
     OF_BOUNDS,
@@ -112,12 +113,13 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
     dead, pair, proof = _directly(problem, tolerance, tell) or _with_care(problem, tolerance, tell)
     si = problem.in_si(pair.state)
     upper = proof.upper if proof.complete else pair.upper / problem.units.live
+    resultants = resultants_of(problem, pair.state.x)
     return Bounds(
         lower=si.load_factor,
         upper=upper,
         gap=pair.residuals["gap"],
         worth=pair.residuals["worth"],
-        stress_resultants=resultants_of(problem, pair.state.x),
+        stress_resultants=resultants,
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
@@ -127,6 +129,7 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
         solvers=(pair.solver, pair.solver),
         tolerance=tolerance,
         digest=model.digest,
+        remarks=beyond_stress_block(model, resultants),
     )
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import cvxpy as cp
 import numpy as np
@@ -47,10 +47,14 @@ class Stresses:
     def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
         p = self.problem
-        v, least = cp.Variable(1 + p.C.shape[0]), -np.eye(1, 1 + p.C.shape[0])[0]
-        live, nothing = sparse.csr_array(-p.live[:, None]), sparse.csr_array((len(p.g), 1))
-        balance = sparse.csr_array(sparse.hstack([live, p.C.T])) @ v == p.dead
-        inside = map_in_cone(sparse.csr_array(sparse.hstack([nothing, p.F])), v, p.cones, p.g)
+        (s, n), F, pushed = p.C.shape, p.F, np.flatnonzero(p.live)
+        v, least = cp.Variable(1 + s), -np.eye(1, 1 + s)[0]
+        data, equation = np.append(-p.live[pushed], p.C.data), np.append(pushed, p.C.indices)
+        start = np.concatenate([[0], len(pushed) + p.C.indptr])  # columns of C^T are the rows of C
+        columns: Any = (data, equation, start)
+        balance = sparse.csc_array(columns, shape=(n, 1 + s)) @ v == p.dead
+        rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
+        inside = map_in_cone(rows, v, p.cones, p.g)
         return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:

@@ -14,10 +14,10 @@ from limitblocks.geometry.distance import distance
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Dowel, OrdunaLourenco, Tie
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
-from limitblocks.mechanics.loads.load import Load, some, triple
+from limitblocks.mechanics.loads.load import Load, some
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
 from limitblocks.model import Model
-from limitblocks.shown import many
+from limitblocks.shown import coordinates, many
 
 #: Friction coefficient from which on it may be an angle in degrees: 71.6 degrees.
 _STEEP = 3.0
@@ -136,7 +136,7 @@ def _of_loads(model: Model) -> Iterator[str]:
         loads = {"dead": _masses(model.dead), "live": _masses(model.live)}
         for one, other in (("dead", "live"), ("live", "dead")):
             for block, at in sorted(loads[one] - loads[other]):
-                where = f"the mass fixed to {block!r} at {triple(at)} m"
+                where = f"the mass fixed to {block!r} at {coordinates(at)} m"
                 yield f"{where} acts in the {one} load alone: give it in the {other} load, too"
 
 
@@ -202,7 +202,7 @@ def _of_ties_twice(model: Model) -> Iterator[str]:
         ends = sorted([one.block_i, one.block_j])
         others, own = met.setdefault((one.joint.word, tuple(ends)), []), _anchors(one)
         if any(np.linalg.norm(own - other, axis=1).max() <= gap for other in others):
-            where = " and ".join(triple(at) for at in np.unique(own, axis=0).tolist())
+            where = " and ".join(coordinates(at) for at in np.unique(own, axis=0).tolist())
             same = f"as another between the same blocks, within {millimetres(gap)}"
             yield f"{one.name}: it is at {where} m, {same}: given twice? they add up"
         others.append(own)

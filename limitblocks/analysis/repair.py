@@ -11,7 +11,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.scales import compatible_with
 from limitblocks.analysis.splitting import Splitting
@@ -96,9 +95,9 @@ class PlanarRepair:
         Where one exists, a symmetric one does.
         """
         plane, problem = self.plane, self.plane.problem
-        M = sparse.csc_array(abs(plane.multipliers))
-        least = np.asarray(M.multiply(amount[:, None]).max(axis=0).toarray()).ravel()
-        left_out = np.diff(sparse.csr_array(M).indptr) == 0
+        M, least = plane.multipliers, np.zeros(len(problem.g))
+        np.maximum.at(least, M.indices, np.abs(M.data) * np.repeat(amount, np.diff(M.indptr)))
+        left_out = np.diff(M.indptr) == 0
         theirs = np.zeros(len(problem.interfaces))
         np.maximum.at(theirs, self.interface[left_out], amount[left_out])
         least = np.maximum(least, theirs[problem.row_interface])
@@ -108,9 +107,9 @@ class PlanarRepair:
     @cached_property
     def interface(self) -> Indices:
         """Interface of the reduced problem that each row of the whole one belongs to, shape (R,)."""
-        M, m = self.plane.multipliers.tocoo(), len(self.whole.interfaces)
-        reduced = np.zeros(m, dtype=np.int64)
-        reduced[self.whole.row_interface[M.row]] = self.plane.problem.row_interface[M.col]
+        M, reduced = self.plane.multipliers, np.zeros(len(self.whole.interfaces), dtype=np.int64)
+        whole = np.repeat(self.whole.row_interface, np.diff(M.indptr))
+        reduced[whole] = self.plane.problem.row_interface[M.indices]
         return np.asarray(reduced[self.whole.row_interface])
 
     def _everywhere(self, y: Array, needed: bool) -> Array:

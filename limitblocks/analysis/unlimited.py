@@ -26,7 +26,7 @@ def explain(problem: LimitProblem, dead: Array) -> None:
     The stresses `dead` carry those: what the live load does not reach is judged by them, not by rounding.
     """
     pushed = replace(problem, dead=problem.live, g=np.zeros_like(problem.g))  # any multiple of the live load
-    loaded = replace(pushed, dead=problem.live + CERTIFIED * problem.dead)
+    loaded = replace(pushed, dead=problem.live + CERTIFIED * problem.dead, g=CERTIFIED * problem.g)
     for solver in solvers(bool(problem.cones.second_order)):
         measured: Scaled | None = scaled(pushed)
         for _ in range(ROUNDS):

@@ -18,6 +18,10 @@ Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, su
 Level = Annotated[float, typer.Option(help="Of the road, Z in m.", show_default=False)]
 Contact = Annotated[float, typer.Option(help="Length of the contact of a wheel along the deck, m.")]
 Spread = Annotated[float, typer.Option(help="Of the dispersion along the deck, horizontal over vertical.")]
+Across = Annotated[
+    float | None,
+    typer.Option("--y", help="Of the line of the vehicle, Y in m [default: the middle of the blocks]."),
+]
 First = Annotated[
     float | None,
     typer.Option("--first", help="First place of the first axle, X in m [default: off the end]."),
@@ -51,6 +55,7 @@ def vehicle(
     distances: Distances = "0",
     contact: Contact = 0.3,
     spread: Spread = 0.5,
+    y: Across = None,
     first: First = None,
     last: Last = None,
     count: Places = 25,
@@ -67,7 +72,7 @@ def vehicle(
         between = None if first is None or last is None else (first, last)
         for question in of_axles(loads.axles):
             typer.echo(f"warning: {question}", err=True)
-        settings: Any = {"deck": Deck(level, spread), "between": between, "positions": count}
+        settings: Any = {"deck": Deck(level, spread, y), "between": between, "positions": count}
         answer(analyses.vehicle, model, kept, vehicle=loads, **settings)
 
 

@@ -114,7 +114,11 @@ def report(
         if found or more or not failed:
             said = [f"No {word}: {with_notes(error)}" for word, error in failed.items()]
             made = reported(structure, *found, *more, **labels, failed=said)
-            typer.echo(str(made.save(file, overwrite=force)))
+            try:
+                typer.echo(str(made.save(file, overwrite=force)))
+            except LimitBlocksError:  # a full disk does not cost the answers
+                typer.echo(made.text)
+                raise
         for error in failed.values():
             if not stopped:
                 raise error

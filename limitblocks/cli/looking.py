@@ -51,7 +51,7 @@ def look(
 
 
 def _rows(seen: Look) -> list[tuple[str, str]]:
-    from limitblocks.shown import many  # here, to keep --help quick
+    from limitblocks.shown import coordinate, many  # here, to keep --help quick
 
     low, high = seen.bounding_box
     volumes = sorted(block.volume for block in seen.blocks)
@@ -66,7 +66,7 @@ def _rows(seen: Look) -> list[tuple[str, str]]:
         ("Unit of length", seen.units),
         ("Up", seen.up),
         ("Size", " × ".join(f"{side:.4g}" for side in seen.size) + " m"),
-        ("Heights", f"from Z = {_level(low[2])} to {_level(high[2])} m"),
+        ("Heights", f"from Z = {coordinate(low[2])} to {coordinate(high[2])} m"),
         ("Volume", f"{seen.volume:.4g} m³; of a block {spread}"),
         ("Contacts", seen.contacts),
     ]
@@ -84,13 +84,11 @@ def _heads(seen: Look) -> tuple[str, ...]:
 
 
 def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
+    from limitblocks.shown import coordinate
+
     words = [word for word, known in ((block.layer, seen.layers), (block.material, seen.materials)) if known]
     size = " × ".join(f"{side:.3g}" for side in block.size)
-    return block.name, *words, size, f"{block.volume:.3g}", _level(block.bottom), _level(block.top)
-
-
-def _level(height: float) -> str:
-    return f"{round(height, 6) + 0.0:.4g}"  # of a springing, not 3e-16 m
+    return block.name, *words, size, f"{block.volume:.3g}", coordinate(block.bottom), coordinate(block.top)
 
 
 def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, thickness: float | None) -> str:

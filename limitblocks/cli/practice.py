@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -65,6 +66,10 @@ Ties = Annotated[
         "--gamma-s", help="Divides the strength of ties, dowels and passive fill, if there are any."
     ),
 ]
+SavedCurve = Annotated[
+    Path | None,
+    typer.Option("--curve", help="Capacity curve that `capacity --output` wrote, in place of a new one."),
+]
 Associated = Annotated[bool, typer.Option("--associated", help="Bounds alone, not the answer without lift.")]
 
 
@@ -121,6 +126,7 @@ def verify(
     damage: Damage = "",
     modes: Modes = None,
     elastic_period: ElasticPeriod = 0.0,
+    drawn: SavedCurve = None,
     kept: Kept = NOTHING,
 ) -> None:
     """Print the kinematic verification of the mechanism, Circolare 7/2019; exit code 1 if it fails.
@@ -131,6 +137,9 @@ def verify(
 
     def solve(structure: Model) -> Verification:
         site = Spectrum(ground * G, soil, amplification, corner)
+        saved: Any = None if drawn is None else read_result(drawn, structure)
+        if saved is not None:
+            refuse_kind(saved, CapacityCurve, "--curve")
         demands: dict[str, Any] = {"collapse_demand": _spectrum("--slc", collapse)}
         demands |= {"damage_demand": _spectrum("--sld", damage), "floor": _floor(modes or [])}
         demands |= {"elastic_period": elastic_period}
@@ -139,17 +148,22 @@ def verify(
             verification, structure, solved, site, q=behaviour, confidence=confidence, **demands
         )
         alone = verified()  # refuses what is out of range before a curve is drawn
-        curve = None if linear else analyses.capacity(structure)
+        curve = None if linear else saved or analyses.capacity(structure)
         beside.extend((solved, curve) if curve else (solved,))
         if not curve:
             return alone
         return without_curve(alone, curve.ended) if curve.zero is None else verified(curve=curve)
 
     with clean_errors():
+        from limitblocks.errors import refuse_kind
+        from limitblocks.io import read_result
         from limitblocks.practice import Spectrum, verification
+        from limitblocks.practice.capacity_result import CapacityCurve
         from limitblocks.practice.spectra import G
         from limitblocks.practice.verification_result import without_curve
 
+        if drawn and linear:
+            raise typer.BadParameter("give one of both", param_hint="--curve, --linear")
         found = answer(solve, model, kept, beside)
     if not all(one.satisfied for one in found.checks) or found.left_out:
         raise typer.Exit(1)

@@ -88,6 +88,8 @@ def moving(
 
 def _answer(study: Callable[..., Study], model: Path, asked: Asked, *what: Any) -> None:
     """Make a study of the model in a file, write and print its rows; no row with an answer is an error."""
+    from limitblocks.studies.pool import INTERRUPTED
+
     if asked.dilatancy and not asked.nonassociated:
         raise LimitBlocksError("--dilatancy needs --nonassociated")
     refuse_existing(asked.csv, asked.force, model, option="--csv")
@@ -96,21 +98,32 @@ def _answer(study: Callable[..., Study], model: Path, asked: Asked, *what: Any) 
     settings |= {"analysis": "nonassociated", "dilatancy": asked.dilatancy} if asked.nonassociated else {}
     with of_a_count("study") as show:
         answer = study(questioned(model), *what, progress=show, workers=asked.workers, **settings)
-    _tell(answer, asked)
+    try:
+        _write(answer, asked)
+    finally:  # a full disk does not cost the rows
+        _tell(answer, asked)
+    if INTERRUPTED in answer.errors:
+        raise typer.Exit(EXIT_INTERRUPTED)
+    if all(answer.errors) and not (answer.load_factors == float("inf")).any():
+        raise SolveError(f"no analysis gave a load factor: {answer.errors[0]}")
 
 
-def _tell(study: Study, asked: Asked) -> None:
-    """Write and print the rows."""
+def _write(study: Study, asked: Asked) -> None:
+    """Write the files that are asked for."""
     from limitblocks.io import write_result
-    from limitblocks.io.result_file import result_text
-    from limitblocks.reports.terminal import print_table, print_warnings
-    from limitblocks.studies.pool import INTERRUPTED
-    from limitblocks.studies.results import row_in_short
 
     if asked.csv:
         study.write_csv(asked.csv, overwrite=asked.force)
     if asked.output:
         write_result(study, asked.output, overwrite=asked.force)
+
+
+def _tell(study: Study, asked: Asked) -> None:
+    """Print the rows."""
+    from limitblocks.io.result_file import result_text
+    from limitblocks.reports.terminal import print_table, print_warnings
+    from limitblocks.studies.results import row_in_short
+
     if asked.as_json:
         typer.echo(result_text(study))
     else:
@@ -121,10 +134,6 @@ def _tell(study: Study, asked: Asked) -> None:
         print_table("", heads, [row_in_short(row) for row in rows])
         print_warnings(_grouped(errors))
         typer.echo(f"\n{study}")
-    if INTERRUPTED in study.errors:
-        raise typer.Exit(EXIT_INTERRUPTED)
-    if all(study.errors) and not (study.load_factors == float("inf")).any():
-        raise SolveError(f"no analysis gave a load factor: {study.errors[0]}")
 
 
 def _grouped(errors: list[str]) -> Iterator[str]:

@@ -33,6 +33,7 @@ from limitblocks.errors import CheckFailed, ModelError, few
 if TYPE_CHECKING:
     from limitblocks.evidence.check import Check
 
+UNJUDGED = ["how answers were reached", "intervals between them", "unlimited load", "wedging", "proven ends"]
 DEFAULT_TOLERANCE, BOUNDS_TOLERANCE = 1e-8, 1e-6  # as in Python
 
 
@@ -125,7 +126,8 @@ def check(
         claim = read_result(result, structure)
         judged = partial(check_mcp, structure, tolerance=tolerance, backward_error=backward_error)
         if isinstance(claim, LoadFactorRange):
-            _require([(one.load_factor, judged(one.solution)) for one in claim.answers], as_json)
+            ends = [end.answer for end in (claim.least, claim.greatest) if end and end.answer]
+            _require([(one.load_factor, judged(one.solution)) for one in (*claim.answers, *ends)], as_json)
             return
         checked = judged(claim)
         if not claim.digest:
@@ -143,10 +145,15 @@ def _require(checks: list[tuple[float, Check]], as_json: bool) -> None:
     failed = [load_factor for load_factor, one in checks if not one.accepted]
     if as_json:
         answers = [{"load_factor": load_factor, "check": one.to_dict()} for load_factor, one in checks]
-        typer.echo(headed_text({"analysis": "check", "accepted": not failed, "answers": answers}))
+        typer.echo(
+            headed_text(
+                {"analysis": "check", "accepted": not failed, "answers": answers, "unjudged": UNJUDGED}
+            )
+        )
     else:
         for load_factor, one in checks:
             typer.echo(f"load factor {load_factor:.6g}: {one}")
+        typer.echo(f"as the file says, not judged: {', '.join(UNJUDGED)}")
     if failed:
         named = few([f"{load_factor:.6g}" for load_factor in failed])
         raise CheckFailed(f"{len(failed)} of {len(checks)} answers failed the check: load factor {named}")

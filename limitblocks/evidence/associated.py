@@ -53,6 +53,8 @@ class Bounds(Result):
         Largest residual and gap asked for; what is proven may lie farther apart, and the text says so.
     digest : str
         SHA-256 of the model.
+    remarks : tuple of str
+        What a reader of the load factors should know.
     """
 
     lower: float
@@ -69,6 +71,7 @@ class Bounds(Result):
     solvers: tuple[str, str]
     tolerance: float
     digest: str
+    remarks: tuple[str, ...] = ()
 
     title: ClassVar[str] = "Associated bounds"
 
@@ -103,7 +106,7 @@ class Bounds(Result):
         return (
             f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
             f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._wide}"
-            f"{self._as_read}"
+            f"{''.join(f'; {one}' for one in self.remarks)}{self._as_read}"
         )
 
     @property
@@ -127,6 +130,7 @@ class Bounds(Result):
             "residuals": self.residuals.to_dict(),
             "residual_details": self.residuals.details(),
             "tolerance": self.tolerance,
+            "remarks": list(self.remarks),
             "solvers": list(self.solvers),
             **as_lists(self),
             "model_digest": self.digest,

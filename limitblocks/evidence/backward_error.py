@@ -19,6 +19,7 @@ from limitblocks.evidence.given_state import Given
 from limitblocks.evidence.nearby import Nearby, nearby
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, mcp_residuals, residual
 from limitblocks.problem import Flow, State
+from limitblocks.shown import Shown
 
 LEVELS = tuple(10.0 ** np.arange(-10.0, 0.1, 0.5))  # of changes of the model that are tried
 SHOWN = 5  # places that are named
@@ -32,8 +33,8 @@ MEANINGS = {
 UNKNOWN = tuple((name, np.inf, meaning) for name, meaning in MEANINGS.items())
 
 
-@dataclass(frozen=True, eq=False)
-class BackwardError:
+@dataclass(frozen=True, eq=False, repr=False)
+class BackwardError(Shown):
     """Relative change of the model for which a state is an exact solution of Eqs (54)-(59).
 
     It is at most this; a smaller one may do. Infinite if none was found.

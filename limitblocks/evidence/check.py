@@ -11,6 +11,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
 from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
+from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.locked_shear import locked_shear
@@ -174,7 +175,7 @@ def _checked(
     entries = (*judged.entries, *steps, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
-    remarks += locked_tension(model, flow, state)
+    remarks += locked_tension(model, flow, state) + beyond_stress_block(model, claim.stress_resultants)
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, owned
+from limitblocks.arrays import Array, Indices, equal_rows, in_blocks, owned
 from limitblocks.evidence.rounding import EPS, UP, Products, products, size_of
 from limitblocks.evidence.spanning_tree import Tree
 from limitblocks.problem import LimitProblem
@@ -71,14 +70,14 @@ class Static:
             more = np.einsum("kij,kj->ki", transfer, force[block]).ravel()
             force = (force + np.bincount(there, more, force.size).reshape(force.shape)) * UP
         change = np.zeros(self.problem.C.shape[0] + 1)
-        change[places] = np.einsum("kij,kj->ki", np.abs(right), _exactly(force, share)) * UP
+        change[places] = np.einsum("kij,kj->ki", right, _exactly(force, share)) * UP
         if (force[~np.isfinite(share)] > 0.0).any():  # it cannot be carried, nor what it puts on others
             change[:] = np.inf
         return change[:-1]
 
     @cached_property
     def _balance(self) -> Products:
-        return Products((sparse.csr_array(self.problem.C.T),))
+        return Products((self.problem.C.T,))
 
     @cached_property
     def _rows(self) -> Products:
@@ -86,7 +85,7 @@ class Static:
 
     @cached_property
     def _ways(self) -> tuple[Indices, Array, Array, list[tuple[Indices, Indices, Array]]]:
-        """Stresses (n, S) of the tree's interfaces, what of them a force on the block needs, and the ways.
+        """Stresses (n, S) of the tree's interfaces, sizes of what a force on the block needs of them, ways.
 
         Each of the ways has blocks, those 2^k steps behind, and how much (6, 6) of a force gets there: with T
         one step, 1 + T + T^2 + ... = (1 + T) (1 + T^2) (1 + T^4) ...
@@ -105,7 +104,7 @@ class Static:
             twice = np.zeros_like(transfer)
             twice[k] = size_of(transfer[parent[k]] @ transfer[k] * UP)
             parent, transfer = beyond, twice
-        return places, right, share, ways
+        return places, np.abs(right), share, ways
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,36 +124,34 @@ class Kinematic:
         change = np.zeros(len(self.problem.g))
         for rows, columns, kind, right, share in self._inverses:
             strain = _exactly(defect[columns], share[kind])
-            change[rows] = np.einsum("kij,kj->ki", np.abs(right)[kind], strain) * UP
+            change[rows] = (right.take(kind, axis=0) @ strain[..., None])[..., 0] * UP
         return change
 
     @cached_property
     def _flow(self) -> Products:
-        return Products((self.problem.C, sparse.csr_array(self.problem.F.T)))
+        return Products((self.problem.C, self.problem.F.T))
 
     @cached_property
     def _inverses(self) -> list[tuple[Indices, Indices, Indices, Array, Array]]:
         """Rows (K, r) and stresses (K, c) of interfaces of one shape, their kind (K,), its right inverse.
 
-        And its error. Interfaces of one kind have the same numbers.
+        The latter in size, and its error. Interfaces of one kind have the same numbers.
         """
         p, m, parts = self.problem, len(self.problem.interfaces), []
         rows, row = owned(p.row_interface, m)
         columns, column = owned(p.stress_interface, m)
-        F, tall, wide = p.F.tocoo(), (rows < len(p.g)).sum(axis=1), (columns < p.F.shape[1]).sum(axis=1)
-        owner = p.row_interface[F.row]
-        for r, c in sorted(set(zip(tall.tolist(), wide.tolist(), strict=True))):
+        tall, wide = (np.bincount(of, minlength=m) for of in (p.row_interface, p.stress_interface))
+        more = int(wide.max(initial=0)) + 1
+        for r, c in (divmod(shape, more) for shape in np.unique(tall * more + wide).tolist()):
             these = np.flatnonzero((tall == r) & (wide == c))
             number = np.full(m, -1)
             number[these] = np.arange(len(these))
-            at = number[owner] >= 0
-            matrix = np.zeros((len(these), c, r))
-            matrix[number[owner[at]], column[F.col[at]], row[F.row[at]]] = F.data[at]
-            numbers = (
-                matrix.reshape(len(these), -1).view(f"V{8 * c * r}").ravel()
-            )  # one for each, by its bytes
-            _, first, kind = np.unique(numbers, return_index=True, return_inverse=True)
-            parts.append((rows[these, :r], columns[these, :c], kind, *_right_inverse(matrix[first])))
+            block = number[p.row_interface]
+            first = np.where(block >= 0, (block * r + row) * c, -1)
+            matrix = in_blocks(p.F, first, column, (len(these), r, c))
+            one, kind = equal_rows(matrix.reshape(len(these), -1))
+            right, share = _right_inverse(np.swapaxes(matrix[one], 1, 2))
+            parts.append((rows[these, :r], columns[these, :c], kind, np.abs(right), share))
         return parts
 
 
@@ -185,16 +182,13 @@ def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, A
     places, position = owned(p.stress_interface, len(p.interfaces))
     child = np.full(len(p.interfaces), -1)
     child[tree.interface] = np.arange(n)
-    k = child[p.stress_interface]
-    tied = np.flatnonzero(k >= 0)  # few of all
-    C = p.C[tied].tocoo()
-    row, column, data = tied[C.row], C.col, C.data
-    matrices = []
-    for whose in (np.arange(n), tree.parent):
-        matrix = np.zeros((n, 6, places.shape[1]))
-        its = whose[k[row]] == column // 6
-        matrix[k[row[its]], column[its] % 6, position[row[its]]] = data[its]
-        matrices.append(matrix)
+    block = child[p.stress_interface]
+    size = np.diff(p.C.indptr)
+    its = np.repeat(block >= 0, size)  # few of all
+    k, column = np.repeat(block, size)[its], p.C.indices[its]
+    there = 1 * (column // 6 != k), k, column % 6, np.repeat(position, size)[its]
+    matrices = np.zeros((2, n, 6, places.shape[1]))
+    matrices[there] = p.C.data[its]
     return places[tree.interface], matrices[0], matrices[1]
 
 

@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.errors import ModelError
 from limitblocks.evidence.measure import Measure
 from limitblocks.problem import Flow, LimitProblem, State
-from limitblocks.shown import many
+from limitblocks.shown import Tabular, many
 
 OF_BOUNDS = 1e-6  # largest residual, gap and worth of a pair of bounds
 TOLERANCE = 1e-8  # largest residual of an answer
@@ -43,14 +44,17 @@ def nearest(tried: Sequence[Residual], what: str) -> str:
     return f"the best of {many(len(tried), what)} has the {best.name} residual {best.value:.1e}{place}"
 
 
-@dataclass(frozen=True)
-class Residuals:
+@dataclass(frozen=True, repr=False)
+class Residuals(Tabular):
     """Residuals of a claimed solution. Undefined values (NaN) count as infinite."""
 
     entries: tuple[Residual, ...]
 
     def __getitem__(self, name: str) -> float:
-        return next(entry.value for entry in self.entries if entry.name == name)
+        known = self.to_dict()
+        if name not in known:
+            raise ModelError(f"there is no residual {name!r}; there are {', '.join(known)}")
+        return known[name]
 
     @property
     def worst(self) -> Residual:
@@ -75,6 +79,9 @@ class Residuals:
     def details(self) -> dict[str, list[str]]:
         """What each residual measures, and where it is largest."""
         return {entry.name: [entry.meaning, entry.where] for entry in self.entries}
+
+    def __str__(self) -> str:
+        return "; ".join(f"{entry.name} {entry.value:.1e}" for entry in self.entries)
 
 
 def residual(

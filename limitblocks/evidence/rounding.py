@@ -26,19 +26,22 @@ UP = 1.0 + 2.0**-30  # pays for a million roundings of a sum of nonnegative numb
 class Products:
     """Sums of the products of some matrices with as many vectors, and the most that each row is off by."""
 
-    matrices: tuple[sparse.csr_array, ...]
+    matrices: tuple[sparse.csr_array | sparse.csc_array, ...]
 
     @cached_property
-    def sizes(self) -> tuple[sparse.csr_array, ...]:
+    def sizes(self) -> tuple[sparse.csr_array | sparse.csc_array, ...]:
         """The sizes of their entries."""
-        return tuple(
-            sparse.csr_array((size_of(A.data), A.indices, A.indptr), shape=A.shape) for A in self.matrices
-        )
+        return tuple(type(A)((size_of(A.data), A.indices, A.indptr), shape=A.shape) for A in self.matrices)
 
     @cached_property
     def count(self) -> int:
         """The most products that are summed in a row."""
-        return int(np.sum([np.diff(A.indptr) for A in self.matrices], axis=0).max(initial=0))
+        rows = self.matrices[0].shape[0]
+        counts = [
+            np.diff(A.indptr) if A.format == "csr" else np.bincount(A.indices, minlength=rows)
+            for A in self.matrices
+        ]
+        return int(np.sum(counts, axis=0).max(initial=0))
 
     def of(self, vectors: tuple[Array, ...], *addends: Array) -> tuple[Array, Array]:
         """Return the sums as computed, the addends among them, and the most that each row is off by."""
@@ -48,12 +51,14 @@ class Products:
         for addend in addends:
             value, size = value + addend, size + size_of(addend)
         error = _error(self.count + 2 * len(addends) + 2, size)
-        return value, np.where(size == 0.0, 0.0, error)  # nothing is added: it is exact
+        return value, error * (size != 0.0)  # nothing is added: it is exact
 
 
 def size_of(values: Array) -> Array:
     """Sizes of numbers, those that are not zero at least so large that no product of two underflows."""
-    return np.asarray(np.where(values != 0.0, np.maximum(np.abs(values), LEAST), 0.0))
+    sizes = np.abs(values)
+    sizes[(sizes > 0.0) & (sizes < LEAST)] = LEAST
+    return np.asarray(sizes)
 
 
 def scalar_product(a: Array, b: Array) -> tuple[float, float]:

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from limitblocks.arrays import Array, Indices
+from limitblocks.errors import GeometryError
 
 #: Lengths of sides, and components of their directions, closer than this count as equal.
 TIE = 1e-6
@@ -25,8 +28,29 @@ def _swept(polygons: Array) -> Array:
     return cross(polygons, following(polygons))
 
 
-def areas(polygons: Array) -> Array:
-    """Return signed areas (...,), m2, of `polygons` (..., n, 2), m; positive when counter-clockwise."""
+def stacked(polygons: Any) -> Array:
+    """Return polygons as an array (..., n, 2); GeometryError where they are none."""
+    try:
+        array = np.asarray(polygons, dtype=np.float64)
+    except (TypeError, ValueError):  # rows of different lengths, or text
+        array = np.empty(0)
+    if array.ndim < 2 or array.shape[-1] != 2 or array.shape[-2] < 3:
+        raise GeometryError(
+            "polygons are not vertices (x1, x2), three or more a polygon and as many of each; expected an "
+            "array of shape (..., n, 2): repeat a vertex of one that has fewer"
+        )
+    return array
+
+
+def areas(polygons: Any) -> Array:
+    """Return signed areas (...,), m2, of `polygons` (..., n, 2), m; positive when counter-clockwise.
+
+    Raises
+    ------
+    GeometryError
+        They are no such array, or lists of as many vertices each.
+    """
+    polygons = stacked(polygons)
     return np.asarray(_swept(polygons - polygons[..., :1, :]).sum(axis=-1) / 2.0)
 
 

@@ -20,6 +20,7 @@ from limitblocks.io import faults, strict_json
 from limitblocks.io.made import Made, left_out, made, refused
 from limitblocks.io.placed import Contents, Frame, frame, upright
 from limitblocks.io.solid import Solid
+from limitblocks.shown import Shown, many
 
 MOST_SOLIDS = 100_000
 #: Layers, in small letters, whose blocks are supports unless the format says otherwise.
@@ -32,8 +33,8 @@ _NO_LETTER = re.compile(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff]")
 UnitWeight = float | Mapping[str, float] | None
 
 
-@dataclass(frozen=True)
-class ImportedBlocks:
+@dataclass(frozen=True, repr=False)
+class ImportedBlocks(Shown):
     """Blocks read from a file.
 
     Attributes
@@ -62,6 +63,17 @@ class ImportedBlocks:
     def layers(self) -> dict[str, str]:
         """Layer, group or material of each block, by block name; empty text where the file has none."""
         return {block.name: block.layer for block in self.blocks}
+
+    def __str__(self) -> str:
+        beside = {
+            "support": self.supports,
+            "note": self.notes,
+            "guess": self.guesses,
+            "part left out": self.left_out,
+        }
+        plural = {"guess": "guesses", "part left out": "parts left out"}
+        counts = [many(len(those), word, plural.get(word, "")) for word, those in beside.items() if those]
+        return ", ".join([many(len(self.blocks), "block"), *counts])
 
 
 def read_bytes(path: Path) -> bytes:

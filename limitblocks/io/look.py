@@ -22,7 +22,7 @@ from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
 from limitblocks.io.placed import UNITS, Contents, Frame, frame
 from limitblocks.io.supports import LikelySupports, likely_supports
-from limitblocks.shown import many
+from limitblocks.shown import Shown, many
 
 _FORMATS = {
     ".obj": "Wavefront OBJ",
@@ -60,8 +60,8 @@ class SeenBlock:
         return cls(block.name, block.layer, block.material, block.volume, (x, y, z), *ends, *words)
 
 
-@dataclass(frozen=True)
-class Look:
+@dataclass(frozen=True, repr=False)
+class Look(Shown):
     """What is in a file of blocks.
 
     Attributes

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from scipy import sparse
 
-from limitblocks.errors import ModelError
-from limitblocks.geometry import Block, Contacts, find_contacts
+from limitblocks.errors import ModelError, few
+from limitblocks.geometry import Block, Contacts, Interface, find_contacts
 from limitblocks.geometry.accuracy import millimetres
 from limitblocks.model import Model
 from limitblocks.shown import many
@@ -23,7 +24,9 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
         wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
         tied = len(contacts.isolated) - len(wide.isolated)
         if tied > 0:
-            apart = _distance(wide, blocks, set(contacts.isolated))
+            alone = set(contacts.isolated)
+            among = [one for one in wide.interfaces if alone & {one.block_i, one.block_j}]
+            apart = _distance(among, blocks)
             drawn = (
                 f"are the joints drawn open? They are typically {millimetres(apart)} wide"
                 if apart >= 0.0
@@ -41,16 +44,34 @@ def tied(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
     try:
         return Model(blocks, *rest)
     except ModelError as error:
-        apart = open_joints(contacts, blocks) or contacts.near_words
+        apart = open_joints(contacts, blocks) or contacts.near_words or _open_beds(contacts, blocks)
         raise ModelError(*error.problems, *apart) from None
 
 
-def _distance(contacts: Contacts, blocks: Sequence[Block], among: set[str]) -> float:
-    """Return the median distance, m, across the interfaces of the blocks named, as of convex blocks."""
+def _open_beds(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
+    """Return the line that names joints drawn open between groups of blocks that touch; none if none are."""
+    places = {block.name: k for k, block in enumerate(blocks)}
+    i, j = ([places[getattr(one, end)] for one in contacts.interfaces] for end in ("block_i", "block_j"))
+    links = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(blocks), len(blocks)))
+    groups, own = sparse.csgraph.connected_components(links, directed=False)
+    for gap in _WIDER * (groups > 1):
+        wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
+        across = [one for one in wide.interfaces if own[places[one.block_i]] != own[places[one.block_j]]]
+        if across:
+            names, apart = few([one.name for one in across]), _distance(across, blocks)
+            return [
+                f"{names} would touch with gap={gap:g} (block lengths, {millimetres(gap * wide.length)}; "
+                f"import --gap {gap:g}): are these joints drawn open? They are typically "
+                f"{millimetres(apart)} wide"
+            ]
+    return []
+
+
+def _distance(interfaces: Sequence[Interface], blocks: Sequence[Block]) -> float:
+    """Return the median distance, m, across interfaces, as of convex blocks."""
     points = {block.name: block.vertices for block in blocks}
     apart = [
         (points[one.block_j] @ one.axes[2]).min() - (points[one.block_i] @ one.axes[2]).max()
-        for one in contacts.interfaces
-        if among & {one.block_i, one.block_j}
+        for one in interfaces
     ]
     return float(np.median(apart))

@@ -16,6 +16,7 @@ from limitblocks.io.solid import Solid
 
 #: Metres per unit of length.
 UNITS = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
+SAME = 1e-5  # of a unit: a foot of the survey is a foot
 #: From axes with Y up to axes with Z up.
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
@@ -77,6 +78,13 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
     if unit:
         per_unit = UNITS[unit[0]]
         warnings.append(unit[1])
+    if boxes and units and contents.metres and abs(per_unit / contents.metres - 1.0) > SAME:
+        near = (name for name, value in UNITS.items() if abs(value / contents.metres - 1.0) <= SAME)
+        stated = next(near, f"{contents.metres:g} m")
+        size = f"{per_unit * boxes.size:.4g} m large, not {contents.metres * boxes.size:.4g} m"
+        warnings.append(
+            f"says that its unit is {stated}: taken in {units}, as asked, the structure is {size}"
+        )
     why = guesses.tilted(boxes, axis) if boxes and up is None else ""
     if why and contents.up is None:
         axis = "y"

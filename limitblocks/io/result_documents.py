@@ -39,6 +39,7 @@ class StateDocument(Document):
     dead_load_stresses: Many[Number] | None = None
     """Generalised stresses that carry the dead loads alone."""
     # kept for the reader; no check believes a word of it
+    remarks: Any = None
     residuals: Any = None
     residual_details: Any = None
     tolerance: Any = None
@@ -59,7 +60,6 @@ class ResultDocument(StateDocument):
     unclaimed: Any = None
     associated: Any = None
     status: Any = None
-    remarks: Any = None
     backward_error: Any = None
     how: Any = None
     fixed_point_change: Any = None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from importlib import metadata
+from math import isclose
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -68,6 +69,8 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
         data = strict_json.parse(text)
         made = _made(data)
         kind = kind_of(made)
+        if made is not None:
+            _refuse_copies(data, strict_json.finite(made.to_dict()))
         if kind and not kind.document:  # no claimed solution
             _refuse_other(model, made.digest, data.get("versions"))
             return made
@@ -112,6 +115,20 @@ def _made(data: Any) -> Any:
         return None
 
 
+def _refuse_copies(said: Any, made: Any, place: str = "") -> None:
+    """Refuse a number that does not follow from the others, such as a load factor told twice."""
+    if isinstance(said, dict) and isinstance(made, dict):
+        for key in said.keys() & made.keys():
+            _refuse_copies(said[key], made[key], f"{place}.{key}" if place else key)
+    elif isinstance(said, list) and isinstance(made, list) and len(said) == len(made):
+        for k, (one, other) in enumerate(zip(said, made, strict=True)):
+            _refuse_copies(one, other, f"{place}.{k}")
+    elif isinstance(said, str) and isinstance(made, str):  # earlier versions may have worded it otherwise
+        return
+    elif said != made and not (isinstance(said, float) and isinstance(made, float) and isclose(said, made)):
+        raise ModelError(f"{place} is {said!r}, but by what else the file says it is {made!r}")
+
+
 def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
     if model and digest and digest != model.digest:
         said = f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}"
@@ -119,10 +136,11 @@ def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
             stated.get("limitblocks") if isinstance(stated, dict) else None,
             versions()["limitblocks"],
         )
-        if saved:
-            said += f"; it was saved by limitblocks {saved}, this is limitblocks {own}"
         if saved and saved != own:
-            said += ", which may know the same model by another digest: analyse it again"
+            said += (
+                f"; it was saved by limitblocks {saved}, this is limitblocks {own}, which may know the same "
+                "model by another digest: analyse it again"
+            )
         raise ModelError(said)
 
 

@@ -156,7 +156,10 @@ def _refuse_missing(
     """Raise ModelError for what the format does not hold and was not given."""
     wrong = []
     if joint is None and materials is None:
-        wrong.append("the format holds blocks only; give joint=... (or materials=...) to read a model")
+        wrong.append(
+            "the format holds blocks only; `limitblocks import` makes a model file of them, or give joint=..."
+            " (or materials=...) to read a model"
+        )
     if joint is not None and materials is not None:
         wrong.append("joint and materials are both given; the materials have the joints, leave joint out")
     if supports is None:

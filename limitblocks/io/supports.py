@@ -10,6 +10,7 @@ import numpy as np
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, select
 from limitblocks.io.guesses import SUPPORT_WORDS
+from limitblocks.shown import coordinate
 
 _NAMED = 8  # blocks at most that are chosen one by one
 
@@ -76,7 +77,7 @@ def _lowest(blocks: Sequence[Block]) -> LikelySupports | None:
     lowest = bottom <= bottom.min() + tolerance
     names = [block.name for block, low in zip(blocks, lowest, strict=True) if low]
     bound, above = float(top[lowest].max()), top[~lowest]
-    reason = f"they reach down to the lowest level, Z = {bottom.min():.4g} m"
+    reason = f"they reach down to the lowest level, Z = {coordinate(bottom.min())} m"
     if len(above) and bound < above.min() - 1e-6:
         digits = float(f"{bound + min(tolerance, (above.min() - bound) / 2.0):.3g}")
         if bound <= digits < above.min():

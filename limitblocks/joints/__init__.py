@@ -1,7 +1,9 @@
 """What an interface can carry: one yield model a file, each as conic rows (F, g, G, K).
 
 For a joint of your own: `YieldRows` is what it returns, `Queries` asks one joint, `areas` and
-`torsion_constants` measure polygons; examples/16_write_your_own_joint.py is one.
+`torsion_constants` measure polygons; examples/16_write_your_own_joint.py is one. Its strengths, Pa, are
+fields named `cohesion`, `tensile_strength` and `compressive_strength`, where partial factors and displaced
+structures look for them.
 `Model.save` writes its fields, but no file tells its rows: build such a model again in Python.
 """
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from numbers import Real
 from typing import Any, Protocol, TypeGuard, runtime_checkable
 
@@ -15,6 +15,9 @@ from limitblocks.geometry import Interface
 from limitblocks.written import tagged
 
 RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
+#: Names of strengths, Pa, by which partial factors and displaced structures find them in a joint.
+STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
+_SQUARE = np.array([[(0.5, -0.5), (0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5)]])  # m
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,6 +87,20 @@ def joint_of(interface: Interface) -> Joint:
             "expected a joint such as OrdunaLourenco(friction=0.6)"
         )
     return interface.joint
+
+
+def refuse_nameless_strength(joint: Joint, who: str) -> None:
+    """Raise ModelError where `joint`, of one's own, has a strength under a name that is none of STRENGTHS."""
+    known = is_dataclass(joint) and not isinstance(joint, type)
+    for one in fields(joint) if known else ():  # type: ignore[arg-type] # as `known` says
+        value = getattr(joint, one.name)
+        if one.name not in (*STRENGTHS, "friction") and isinstance(value, float):
+            half = replace(joint, **{one.name: value / 2.0})  # type: ignore[type-var] # as `known` says
+            if not np.array_equal(joint.yield_rows(_SQUARE).g, half.yield_rows(_SQUARE).g):
+                raise ModelError(
+                    f"{joint}: {who} would leave {one.name} as it is, a strength; name it "
+                    f"{', '.join(STRENGTHS[:-1])} or {STRENGTHS[-1]}"
+                )
 
 
 def joints_of(interfaces: Iterable[Interface]) -> tuple[dict[int, str], dict[str, Any]]:

@@ -22,7 +22,7 @@ from shapely.geometry.polygon import orient
 
 from limitblocks.arrays import Array
 from limitblocks.errors import GeometryError
-from limitblocks.geometry.polygon import areas, centroids, cross
+from limitblocks.geometry.polygon import areas, centroids, cross, stacked
 
 Region: TypeAlias = Array | Sequence[Array] | Polygon | MultiPolygon
 
@@ -181,24 +181,25 @@ def torsion_constant(region: Region, centre: Any = None) -> float:
     return float(torsion_integrals(shape, centre).T) / float(shape.area)
 
 
-def torsion_constants(polygons: Array) -> Array:
-    """Torsion constants (m,) about the centroids of a stack of `polygons` (m, n, 2), m (Eqs 6 and 16).
+def torsion_constants(polygons: Any) -> Array:
+    """Torsion constants (...,) about the centroids of `polygons` (..., n, 2), m (Eqs 6 and 16).
 
     Repeat a vertex to bring polygons to the same n.
 
     Raises
     ------
     GeometryError
-        If a polygon has no area; whether it crosses itself is not checked.
+        If a polygon has no area, or they are no vertices; whether it crosses itself is not checked.
     """
+    polygons = stacked(polygons)
     area = areas(polygons)
-    flat = ~(np.abs(area) > 1e-14 * np.ptp(polygons, axis=1).sum(-1) ** 2)
+    flat = ~(np.abs(area) > 1e-14 * np.ptp(polygons, axis=-2).sum(-1) ** 2)
     if flat.any():
         raise GeometryError(
             f"interface polygon {flat.argmax()} must have an area; it has {area[flat][0]:g} m2"
         )
-    start = polygons - centroids(polygons)[:, None]
-    return np.asarray(_edge_sums(start, np.roll(start, -1, axis=1))[2] / area)
+    start = polygons - centroids(polygons)[..., None, :]
+    return np.asarray(_edge_sums(start, np.roll(start, -1, axis=-2))[2] / area)
 
 
 def rectangle_torsion_constant(l1: Any, l2: Any) -> Array:

@@ -100,7 +100,8 @@ class Canvas:
         """Draw arrows (n, 3) from `tails` (n, 3), in m."""
         style = {"zorder": ABOVE} | style
         if self.spatial:
-            self.ax.quiver(*tails.T, *vectors.T, arrow_length_ratio=0.2, linewidth=1.0, **style)
+            lines = {"arrow_length_ratio": 0.2, "linewidth": 1.0, "clip_on": False}  # may be above the axes
+            self.ax.quiver(*tails.T, *vectors.T, **lines, **style)
         else:
             across = {"angles": "xy", "scale_units": "xy", "scale": 1.0, "units": "inches", "width": 0.018}
             self.ax.quiver(*self.flat(tails).T, *self.flat(vectors).T, **across, **style)
@@ -127,7 +128,7 @@ class Canvas:
             share = float(length / span.max())
             axis = getattr(self.ax, f"{name}axis")
             getattr(self.ax, f"set_{name}lim3d")(centre - 0.51 * length, centre + 0.51 * length)
-            axis.set_major_locator(_few(share, float(centre), inches(self.ax)))
+            axis.set_major_locator(_few(share, float(centre), float(length), inches(self.ax)))
             axis.set_label_text(f"{name.upper()} (m)")
             axis.set_pane_color((1.0, 1.0, 1.0, 0.0))
         self.ax.set_box_aspect(span)
@@ -139,9 +140,11 @@ class Canvas:
         most = int((inches(self.ax) + ASIDE) / LETTER)
         text = "\n".join(part for line in text.splitlines() for part in wrap(line, most))
         low, high = self._extent()
-        above = high[1] + (0.12 if self.beyond else 0.03)  # what is beyond the frame has a word above it
-        place = {"x": (low[0] + high[0]) / 2, "y": above} if self.spatial else {}
+        above = high[1] + 0.03
+        place = {"x": (low[0] + high[0]) / 2, "y": above, "va": "bottom"} if self.spatial else {}
         self.ax.set_title(text, fontsize="small", **place)
+        if self.spatial:
+            self.ax.title.set_y(above)  # of which set_title of 3d Axes makes 0.92
 
     def legend(self) -> None:
         """Put the legend below the drawing."""
@@ -172,7 +175,7 @@ class Canvas:
         low, high = self._extent()
         side = float(
             min((room() - BESIDE) / (high - low))
-        )  # of the square axes, inches; they may reach beyond the figure
+        )  # inches: the square axes may reach beyond the figure
         left, right, above = 0.55, 0.75, 0.75
         wide, tall = side * (high - low) + [left + right, below + above]
         self.ax.figure.set_size_inches(wide, tall)
@@ -186,10 +189,10 @@ class Canvas:
             self.ax.add_collection(collection)
 
 
-def _few(share: float, centre: float, wide: float) -> Locator:
+def _few(share: float, centre: float, length: float, wide: float) -> Locator:
     """Ticks of an axis that is a `share` of the longest, on axes so many inches wide."""
     if share < SHORT:
-        return FixedLocator([float(f"{centre:.2g}")])
+        return FixedLocator([round(centre, 1 - int(np.floor(np.log10(length))))])
     return MaxNLocator(max(1, round(float(np.clip(1.2 * wide, 2.0, 5.0)) * share)), steps=[1, 2, 5, 10])
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.drawing.ties import tie_lines
 from limitblocks.drawing.view import PLANES, towards, view_of
 from limitblocks.errors import LimitBlocksError
 from limitblocks.model import Model, checked_model
@@ -58,7 +59,8 @@ def _plane(model: Model, flat: bool) -> str:
 
 def _size(model: Model, view: Array) -> tuple[float, float]:
     """Size of a figure, inches, whose shape is that of the structure."""
-    corners = np.concatenate([block.vertices for block in model.blocks])
+    ends = [line.anchors for line in tie_lines(model)]
+    corners = np.concatenate([*(block.vertices for block in model.blocks), *ends])
     wide, high = np.ptp(corners @ view[:2].T, axis=0)
     most = room() - 0.6
     width = float(np.clip(0.7 * room() * wide / high, 0.7 * most, most))

@@ -17,13 +17,12 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Guide, Joint, Tie
-from limitblocks.joints.base import joint_of
+from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.shown import Result, many
 
 FRICTION = "friction"
-STRENGTHS = ("cohesion", "tensile_strength", "compressive_strength")
 SYMBOLS = {FRICTION: "mu", "cohesion": "c", "tensile_strength": "f_t", "compressive_strength": "f_cef"}
 
 
@@ -167,6 +166,7 @@ def _design(joint: Joint, factors: PartialFactors) -> Joint:
     if isinstance(joint, Tie):
         prestress = factors.gamma_G * joint.prestress
         return replace(joint, strength=joint.strength / strength, prestress=prestress)
+    refuse_nameless_strength(joint, "partial factors")
     known = {name: getattr(joint, name, None) for name in STRENGTHS}
     changes = {name: value / strength for name, value in known.items() if value}
     try:

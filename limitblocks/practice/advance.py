@@ -10,13 +10,15 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.joints import Backfill
+from limitblocks.joints import Backfill, Dowel, Guide, Tie
+from limitblocks.joints.base import joint_of, refuse_nameless_strength
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, Moment, PointForce
-from limitblocks.mechanics.loads.load import Load, triple, vector
+from limitblocks.mechanics.loads.load import Load, vector
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Truths, moved
 from limitblocks.practice.rejoined import closed_up, joined, meet, slid
+from limitblocks.shown import coordinates
 
 FOLLOWS = (MassProportional, AddedMass, PointForce, Moment)  # loads that know where a moved block is
 STILL = 1e-6  # of the largest speed: a relative motion below it counts as none
@@ -47,6 +49,9 @@ def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
     """Raise ModelError for a load of these names, or passive fill, that stays behind as its block moves."""
     if any(isinstance(own.joint, Backfill) for own in model.interfaces):
         raise ModelError(f"passive fill does not move with the blocks; a {what} needs a structure without it")
+    for joint in {joint_of(own) for own in model.interfaces}:
+        if not isinstance(joint, Tie | Dowel | Guide):
+            refuse_nameless_strength(joint, f"a {what}")
     for word in words:
         load: Load = getattr(model, word)
         for _, term in load.terms:
@@ -65,7 +70,7 @@ def control_point(model: Model, name: str, at: Sequence[float]) -> tuple[Block, 
     block, point = named[name], np.array(vector(at, "control point"))
     low, high = block.vertices.min(axis=0), block.vertices.max(axis=0)
     if (np.maximum(low - point, point - high) > BESIDE * block.size).any():
-        here, first, last = (triple(place.tolist()) for place in (point, low, high))
+        here, first, last = (coordinates(one.tolist()) for one in (point, low, high))
         raise ModelError(
             f"control point {here} is not on block {block.name!r}, which reaches from {first} to {last} m"
         )
@@ -108,7 +113,7 @@ def stopped(displacement: float) -> str:
     """Return why a curve ends at a displacement, m, from which contacts allow no step."""
     if displacement == 0.0:
         return "a contact closes at once, in the first step, and stops the mechanism"
-    return f"blocks meet at {displacement:.6g} m and stop the mechanism"
+    return f"contacts that close, or blocks that meet, stop the mechanism at {displacement:.6g} m"
 
 
 def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assembly, tuple[str, ...]] | None:

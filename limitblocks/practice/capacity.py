@@ -37,6 +37,7 @@ SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next o
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor goes through zero
 NEARLY = 1e-6  # the same where a step moves nothing any more
 EVENT = 1e-4  # of the size of the structure: a step in which it snaps, or to a zero that is not answered
+SMALL = 1e-2  # of the first load factor: the most that is left at a zero that is not answered
 SHORT = 0.99  # of the step to a zero that is not answered: the dead loads alone are at their limit there
 SMALLEST = 0.1  # of the last step, to the zero: the same where it is shorter still
 
@@ -130,7 +131,8 @@ def _curve(
         next_step = min(_next_step(assembly, before, point, steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale, _to_zero(before, point))
-        if isinstance(found, str) and _to_zero(before, point) <= EVENT * assembly.size:
+        small = point.load_factor <= SMALL * scale and _to_zero(before, point) <= EVENT * assembly.size
+        if isinstance(found, str) and small:
             return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
             yield found if isinstance(found, str) else stopped(point.displacement)
@@ -159,10 +161,14 @@ def _ahead(
         if found is None:
             return stopped(point.displacement)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        beyond = -_to_zero(point, found[2])  # the zero lies as far behind
-        if left >= -ZERO * scale or min(way, beyond) <= JUMP * assembly.size or found[2].snapped:
+        beyond = -_to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
+        if left >= -ZERO * scale or min(abs(way), beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
-        step, most = way * max(HALVING, min(most, point.load_factor / (point.load_factor - left))), HALVING
+        step, most = (
+            (way if way > 0.0 else step)
+            * max(HALVING, min(most, point.load_factor / (point.load_factor - left))),
+            HALVING,
+        )
 
 
 def _next_step(assembly: Assembly, before: CapacityPoint | None, point: CapacityPoint, steps: int) -> float:

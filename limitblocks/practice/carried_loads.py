@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -11,29 +11,36 @@ from limitblocks.arrays import Array
 from limitblocks.geometry import Interface
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads.forces import AddedMass, PointForce
-from limitblocks.mechanics.loads.load import Term, Vector
+from limitblocks.mechanics.loads.load import Term
 from limitblocks.model import Model
 from limitblocks.practice.elements import Element
 
-Pulls = dict[tuple[str, Vector], tuple[Array, PointForce]]
+Pulls = Sequence[tuple[PointForce, PointForce]]  # what ties pull with before and after
 
 
 def carried_load(load: Load, at: Callable[[str, Array], Array], pulls: Pulls) -> Load:
     """Return the load on moved blocks: `at` says where their points are, `pulls` what of prestress."""
     terms: list[tuple[float, Term]] = []
     for factor, term in load.terms:
-        if isinstance(term, PointForce) and (term.block, term.at) in pulls:
-            pull, after = pulls[term.block, term.at]
-            share = float(pull @ term.force) / float(pull @ pull)  # a partial factor may be in either
-            if np.allclose(share * pull, term.force):
-                terms.append((factor * share, after))
-                continue
-        if isinstance(term, AddedMass | PointForce):
+        if isinstance(term, PointForce) and (pulled := _pulled(term, pulls)):
+            share, after = pulled
+            terms.append((factor * share, after))
+        elif isinstance(term, AddedMass | PointForce):
             x, y, z = at(term.block, np.array(term.at)).tolist()
             terms.append((factor, replace(term, at=(x, y, z))))
         else:
             terms.append((factor, term))
     return Load(tuple(terms))
+
+
+def _pulled(term: PointForce, pulls: Pulls) -> tuple[float, PointForce] | None:
+    """Share of the pull of a tie that a force is, and that pull as it is now; None of another force."""
+    for pull, after in pulls:
+        if (pull.block, pull.at) == (term.block, term.at):  # ties that cross may share their middle
+            share = np.dot(pull.force, term.force) / np.dot(pull.force, pull.force)  # of a partial factor
+            if np.allclose(share * np.array(pull.force), term.force):
+                return float(share), after
+    return None
 
 
 def prestress(own: Interface, model: Model) -> list[PointForce]:

@@ -131,7 +131,8 @@ def _way(
             except NoEquilibrium:
                 falls, why = at, f"the structure falls between {point.displacement:.9g} and {at:.9g} m"
             except SolveError as error:
-                why = f"no checked answer beyond {point.displacement:.6g} m: {error}"
+                until = "" if falls is None else f" until it falls at {falls:.9g} m"
+                why = f"no checked answer beyond {point.displacement:.6g} m{until}: {error}"
             step = (at - point.displacement) / 2.0
             if step < accuracy:
                 yield falls, why

@@ -194,11 +194,11 @@ def moved(assembly: Assembly, displacements: Array) -> Assembly:
             axes_j=own.axes_j @ turns[j].T,
         )
         contacts.append(replace(turned, interface=placed(turned, blocks)))
-    pulls = {
-        (old.block, old.at): (np.array(old.force), new)
+    pulls = [
+        pair
         for own, turned in zip(assembly.contacts, contacts, strict=True)
-        for old, new in zip(prestress(own.interface, model), prestress(turned.interface, model), strict=True)
-    }
+        for pair in zip(prestress(own.interface, model), prestress(turned.interface, model), strict=True)
+    ]
     place = {block.name: k for k, block in enumerate(model.blocks)}
     dead, live = (
         carried_load(load, lambda name, point: at(place[name], point), pulls)

@@ -103,10 +103,10 @@ def tie(
     if not length > 0.0:
         raise ModelError(f"{word}: both anchors are at {start.tolist()}; a tie needs a length")
     section = number_of * number(area, f"{word}: area", "m2", above=0.0)
-    capacity = min(section * number(strength, f"{word}: strength", "Pa", above=0.0), pull_out)
-    if not capacity > 0.0:
-        raise ModelError(f"{word}: pull_out is {pull_out!r} N, expected a force > 0")
-    if not 0.0 <= prestress < capacity:
+    capacity = section * number(strength, f"{word}: strength", "Pa", above=0.0)
+    if pull_out != np.inf:
+        capacity = min(capacity, number(pull_out, f"{word}: pull_out", "N", above=0.0))
+    if not number(prestress, f"{word}: prestress", "N", least=0.0) < capacity:
         raise ModelError(
             f"{word}: prestress is {prestress:g} N, expected 0 to less than the {capacity:g} N it can carry: "
             "one that has nothing left to yield is a pair of forces"

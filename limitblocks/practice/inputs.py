@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.errors import ModelError
+from limitblocks.evidence.check import check_mcp
+from limitblocks.evidence.claim import Claim
 from limitblocks.joints import Tie
 from limitblocks.model import Model
+from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.spectra import Place, Spectrum
 from limitblocks.practice.verification_result import Quantity
 
@@ -15,6 +21,14 @@ PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
 
 GIVEN = "given"
 NTC = "NTC 2018"
+
+
+def refuse_unproven(model: Model, result: Any) -> None:
+    """Raise CheckFailed for a claim, as of a file, that is no solution, and ModelError for a best state."""
+    if isinstance(result, Claim) or getattr(result, "from_file", False):
+        check_mcp(model, result).require()
+    elif not getattr(getattr(result, "collapse", result), "accepted", True):
+        raise ModelError(f"this {type(result).__name__} is no solution: {result.collapse.status.value}")
 
 
 def given(spectrum: Spectrum, state: str = "SLV") -> list[Quantity]:
@@ -53,6 +67,26 @@ def carried(place: Place, spectrum: Spectrum) -> list[Quantity]:
     largest = Quantity("a_Z", "largest acceleration at the height z", words, floor.largest(spectrum), "m/s2",
                        "[C7.2.8]")  # fmt: skip
     return [*found, largest]
+
+
+def flow_words(dilatancy: float) -> str:
+    """Return how the joints of a result flow, from the tangent of their dilatancy angle."""
+    if dilatancy == 0.0:
+        return "without dilatancy"
+    return f"with a dilatancy of {dilatancy:g}" if np.isfinite(dilatancy) else "associated"
+
+
+def unproven(collapse: Any, curve: CapacityCurve | None) -> tuple[str, ...]:
+    """Return where the load factor is of joints that lift as they slide, and a curve not computed here."""
+    said = []
+    if collapse.dilatancy > 0.0:
+        said.append(
+            f"alpha0 is {flow_words(collapse.dilatancy)}: where joints slide, real friction may give less"
+            " (limitblocks.nonassociated)"
+        )
+    if curve and curve.from_file:
+        said.append("the capacity curve is as a file says, not computed here")
+    return tuple(said)
 
 
 def remarks(model: Model, rates: Array, confidence: float) -> tuple[str, ...]:

@@ -19,10 +19,10 @@ from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Tie
 from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
-from limitblocks.mechanics.loads.load import Vector, number, of, triple, vector
+from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, reinforced
-from limitblocks.shown import Result
+from limitblocks.shown import Result, coordinates
 
 AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
 NONE = 1e-6  # of the largest: what is less is left out
@@ -126,7 +126,7 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     own = [_of_force(one, amount) for one, amount in zip(candidates, amounts, strict=True)]
     kept = [one for one, amount in zip(own, amounts, strict=True) if amount > NONE * amounts.max(initial=0.0)]
     kinds = tuple(
-        f"{one.interface.name} at {triple(one.interface.centroid.tolist())} m" for one in candidates
+        f"{one.interface.name} at {coordinates(one.interface.centroid.tolist())} m" for one in candidates
     )
     used = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
     return _repair(used, reinforced(model, *kept), required, kinds, model.digest)
@@ -172,7 +172,7 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         dead=model.dead + of(*heaps),
         live=model.live + of(*(replace(heap, direction=direction) for heap in heaps)),
     )
-    kinds = tuple(f"weight on {block} at {triple(at)} m" for block, at in known)
+    kinds = tuple(f"weight on {block} at {coordinates(at)} m" for block, at in known)
     return _repair(amounts, added, required, kinds, model.digest)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import covered, tops
 from limitblocks.model import Model
-from limitblocks.shown import many
+from limitblocks.shown import coordinate, many
 
 SUNK = 1e-6  # of the size of a block: how far a road may lie below it
 
@@ -68,8 +68,9 @@ class Deck:
     spread : float
         Horizontal over vertical of the dispersion through the fill along the deck: 0.5 of the usual 2:1 rule.
         An axle acts evenly on the length ``contact + 2 spread depth`` of the extrados, straight down.
-    y : float
-        Of the line, m. Across the deck the axle is taken to spread over the whole width.
+    y : float, optional
+        Of the line, m; left out, the middle of the blocks that can move. A block that spans the width takes
+        the axle as if spread over all of it; of several across the deck those below the line carry all.
 
     Raises
     ------
@@ -79,12 +80,20 @@ class Deck:
 
     level: float
     spread: float = 0.5
-    y: float = 0.0
+    y: float | None = None
 
     def __post_init__(self) -> None:
         number(self.level, "level of the road", "m")
         number(self.spread, "spread", "", least=0.0)
-        number(self.y, "line y of the deck", "m")
+        if self.y is not None:
+            number(self.y, "line y of the deck", "m")
+
+    def on(self, model: Model) -> Deck:
+        """Return the deck with its line on a model."""
+        if self.y is not None:
+            return self
+        y = np.concatenate([block.vertices[:, 1] for block in model.free_blocks])
+        return replace(self, y=float(y.min() + y.max()) / 2.0)
 
 
 def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) -> Load:
@@ -99,11 +108,11 @@ def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) ->
     """
     refuse_kind(vehicle, Vehicle, "vehicle")
     refuse_kind(deck, Deck, "deck")
-    total, position = Load(), number(position, "position", "m")
+    total, position, deck = Load(), number(position, "position", "m"), deck.on(model)
     for load, distance in zip(vehicle.axles, vehicle.distances, strict=True):
         total = total + _axle(model, load, vehicle.contact, deck, position + distance)
     if not total.terms:
-        raise ModelError(f"no axle of the vehicle at x = {position:g} m stands on a free block")
+        raise ModelError(f"no axle of the vehicle at x = {coordinate(position)} m stands on a free block")
     return total
 
 
@@ -115,7 +124,8 @@ def _axle(model: Model, load: float, contact: float, deck: Deck, x: float) -> Lo
     owner, top = tops(free, np.array([(nearest, deck.y)]))
     if owner[0] >= 0 and deck.level < float(top[0]) - SUNK * free[owner[0]].size:
         raise ModelError(
-            f"the road at {deck.level:g} m is below the structure, {top[0]:g} m high at x = {nearest:g} m"
+            f"the road at {coordinate(deck.level)} m is below the structure, {coordinate(top[0])} m high "
+            f"at x = {coordinate(nearest)} m"
         )
     depth = max(deck.level - float(top[0]), 0.0) if owner[0] >= 0 else 0.0
     half = contact / 2.0 + deck.spread * depth

@@ -16,7 +16,16 @@ from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.displacement_check import displacement_check
-from limitblocks.practice.inputs import GIVEN, LC1, carried, given, remarks
+from limitblocks.practice.inputs import (
+    GIVEN,
+    LC1,
+    carried,
+    flow_words,
+    given,
+    refuse_unproven,
+    remarks,
+    unproven,
+)
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
 from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
@@ -74,7 +83,7 @@ def verification(
     ModelError
         If a number is out of range, the live load is not that, or the curve does not end at zero.
     LimitBlocksError
-        If the result is not one of this model.
+        If the result is not one of this model, or no solution: one of a file, or a claim, is checked first.
 
     Notes
     -----
@@ -86,6 +95,7 @@ def verification(
     The non-linear checks compare ground accelerations, a_g,SLV no less than that which sets it off.
     """
     collapse = collapse_of(model, result)
+    refuse_unproven(model, result)
     _refuse(demand, collapse_demand, damage_demand, curve, floor)
     if np.shape(damping) != (2,):
         raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
@@ -95,7 +105,8 @@ def verification(
     place = Place(floor, number(elastic_period, "T_0", "s", least=0.0))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
-    sums, a0, e = _oscillator(masses, alpha, confidence)
+    flow = flow_words(collapse.dilatancy)  # type: ignore[attr-defined] # of every state
+    sums, a0, e = _oscillator(masses, alpha, flow, confidence)
     found = steps("activation", sums)
     found += steps("demand", [*given(demand), *carried(place, demand)])
     set_off = ground_acceleration(demand, place.acceleration, a0)
@@ -117,7 +128,11 @@ def verification(
             more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
             found += steps(state, more)
             checks.append(check)
-    said = (*of_ground(demand.a_g), *remarks(model, collapse.displacement_rates, confidence))
+    said = (
+        *of_ground(demand.a_g),
+        *unproven(collapse, curve),
+        *remarks(model, collapse.displacement_rates, confidence),
+    )
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)
 
 
@@ -133,7 +148,7 @@ def _refuse(demand: object, *others: object) -> None:
 
 
 def _oscillator(
-    masses: tuple[MovingMass, ...], alpha: float, confidence: float
+    masses: tuple[MovingMass, ...], alpha: float, flow: str, confidence: float
 ) -> tuple[list[Quantity], float, float]:
     """Sums over the masses, alpha0, e*, a0* as quantities; a0* and e*."""
     P, x, y = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal", "vertical"))
@@ -142,8 +157,7 @@ def _oscillator(
     a0 = alpha * G / (e * confidence)
     mass = e * total / G
     return [
-        Quantity("alpha0", "load factor that sets it off", "without dilatancy, this report", alpha, "",
-                 "[C8.7.1.1]"),
+        Quantity("alpha0", "load factor that sets it off", f"{flow}, this report", alpha, "", "[C8.7.1.1]"),
         Quantity("sum P", "weight that moves", "sum (P_k + Q_k)", total, "N", "[C8.7.1.5]"),
         Quantity("sum P dx", "weights times displacements along the push", "sum (P_k + Q_k) delta_PQx,k",
                  first, "N", "[C8.7.1.5]"),

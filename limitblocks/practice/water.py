@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure
 from limitblocks.mechanics.loads.faces import integrals, part_where
@@ -36,7 +37,8 @@ def uplift(
     level : float
         Of the water, Z in m.
     interfaces : sequence of Interface, optional
-        The joints with water; all that reach below the level unless given.
+        The joints with water; all that reach below the level unless given. Ties, strips, dowels and passive
+        fill are no joints of blocks.
     unit_weight : float
         N/m3.
     share : float
@@ -45,7 +47,7 @@ def uplift(
     Raises
     ------
     ModelError
-        If a number is out of range, or a given joint lies above the level.
+        If a number is out of range, or a given joint lies above the level or is one of an element.
     """
     checked_model(model)
     number(level, "level of the water", "m")
@@ -54,6 +56,10 @@ def uplift(
         raise ModelError(f"share of the water pressure is {share!r}, expected more than 0 and at most 1")
     total = Load()
     for own in model.interfaces if interfaces is None else interfaces:
+        if isinstance(own.joint, Tie | Dowel | Guide):
+            if interfaces is not None:
+                raise ModelError(f"interface {own.name} is of a {own.joint.word}, in which there is no water")
+            continue
         corners = own.centroid + own.polygon @ own.axes[:2]
         wet, depth = part_where(corners, level - corners[:, 2])
         push, first = integrals(wet - own.centroid, share * weight * depth, own.axes[2])

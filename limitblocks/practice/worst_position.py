@@ -17,7 +17,7 @@ from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
-from limitblocks.shown import Result
+from limitblocks.shown import Result, coordinate
 
 STOPPED = "interrupted: a position that was not tried may be worse"
 
@@ -81,7 +81,7 @@ class WorstPosition(Result):
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
         return (
-            f"worst position x = {self.position:.4g} m of {len(self.positions)} tried: load factor "
+            f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: load factor "
             f"{self.bounds.lower:.6g}{beyond}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
         )
 
@@ -122,7 +122,9 @@ def worst_position(
         If the interval is empty, or the vehicle brings the structure down nowhere.
     """
     refuse_kind(vehicle, Vehicle, "vehicle")
+    refuse_kind(deck, Deck, "deck")
     checked_count("positions", positions, 3)
+    deck = deck.on(model)
     low, high = _ends(model, vehicle, between, positions)
     tried: dict[float, tuple[Bounds, Model] | None] = {}
 
@@ -139,7 +141,7 @@ def worst_position(
     try:
         factors = np.array([at(float(x)) for x in places])
         if not np.isfinite(factors).any():
-            where = f"with the first axle between {low:g} and {high:g} m"
+            where = f"with the first axle between {coordinate(low)} and {coordinate(high)} m"
             raise ModelError(
                 f"{where} the vehicle stands off the structure, or any multiple of it only jams the blocks; "
                 "check its place and the level of the road"

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse import csgraph
 
-from limitblocks.arrays import Indices, tied
+from limitblocks.arrays import Indices
 from limitblocks.problem.limit_problem import LimitProblem
 
 
@@ -13,9 +15,12 @@ def places(problem: LimitProblem) -> tuple[Indices, Indices]:
 
     Returns the place of each linear row and cone (degree,) and of each stress (s,) that it acts on.
     """
-    cones = problem.cones
-    F = problem.F.tocoo()
-    acts = F.data != 0.0
-    pairs = np.column_stack([cones.member[F.row[acts]], cones.degree + F.col[acts]])
-    numbers = tied(pairs, cones.degree + F.shape[1])
-    return numbers[: cones.degree], numbers[cones.degree :]
+    F, cones = problem.F, problem.cones
+    if not F.data.all():
+        F = F.copy()
+        F.eliminate_zeros()
+    degree, count = cones.degree, cones.degree + F.shape[1]
+    start = np.concatenate([F.indptr[cones.heads], np.full(F.shape[1] + 1, F.nnz)])  # rows of a cone are one
+    graph = sparse.csr_array((F.data, F.indices + degree, start), shape=(count, count))
+    numbers = np.asarray(csgraph.connected_components(graph, directed=False)[1], dtype=np.int64)
+    return numbers[:degree], numbers[degree:]

@@ -10,6 +10,7 @@ from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import cut
+from limitblocks.shown import coordinates
 
 
 def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
@@ -37,7 +38,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
             ("Load factor at rest", f"{first.load_factor:#.7g}", "without dilatancy, the first point"),
             ("Ends", f"{end:#.6g} m", curve.ended),
             ("No joint presses across a gap up to", f"{curve.proven_to:#.6g} m", "proven for the geometry"),
-            ("Control point", triple(curve.control.point.tolist()), f"m, on {curve.control.block}"),
+            ("Control point", coordinates(curve.control.point.tolist()), f"m, on {curve.control.block}"),
             ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),
         ),
         checks=checks_of(last.result.residuals, last.result.tolerance),

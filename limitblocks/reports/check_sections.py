@@ -14,6 +14,8 @@ from limitblocks.reports.rows import SHOWN, backward, far, loose, number
 from limitblocks.reports.section import Section, checks_of
 from limitblocks.reports.words import cut
 
+OF_LOADS = "of the largest dead load tied to an interface"
+
 
 def check_section(_model: Model, check: Check) -> Section:
     """Return the section of a check."""
@@ -78,10 +80,10 @@ def stability_section(_model: Model, answer: Stability) -> Section:
             "joints that slide without lifting."
         ),
         headline=answer.kind.value.split(":")[0],
-        quantity=f"with a margin of {answer.margin:.3g} of the weight",
+        quantity=f"with a margin of {answer.margin:.3g} {OF_LOADS}",
         values=(
             ("Answer", answer.kind.value.split(": ")[1], ""),
-            ("Margin", f"{answer.margin:#.4g}", "of the largest dead load tied to an interface; at most 1"),
+            ("Margin", f"{answer.margin:#.4g}", f"{OF_LOADS}; at most 1"),
             ("Blocks that move", few(answer.blocks, SHOWN) or "none", ""),
         ),
         checks=checks_of(answer.residuals, ARISEN),

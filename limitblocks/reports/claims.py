@@ -7,7 +7,7 @@ from math import isfinite
 from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
-from limitblocks.errors import LimitBlocksError
+from limitblocks.errors import CheckFailed
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.check import Check, check_mcp
 from limitblocks.evidence.claim import Claim, claim_of
@@ -74,8 +74,10 @@ def checked(model: Model, result: Any) -> Any:
 
     Raises
     ------
-    LimitBlocksError
-        It belongs to another model, or a range has an answer that is no solution.
+    ModelError
+        It belongs to another model.
+    CheckFailed
+        A range has an answer that is no solution.
     """
     if isinstance(result, Claim):
         return CheckedClaim(result, check_mcp(model, result))
@@ -92,7 +94,8 @@ def judged_bounds(model: Model, bounds: Bounds) -> Bounds | CheckedClaim:
     found = check.residuals
     proof = Proof(bounds.lower, bounds.upper) if bounds.proven else bounds.proof  # the check has proven them
     gap, worth = found["gap"], found["worth"]
-    return replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
+    bounds = replace(bounds, residuals=found, tolerance=tolerance, proof=proof, gap=gap, worth=worth)
+    return replace(bounds, remarks=check.remarks)
 
 
 def judged_nonassociated(model: Model, result: Nonassociated) -> Nonassociated | CheckedClaim:
@@ -127,14 +130,14 @@ def judged_range(model: Model, result: LoadFactorRange) -> LoadFactorRange:
 
     Raises
     ------
-    LimitBlocksError
+    CheckFailed
         One of them is no solution.
     """
     answers = []
     for one in result.answers:
         check = check_mcp(model, one.solution)
         if not check.passed:
-            raise LimitBlocksError(
+            raise CheckFailed(
                 f"the range that was read has an answer, load factor {one.load_factor:.6g}, that is no "
                 f"solution: {check.worst}; expected what load_factor_range saved"
             )

@@ -22,7 +22,7 @@ from limitblocks.reports.words import (
     resultant_words,
     times,
 )
-from limitblocks.shown import many
+from limitblocks.shown import coordinate, coordinates, many
 
 
 def facts(model: Model) -> dict[str, Any]:
@@ -70,7 +70,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
     low, high = known["bounding_box"]
     size = " × ".join(f"{b - a:.4g}" for a, b in zip(low, high, strict=True))
     overall = ", ".join(f"{name} {length(value)}" for name, value in known["dimensions"].items())
-    foot, top = (round(height, 6) + 0.0 for height in known["heights"])  # of a springing, not 3e-16 m
+    foot, top = known["heights"]
     labels = [
         ("Layers", times(known["layers"])),
         ("Materials", "; ".join(map(_made_of, known["materials"]))),
@@ -83,7 +83,10 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
         ("Supports", few(known["supports"])),
         *(row for row in labels if row[1]),
         ("Size of the free blocks", overall),
-        ("Height of the free blocks", f"{length(top - foot)}, from Z = {foot:.4g} m to {top:.4g} m"),
+        (
+            "Height of the free blocks",
+            f"{length(top - foot)}, from Z = {coordinate(foot)} m to {coordinate(top)} m",
+        ),
         ("Block types", times(known["block_types"])),
         ("Interfaces", f"{known['interfaces']} ({times(known['interface_types'])})"),
         ("Interface area", f"{known['interface_area']:.4g} m²"),
@@ -95,7 +98,7 @@ def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:
             (f"Unit weight {row[0]}", f"{many(int(row[1]), 'block')}, {row[2]}, {row[3]}")
             for row in known["unit_weights"]
         ),
-        ("Bounding box", f"{size} m, from ({', '.join(f'{a:.4g}' for a in low)}) m"),
+        ("Bounding box", f"{size} m, from {coordinates(low)} m"),
         ("Dead load", few(known["dead"]) or "none"),
         ("Its resultant", known["dead_resultant"]),
         ("Live load", few(known["live"])),

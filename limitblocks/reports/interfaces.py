@@ -12,11 +12,11 @@ from limitblocks.evidence.interface_states import InterfaceStates, interface_sta
 from limitblocks.geometry.ends import ends_of
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Dowel, Tie
-from limitblocks.mechanics.loads.load import triple
 from limitblocks.model import Model
 from limitblocks.reports.document import Cell
 from limitblocks.reports.scene import in_scene, short, without_noise
 from limitblocks.reports.words import joint_words
+from limitblocks.shown import coordinates
 
 IDLE = 1e-3  # of the strength of fill: a row prints less as 0.000
 #: Interfaces listed, those first that move most.
@@ -99,7 +99,7 @@ def element_rows(model: Model, result: Any) -> list[tuple[str, ...]]:
         most = one.joint.strength * area
         if isinstance(one.joint, Backfill) and not force > IDLE * most:
             continue  # of fill along a whole span, what presses is enough
-        where = " to ".join(triple(end) for end in anchors.get(k, [one.centroid.tolist()]))
+        where = " to ".join(coordinates(end) for end in anchors.get(k, [one.centroid.tolist()]))
         said = (f"{force:.4g}", f"{most:.4g}", f"{force / most:.3f}", states.state[k])
         rows.append((states.names[k], where, *said))
     return rows
@@ -120,7 +120,9 @@ def interface_rows(model: Model, result: Any) -> list[dict[str, Any]]:
             "active_modes": list(states.active_modes[k]),
             "stress_resultants": short(states.stress_resultants[k]),
             "force": short(states.force[k]),
-            "centre_of_pressure": short(states.centre_of_pressure[k]),
+            "centre_of_pressure": [
+                None if np.isnan(x) else round(x, 6) for x in states.centre_of_pressure[k].tolist()
+            ],
         }
         for k, (name, interface) in enumerate(zip(states.names, model.interfaces, strict=True))
     ]

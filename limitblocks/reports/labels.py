@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import isfinite
+from numbers import Real
 
-from limitblocks.errors import LimitBlocksError
+from limitblocks.errors import LimitBlocksError, refuse_kind
 
 
 @dataclass(frozen=True)
@@ -26,5 +27,8 @@ class Labels:
     failed: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.demand is not None and not (isfinite(self.demand) and self.demand > 0.0):
+        for word in ("title", "author", "project", "notes"):
+            refuse_kind(getattr(self, word), str, word)
+        real = isinstance(self.demand, Real)
+        if self.demand is not None and not (real and isfinite(self.demand) and self.demand > 0.0):
             raise LimitBlocksError(f"demand is {self.demand!r}, expected a load factor > 0")

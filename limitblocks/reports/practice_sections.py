@@ -15,6 +15,7 @@ from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section, checks_of
 from limitblocks.reports.words import at_least, at_most, cut, kilonewtons
+from limitblocks.shown import coordinate
 
 SETTLED = (
     "The mechanism that follows the support, drawn {:.3g} times, linearly; its size is arbitrary. Joints "
@@ -146,7 +147,7 @@ def _vehicle_rows(found: WorstPosition) -> tuple[tuple[str, str, str], ...]:
     return (
         ("Axles", f"{loads} kN", f"at load factor one, {places} m along X from the first axle"),
         ("Contact of a wheel", f"{vehicle.contact:g} m", "along the deck"),
-        ("Road", f"Z = {deck.level:.6g} m", f"along y = {deck.y:g} m; {spread}"),
+        ("Road", f"Z = {coordinate(deck.level)} m", f"along y = {deck.y:g} m; {spread}"),
     )
 
 

@@ -12,6 +12,7 @@ from typing import Any
 from urllib.parse import quote
 
 from limitblocks.drawing.picture import Picture, mechanism_picture
+from limitblocks.errors import sequence_of
 from limitblocks.evidence.interface_states import interface_states
 from limitblocks.io import strict_json
 from limitblocks.kinds import KINDS
@@ -222,7 +223,7 @@ def report(
         A result is of an unknown kind or belongs to another model, or the demand is no finite number > 0.
     """
     checked_model(model)
-    labels = Labels(title, author, project, notes, demand, tuple(failed))
+    labels = Labels(title, author, project, notes, demand, sequence_of("failed", failed, str))
     made = Report(model, tuple(checked(model, result) for result in results), labels=labels)
     made.sections  # noqa: B018 # refuses unknown results here, where the user sees which call is wrong
     return made

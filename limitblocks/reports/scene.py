@@ -21,7 +21,7 @@ from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 from limitblocks.reports.words import joint_words
 
-SCENE_VERSION = 2
+SCENE_VERSION = 3
 DIGITS = 6  # of coordinates and stress resultants
 DRAWN_DIGITS = 4  # of what is drawn more than read: displacements, and forces before collapse
 NOISE = 1e-7  # of the largest of its kind: shown as zero
@@ -37,15 +37,18 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     words = _Words.of(states, any(isinstance(result, LoadPath) for result in shown))
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
     size = float(np.linalg.norm(live))
+    corners = np.concatenate([block.vertices for block in model.blocks])
+    origin = np.round((corners.min(axis=0) + corners.max(axis=0)) / 2) + 0.0  # WebGL has seven digits
     return {
         "schema_version": SCENE_VERSION,
         "title": title,
         "eye": short(towards(model)),
         "live": short(live / size) if size > 0.0 else None,
+        "origin": origin.tolist(),
         "states": words.states,
         "modes": words.modes,
-        **_blocks(model),
-        **_interfaces(model),
+        **_blocks(model, origin),
+        **_interfaces(model, origin),
         "chains": [chain for chain in chains(model) if len(chain) > 1],
         "results": [_result(model, *pair, words) for pair in zip(shown, states, strict=True)],
     }
@@ -88,7 +91,7 @@ class _Words:
         return cls([*named, *([BEGINS, UNKNOWN] if path else [])], known)
 
 
-def _blocks(model: Model) -> dict[str, Any]:
+def _blocks(model: Model, origin: Array) -> dict[str, Any]:
     """Blocks by shape: many are alike up to a translation."""
     shapes: dict[Any, int] = {}
     kinds = []
@@ -100,7 +103,7 @@ def _blocks(model: Model) -> dict[str, Any]:
         "blocks": {
             "name": [block.name for block in model.blocks],
             "shape": kinds,
-            "centroid": short([block.centroid for block in model.blocks], 1e-9),
+            "centroid": short([block.centroid - origin for block in model.blocks], 1e-9),
             "weight": short([_weight(block.unit_weight, block.volume) for block in model.blocks]),
             "volume": short([block.volume for block in model.blocks]),
             "layer": [block.layer for block in model.blocks],
@@ -112,7 +115,7 @@ def _blocks(model: Model) -> dict[str, Any]:
     }
 
 
-def _interfaces(model: Model) -> dict[str, Any]:
+def _interfaces(model: Model, origin: Array) -> dict[str, Any]:
     i, j = ends_of(model.blocks, model.interfaces).T.tolist()
     outlines: dict[Any, int] = {}
     joints: dict[str, int] = {}
@@ -130,7 +133,7 @@ def _interfaces(model: Model) -> dict[str, Any]:
             "j": j,
             "outline": kinds,
             "joint": laws,
-            "centroid": short([interface.centroid for interface in model.interfaces], 1e-9),
+            "centroid": short([interface.centroid - origin for interface in model.interfaces], 1e-9),
         },
         "ties": [
             [line.interface, *short(np.linalg.norm(np.diff(line.anchors, axis=0)))]

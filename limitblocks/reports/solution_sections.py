@@ -12,7 +12,6 @@ from limitblocks.evidence.residuals import OF_BOUNDS
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
-from limitblocks.reports.crushing import beyond_stress_block
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
@@ -48,7 +47,7 @@ def bounds_section(model: Model, bounds: Bounds) -> Section:
         checks=checks_of(bounds.residuals, bounds.tolerance),
         tolerance=bounds.tolerance,
         rates=bounds.displacement_rates,
-        warnings=beyond_stress_block(model, bounds) + loose(bounds.tolerance, OF_BOUNDS),
+        warnings=bounds.remarks + loose(bounds.tolerance, OF_BOUNDS),
         upper=bounds.upper,
         compared=(("Associated", at_most(bounds.upper), ASSOCIATED),),
     )
@@ -78,9 +77,9 @@ def nonassociated_section(model: Model, result: Nonassociated) -> Section:
         checks=checks_of(result.residuals, result.tolerance),
         tolerance=result.tolerance,
         rates=result.displacement_rates,
-        warnings=_remarks(model, result) + loose(result.tolerance),
+        warnings=_remarks(result) + loose(result.tolerance),
         curve=convergence_curve(result.history),
-        designs=_designs(model, result, "non-associated solution"),
+        designs=_designs(result, "non-associated solution"),
         compared=_compared(result, "Non-associated", NONASSOCIATED),
     )
 
@@ -114,7 +113,7 @@ def path_section(model: Model, path: LoadPath) -> Section:
         warnings=end.warnings,
         parts=(_steps(path),),
         curve=path_curve(model, path),
-        designs=_designs(model, path.collapse, "load path"),
+        designs=_designs(path.collapse, "load path"),
         compared=_compared(path.collapse, "Load path", HISTORY),
     )
 
@@ -134,11 +133,9 @@ def _steps(path: LoadPath) -> Table:
     return Table.of("Steps of the load path", heads, rows, right=tuple(range(len(heads) - 1)))
 
 
-def _designs(
-    model: Model, result: Nonassociated, source: str
-) -> tuple[tuple[float, str, tuple[str, ...]], ...]:
+def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tuple[str, ...]], ...]:
     sound = result.accepted and isfinite(result.load_factor)
-    return ((result.load_factor, source, _remarks(model, result)),) if sound else ()
+    return ((result.load_factor, source, _remarks(result)),) if sound else ()
 
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
@@ -162,7 +159,7 @@ def _confirmation(result: Nonassociated) -> tuple[Row, ...]:
     return (("Fixed point", f"{change:.1e}", said),)
 
 
-def _remarks(model: Model, result: Nonassociated) -> tuple[str, ...]:
+def _remarks(result: Nonassociated) -> tuple[str, ...]:
     if not result.converged:
         return (result.status.value, *result.remarks)
-    return result.remarks + far(result.backward_error) + beyond_stress_block(model, result)
+    return result.remarks + far(result.backward_error)

@@ -16,6 +16,7 @@ from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, SolveError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 
@@ -23,6 +24,8 @@ Analysis = Literal["bounds", "nonassociated"]
 Result = Bounds | Nonassociated
 Progress = Callable[[int, int], None]
 INTERRUPTED = "KeyboardInterrupt: interrupted before this one was done"
+#: What costs its own row only: errors of this package, and those of numbers in a maker or a solver.
+FAILURES = (LimitBlocksError, ArithmeticError, ValueError, MemoryError)
 ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}
 
 
@@ -54,10 +57,14 @@ def failed(error: Exception) -> Outcome:
 
 
 def analyse(model: Model, analysis: Analysis, settings: dict[str, Any]) -> Outcome:
-    """Analyse one model; an error becomes an outcome."""
+    """Analyse one model; an error becomes an outcome, and so does a state that is no solution."""
     try:
         result = ANALYSES[analysis](model, **settings)
-    except (LimitBlocksError, ArithmeticError, ValueError, MemoryError) as error:
+        if isinstance(result, Nonassociated) and not result.accepted:  # throw=False
+            raise NotConverged(result.status.value, result)
+    except FAILURES as error:
+        if getattr(getattr(error, "result", None), "status", None) is Status.INTERRUPTED:
+            raise KeyboardInterrupt from None  # the user means the study
         return failed(error)
     return Outcome(result.lower if isinstance(result, Bounds) else result.load_factor, result, "")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from abc import abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -54,6 +55,14 @@ class Rows(Saved):
         return write(Path(file), stream.getvalue(), overwrite)
 
 
+def unanswered(load_factors: Array, errors: Sequence[str]) -> str:
+    """Return in words how many load factors are unlimited and how many missing, with why the first is."""
+    lost, unlimited = np.isnan(load_factors), int(np.isinf(load_factors).sum())
+    words = [f"{unlimited} unlimited"] if unlimited else []
+    words += [f"{lost.sum()} without an answer ({errors[int(lost.argmax())]})"] if lost.any() else []
+    return "".join(f"; {word}" for word in words)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Study(Rows):
     """Load factors of many analyses, in the order asked for.
@@ -99,8 +108,7 @@ class Study(Rows):
         return {"analysis": "study", "study": type(self).__name__, "of": self.analysis, "rows": self.rows()}
 
     def __str__(self) -> str:
-        failures = sum(map(bool, self.errors))
-        lost = f"; {failures} without an answer" if failures else ""
+        lost = unanswered(self.load_factors, self.errors)
         if not np.isfinite(self.load_factors).any():
             return f"{many(len(self.errors), 'analysis', 'analyses')}, no load factor{lost}"
         units = {name: f" {unit}" for name, unit in self.units.items()}

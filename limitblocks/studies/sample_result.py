@@ -12,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
-from limitblocks.studies.results import Rows
+from limitblocks.studies.results import Rows, unanswered
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -119,7 +119,7 @@ class SampledStudy(Rows):
         return {"analysis": self.analysis, "parameters": list(self.names), "rows": rows}
 
     def __str__(self) -> str:
-        failed = f", {self.failures} without an answer" if self.failures else ""
+        failed = unanswered(self.load_factors, self.errors)
         said = f"{many(len(self.load_factors), 'analysis', 'analyses')} of {', '.join(self.names)}"
         try:
             low, middle, high = self.quantiles()

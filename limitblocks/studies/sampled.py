@@ -16,7 +16,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
-from limitblocks.studies.pool import ANALYSES, Analysis, Progress, analyse, failed, in_order
+from limitblocks.studies.pool import ANALYSES, FAILURES, Analysis, Progress, analyse, failed, in_order
 from limitblocks.studies.sample_result import SampledStudy
 from limitblocks.studies.samples import Sampler, sampled_values
 
@@ -190,7 +190,7 @@ def one_row(
 
     try:
         model = maker(**values)
-    except LimitBlocksError as error:
+    except FAILURES as error:
         outcome, mode = failed(error), ""
     else:
         outcome, mode = analyse(model, analysis, settings), ""

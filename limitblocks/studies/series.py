@@ -14,7 +14,7 @@ from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
 from limitblocks.model import Model, checked_model
-from limitblocks.studies.pool import Analysis, Outcome, Progress, analyse_all, failed
+from limitblocks.studies.pool import FAILURES, Analysis, Outcome, Progress, analyse_all, failed
 from limitblocks.studies.results import Directions, MovingLoad, Sweep
 
 
@@ -156,7 +156,7 @@ def _made(maker: Callable[[Any], Model], values: Iterable[Any]) -> list[Model | 
     for value in values:
         try:
             made.append(maker(value))
-        except ModelError as error:
+        except FAILURES as error:
             made.append(failed(error))
     return made
 

@@ -43,6 +43,15 @@ def test_more_weight_does_not_end_what_stands():
         lb.bounds(arch(0.25, DOWN))
 
 
+@pytest.mark.parametrize("bond", [0.0, 1e4])
+def test_a_wall_carries_any_force_from_above_whatever_bonds_it(bond):
+    """Nothing crushes; the bond may help to carry the weights, of which a little stands beside the force."""
+    joint = lb.OrdunaLourenco(0.6, cohesion=bond, tensile_strength=bond)
+    wall = structures.wall(joint, length=1.2, courses=4)
+    with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
+        lb.bounds(replace(wall, live=lb.loads.top_force((0, 0, -1e3), (0.1, 0))))
+
+
 def jack_arch():
     """Three voussoirs of a flat arch, whose joints spread upwards, between two walls that do not give way.
 

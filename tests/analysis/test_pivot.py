@@ -21,15 +21,16 @@ LINTELS = [
 ]
 
 
-@pytest.mark.parametrize("pivots", [True, False])
-def test_the_load_path_is_closed_where_it_is_not_plain_what_yields(pivots, monkeypatch):
-    """Without pivots on the way most paths leave 3e-5 and more, too far for those at their ends."""
-    if not pivots:
-        monkeypatch.setattr(path, "pivoted", lambda flow, state, **_: state)
-    found = [lb.nonassociated(one, means=MEANS[:1], confirm=False, throw=False) for one in LINTELS]
-    passed = [lb.check_mcp(model, one).passed for model, one in zip(LINTELS, found, strict=True)]
-    assert passed == [one.converged for one in found]
-    assert all(passed) if pivots else sum(passed) <= len(LINTELS) / 2
+def test_the_load_path_is_closed_early_where_it_is_not_plain_what_yields(monkeypatch):
+    """Without pivots on the way paths go on until next to nothing is left of the barrier."""
+
+    def points():
+        found = [lb.nonassociated(one, means=MEANS[:1], confirm=False) for one in LINTELS]
+        return sum(len(one.history) for one in found)
+
+    with_them = points()
+    monkeypatch.setattr(path, "pivoted", lambda flow, state, **_: state)
+    assert with_them <= points() / 2
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), CRUSHING, lb.PointContact(0.6)], ids=repr)

@@ -46,6 +46,13 @@ def test_bounds_prints_load_factor_residuals_and_meaning(file):
         assert part in result.stdout
 
 
+def test_a_file_of_blocks_is_sent_to_import(file, tmp_path):
+    lb.files.write_blocks(lb.read(file), tmp_path / "block.obj")
+    result = run("bounds", tmp_path / "block.obj")
+    assert result.exit_code == 2
+    assert "holds blocks only; `limitblocks import` makes a model file of them" in result.stderr
+
+
 def test_a_control_point_needs_its_block(file):
     result = run("capacity", file, "--point", "0.5,0,2")
     assert result.exit_code == 2

@@ -77,6 +77,19 @@ def test_joints_drawn_open_are_told_with_the_option(tmp_path):
     assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.05").exit_code == 0
 
 
+def test_one_bed_drawn_open_is_told_with_the_option(tmp_path):
+    """Two piles that touch within, 20 mm apart: nothing is isolated, the upper one floats."""
+    stones = [lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))]
+    heights = (0.1, 0.3, 0.52, 0.72)
+    stones += [lb.Block.box(f"{k}", (0.5, 0.5, 0.2), (0, 0, z)) for k, z in enumerate(heights)]
+    file = lb.files.write_blocks(stones, tmp_path / "bed.obj")
+    refused = run(file, *OPTIONS, "--supports", "base")
+    assert refused.exit_code == 2
+    assert "error: 1|2 would touch with gap=0.1 (block lengths, " in refused.stderr
+    assert "import --gap 0.1): are these joints drawn open? They are typically 20 mm wide" in refused.stderr
+    assert run(file, *OPTIONS, "--supports", "base", "--gap", "0.1").exit_code == 0
+
+
 def test_noisy_meshes_are_refused_and_healed(tmp_path):
     rng = np.random.default_rng(1)
     clean = lb.structures.corner(lb.OrdunaLourenco(0.6), length=2.4, return_length=2.4, courses=4)

@@ -39,3 +39,11 @@ def test_a_full_disk_does_not_cost_the_answer(file, tmp_path, monkeypatch):
     assert "cannot write" in done.stderr
     assert "0.2000" in done.stdout
     assert not list(tmp_path.glob(".*"))
+    study = ("study", "directions", file, "--count", 1, "--workers", 1, "--csv")
+    for words, said in (
+        (study, "least load factor 0.2 "),
+        (("report", file, "-o"), "Load factor to design with"),
+    ):
+        done = run(*words, tmp_path / "r.md")
+        assert (done.exit_code, "cannot write" in done.stderr) == (2, True)
+        assert said in done.stdout

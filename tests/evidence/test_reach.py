@@ -10,7 +10,7 @@ from scipy import sparse
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.arrays import in_columns, same_rows
+from limitblocks.arrays import equal_rows, in_columns, same_rows
 from limitblocks.evidence.reach import Kinematic, Static
 from limitblocks.evidence.rounding import Products, products, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
@@ -30,10 +30,11 @@ def scattered(*shape):
     return np.where(RANDOM.random(shape) < 0.2, 0.0, numbers)
 
 
-def test_error_of_a_product_is_bounded():
+@pytest.mark.parametrize("kind", [sparse.csr_array, sparse.csc_array])
+def test_error_of_a_product_is_bounded(kind):
     for _ in range(40):
         A, v, w = scattered(5, 17), scattered(17), scattered(5)
-        value, off = Products((sparse.csr_array(A),)).of((v,), w)
+        value, off = Products((kind(A),)).of((v,), w)
         for k in range(5):
             error = abs(exact(A[k], v) + Fraction(w[k]) - Fraction(value[k]))
             assert error <= Fraction(off[k])
@@ -163,6 +164,20 @@ def test_rows_are_classed_by_their_numbers():
     for within, expected in ((0.0, [0, 1, 0, 3, 4]), (1e-12, [0, 1, 0, 0, 4])):
         first, of = same_rows(rows, within)
         assert first[of].tolist() == expected
+
+
+def test_rows_of_the_same_bits_are_classed():
+    rows = np.array([[0.5, 1.0], [1.0, 0.5], [0.5, 1.0], [0.5, 1.0 + 2.0**-52], [np.nan, 0.5], [np.nan, 0.5]])
+    first, of = equal_rows(rows)
+    assert first[of].tolist() == [0, 1, 0, 3, 4, 5]
+
+
+@pytest.mark.parametrize("columns", [slice(0, 3), slice(None, None, 2)])
+def test_rows_of_one_key_that_differ_are_classes_of_their_own(columns, monkeypatch):
+    monkeypatch.setattr(np, "einsum", lambda _, bits, __: np.zeros(len(bits), dtype=np.uint64))
+    rows = np.array([[1.0, 2.0, 3.0], [1.0, 2.0, 3.0], [4.0, 2.0, 6.0], [4.0, 2.0, 6.0]])[:, columns]
+    first, of = equal_rows(rows)
+    assert first[of].tolist() == [0, 0, 2, 3]
 
 
 def test_interfaces_share_an_inverse_where_their_numbers_are_the_same(model):

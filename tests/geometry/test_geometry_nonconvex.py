@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import shapely
 from bodies import SQUARE, L, U, extruded, hollow, moved, regular, ring, triangulated
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import Block
+from limitblocks.geometry.pieces import convex_pieces
 
 FAR = 1e6
 
@@ -132,3 +134,11 @@ def test_inward_faces_of_a_body_with_a_hole_are_refused():
     tube = ring("tube", 2 * SQUARE, SQUARE)
     with pytest.raises(GeometryError, match=r"volume is negative \(-3 m3\): the faces point inward"):
         Block("tube", tube.vertices, [face[::-1] for face in tube.faces])
+
+
+def test_an_area_narrower_than_the_tolerance_is_not_lost():
+    """An arrow 2 m long and 2 mm wide, notched by 0.4 mm: all of its corners are within 1 cm of a line."""
+    arrow = shapely.Polygon([(0, 0), (1, 4e-4), (2, 0), (1, 2e-3)])
+    pieces, owner = convex_pieces(np.array([arrow]), np.array([[1.0, 0.0]]), np.array([False]), 1e-2)
+    assert owner.tolist() == [0]
+    assert shapely.area(pieces) == pytest.approx([2 * 2e-3 / 2])  # the notch counts as straight

@@ -105,6 +105,18 @@ def test_arcs_become_chords_of_5_degrees(tmp_path, mirrored):
     assert block.vertices[:, 2].min() == pytest.approx(0.0, abs=1e-12)
 
 
+def test_an_outline_of_too_many_chords_is_refused(tmp_path):
+    """Half circles of 36 chords each, one more than are taken."""
+    halves = 1000 // 36 + 1
+
+    def draw(space):
+        space.add_lwpolyline([(k, 0, 1) for k in range(halves)], format="xyb", close=True)
+
+    message = rf"LWPOLYLINE \w+ has {36 * halves} chords; at most 1000 are taken"
+    with pytest.raises(lb.ModelError, match=message):
+        lb.files.read_drawing(drawn(tmp_path / "a.dxf", draw), thickness=1.0)
+
+
 def test_outlines_that_are_none(tmp_path):
     def draw(space):
         square = [(0, 0), (1, 0), (1, 1), (0, 1)]

@@ -74,6 +74,11 @@ def test_units(tmp_path):
     path = drawn(tmp_path / "mm.dxf", lambda space: cube().render_mesh(space), units=4)
     assert lb.files.read_blocks(path).blocks[0].size == pytest.approx(1e-3, rel=1e-12)
     assert lb.files.read_blocks(path, units="cm").blocks[0].size == pytest.approx(1e-2, rel=1e-12)
+    (said,) = lb.files.read_blocks(path, units="cm").guesses
+    assert said.endswith(
+        "says that its unit is mm: taken in cm, as asked, the structure is 0.01 m large, not 0.001 m"
+    )
+    assert lb.files.read_blocks(path, units="mm").guesses == ()
     path = drawn(tmp_path / "none.dxf", lambda space: cube().render_mesh(space), units=0)
     imported = lb.files.read_blocks(path)
     assert imported.blocks[0].size == pytest.approx(1.0, rel=1e-12)
@@ -126,13 +131,19 @@ def test_hidden_is_left_out_with_a_note(tmp_path):
     assert imported.notes == ("left out: 1 LINE, 2 hidden entities",)
 
 
-def test_body_that_is_no_polyhedron_is_named(tmp_path):
+@pytest.mark.parametrize(
+    ("faces", "said"),
+    [(6, "no plane faces with straight edges"), (1, "faces that are not plane or edges that")],
+)
+def test_body_that_is_no_polyhedron_is_named(tmp_path, faces, said):
     def draw(space):
         solid = cube().render_3dsolid(space, {"layer": "stone"})
-        solid.sat = [line.replace("plane-surface", "cone-surface", 1) for line in solid.sat]
+        text = "\n".join(solid.sat)
+        solid.sat = text.replace("plane-surface", "cone-surface", faces).split("\n")
 
     message = fault(drawn(tmp_path / "a.dxf", draw, version="R2000"))
     assert "3DSOLID" in message
+    assert f"it has {said}" in message
     assert "'stone'" in message
     assert "mesh" in message
 

@@ -159,12 +159,31 @@ def test_animation_turns_blocks_about_their_centroids(path, tmp_path):
             places, turns = tracks[k, "translation"], tracks[k, "rotation"]
             assert np.linalg.norm(turns, axis=1) == pytest.approx(np.ones(frames), abs=1e-6)
             assert turns[0] == pytest.approx([0, 0, 0, 1])
-            x, y, z = block.centroid
+            x, y, z = block.centroid - ARCH.blocks[0].centroid
             assert places[0] == pytest.approx([x, z, -y], abs=1e-5)  # Y up
             u, v, w = rate[:3]
             assert places[-1] - places[0] == pytest.approx([u, w, -v], abs=1e-5)
             wx, wy, wz = rate[3:]
             assert Rotation.from_quat(turns[-1]).as_rotvec() == pytest.approx([wx, wz, -wy], abs=1e-6)
+
+
+def test_animation_far_from_the_origin_moves_as_near_it(tmp_path):
+    """Tracks have single precision: 0.5 m of a northing, but all digits about a node that has it."""
+    offset = np.array([512345.0, 5398765.0, 312.0])  # m
+    tracks = []
+    for name, at in (("near", np.zeros(3)), ("far", offset)):
+        blocks = [lb.Block(b.name, b.vertices + at, b.faces, b.unit_weight) for b in ARCH.blocks]
+        model = replace(ARCH, blocks=blocks, interfaces=lb.find_interfaces(blocks, JOINT))
+        moves = lb.results.Claim(1.0, BOUNDS.stress_resultants, BOUNDS.displacement_rates)
+        file = lb.files.write_animation(model, tmp_path / f"{name}.glb", moves)
+        document, arrays = read_glb(file)
+        places = (s["output"] for s in document["animations"][0]["samplers"])
+        tracks.append(np.concatenate([arrays[place].ravel() for place in places]))
+        read = lb.files.read_blocks(file).blocks
+        assert [block.name for block in read] == [block.name for block in blocks]
+        middles = [[block.centroid for block in some] for some in (read, blocks)]
+        assert np.allclose(*middles, rtol=0.0, atol=1e-6)
+    assert np.allclose(*tracks, atol=1e-6)
 
 
 def test_wrong_results_and_suffixes_are_refused(path, tmp_path):

@@ -2,6 +2,8 @@
 
 import json
 from dataclasses import replace
+from functools import reduce
+from operator import getitem
 
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks.cli import app
+from limitblocks.errors import CheckFailed
 from limitblocks.io.result_file import result_text
 from limitblocks.reports.answer import answer
 
@@ -30,6 +33,8 @@ TITLES = {
     "stability": "Stability under the dead loads, as a file says",
     "check": "Check, as a file says",
 }
+COPIES = ("load_path", "reached", "certified")  # load factors of answers
+END = {"bound": 0.0, "proven": True, "stress_limit": None, "multiplier_limit": 1.0, "seconds": 0.0}
 WRONG = {"bounds": ("lower", "upper"), "nonassociated": ("load_factor",)}
 
 
@@ -110,9 +115,28 @@ def test_a_path_to_a_wrong_collapse_is_no_path(tmp_path):
 def test_a_range_with_an_answer_that_is_none_is_refused(tmp_path):
     file = SAVED["range"].save(tmp_path / "range.json")
     answers = json.loads(file.read_text(encoding="utf-8"))["answers"]
+    del answers[0]["load_factor"]
     answers[0]["solution"]["load_factor"] *= 1.01
-    with pytest.raises(lb.LimitBlocksError, match=r"load factor .*, that is no solution: "):
-        lb.report(MODEL, lb.read_result(changed(file, answers=answers)))
+    changed(without(file, *COPIES), answers=answers)
+    with pytest.raises(CheckFailed, match=r"load factor .*, that is no solution: "):
+        lb.report(MODEL, lb.read_result(file))
+    model = MODEL.save(tmp_path / "model.json")
+    done = CliRunner().invoke(app, ["report", str(model), str(file), "-o", str(tmp_path / "report.md")])
+    assert done.exit_code == 1  # a check failed; 2 would be a wrong model
+
+
+@pytest.mark.parametrize(
+    "place", ["answers.0.load_factor", "load_path", "reached.0", "answers.0.check.passed"]
+)
+def test_a_range_that_says_a_number_twice_and_otherwise_is_refused(place, tmp_path):
+    file = SAVED["range"].save(tmp_path / "range.json")
+    document = json.loads(file.read_text(encoding="utf-8"))
+    *on, last = (int(key) if key.isdigit() else key for key in place.split("."))
+    held = reduce(getitem, on, document)
+    held[last] = False if held[last] is True else 1.01 * held[last]
+    changed(file, **document)
+    with pytest.raises(lb.ModelError, match=f"{place} is .*, but by what else the file says it is "):
+        lb.read_result(file)
 
 
 def test_check_judges_every_answer_of_a_range(tmp_path):
@@ -120,23 +144,28 @@ def test_check_judges_every_answer_of_a_range(tmp_path):
     model, file = MODEL.save(tmp_path / "model.json"), SAVED["range"].save(tmp_path / "range.json")
     first, second = (json.loads(file.read_text(encoding="utf-8"))["answers"][0] for _ in range(2))
     answers = [first, second]
-    changed(file, answers=answers)
+    changed(without(file, *COPIES), answers=answers)
 
     def check(*options):
         return CliRunner().invoke(app, ["check", str(model), str(file), *options])
 
     done = check()
     assert (done.exit_code, done.stderr) == (0, "")
-    assert [line.partition(": worst")[0] for line in done.stdout.splitlines()] == [
+    *lines, unjudged = done.stdout.splitlines()
+    assert [line.partition(": worst")[0] for line in lines] == [
         f"load factor {one['load_factor']:.6g}: check passed" for one in answers
     ]
+    assert unjudged.startswith(
+        "as the file says, not judged: how answers were reached, intervals between them, "
+    )
     assert check("--tolerance", "1e-20").exit_code == 1
+    del second["load_factor"]
     second["solution"]["load_factor"] *= 1.01
     changed(file, answers=answers)
     done = check()
     assert done.exit_code == 1
     named = f"load factor {second['solution']['load_factor']:.6g}"
-    assert [line.partition(": worst")[0] for line in done.stdout.splitlines()] == [
+    assert [line.partition(": worst")[0] for line in done.stdout.splitlines()[:-1]] == [
         f"load factor {first['load_factor']:.6g}: check passed",
         f"{named}: check FAILED",
     ]
@@ -145,7 +174,11 @@ def test_check_judges_every_answer_of_a_range(tmp_path):
     passed = [one["check"]["passed"] for one in said["answers"]]
     assert (said["accepted"], passed) == (False, [True, False])
     assert (said["schema_version"], said["versions"]["limitblocks"]) == (1, lb.__version__)
-    changed(file, answers=[], load_path_place=None)
+    ends = dict.fromkeys(("least", "greatest"), {"answer": second} | END)  # those of `exact` are judged, too
+    answers.pop()
+    changed(file, answers=answers, **ends)
+    assert check().stderr.startswith("error: 2 of 3 answers failed the check: ")
+    changed(file, answers=[], load_path_place=None, least=None, greatest=None)
     assert "error: the range has no answer that could be checked" in check().stderr
     assert check().exit_code == 2
 
@@ -158,7 +191,8 @@ def test_a_check_and_a_stability_that_were_read_prove_nothing(tmp_path):
         assert not said.checks
         assert said.rates is None
     failed = changed(tmp_path / "check.json", passed=False)
-    assert lb.read_result(failed).passed == SAVED["check"].passed  # by its residuals, whatever the word
+    with pytest.raises(lb.ModelError, match="passed is False, but by what else the file says it is True"):
+        lb.read_result(failed)
 
 
 @pytest.mark.parametrize(

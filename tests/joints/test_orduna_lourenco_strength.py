@@ -223,6 +223,12 @@ def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
     assert not any("tensile" in line for line in SLIPS["bonded"].assumed())
 
 
+def _over(polygon, strength, Q, tension=0.0, least=0.0):
+    """Return how many times the moment of the stress block the moments of one joint are."""
+    one = [np.array([each], dtype=float) for each in (polygon, strength, Q, tension)]
+    return float(over_stress_block(*one, least)[0])
+
+
 @pytest.mark.parametrize("share", [0.02, 0.1, 0.5, 0.9])
 @pytest.mark.parametrize("shape", [[(0, 0), (1, 0), (3, 0.4)], [(0, 0), (2, 0), (1.3, 1), (0.7, 1)]])
 def test_moments_of_crushing_beside_the_stress_block(shape, share):
@@ -231,7 +237,7 @@ def test_moments_of_crushing_beside_the_stress_block(shape, share):
     whole = shapely.Polygon(polygon)
 
     def over(e):
-        return over_stress_block(polygon, 1.0 / (share * whole.area), np.array([0, 0, -1, -e[1], e[0], 0]))
+        return _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -e[1], e[0], 0])
 
     for angle in np.linspace(0.1, 6.3, 7):
         out = np.array([np.cos(angle), np.sin(angle)])
@@ -243,6 +249,10 @@ def test_moments_of_crushing_beside_the_stress_block(shape, share):
 
         depth = brentq(lambda depth, cut=cut: cut(depth).area / whole.area - share, -5.0, 5.0, xtol=1e-13)
         assert over(np.array(cut(depth).centroid.coords[0])) == pytest.approx(1.0, abs=1e-3)
+        e = 1.02 * np.array(cut(depth).centroid.coords[0])  # what is certainly less is left out, no more
+        assert _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -e[1], e[0], 0], least=1.01) > 1.0
+        near = 0.9 * (1.0 - np.sqrt(share)) * e
+        assert _over(polygon, 1.0 / (share * whole.area), [0, 0, -1, -near[1], near[0], 0], least=1.01) < 1.0
     most = max(over((1.0 - share) * corner) for corner in polygon)
     assert most <= (1.0 + np.sqrt(share)) * 1.001
     assert len(polygon) > 3 or most == pytest.approx(1.0 + np.sqrt(share), rel=1e-3)
@@ -252,14 +262,14 @@ def test_moments_beside_the_stress_block_of_both_strengths():
     """A rectangle about one axis: M = l (A ft - N) (1 - (A ft - N) / (A (fcef + ft)))."""
     force = 5.0 + 2.0 * AREA
     moment = L2 * force * (1 - force / (AREA * 1002.0))
-    found = over_stress_block(RECTANGLE, 1000.0, np.array([0, 0, -5.0, moment / 2, 0, 0]), 2.0)
+    found = _over(RECTANGLE, 1000.0, [0, 0, -5.0, moment / 2, 0, 0], 2.0)
     assert found == pytest.approx(0.5, abs=5e-4)
-    assert over_stress_block(RECTANGLE, 1000.0, np.array([1.0, 0, -5.0, 0, 0, 1.0])) == 0.0
-    assert over_stress_block(RECTANGLE, 5.0 / AREA, np.array([0, 0, -5.0, 1.0, 0, 0])) == np.inf
+    assert _over(RECTANGLE, 1000.0, [1.0, 0, -5.0, 0, 0, 1.0]) == 0.0
+    assert _over(RECTANGLE, 5.0 / AREA, [0, 0, -5.0, 1.0, 0, 0]) == np.inf
 
 
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco, lb.joints.ExactTorsion])
-def test_reports_say_how_far_crushing_is_beyond_the_stress_block(joint):
+def test_results_say_how_far_crushing_is_beyond_the_stress_block(joint, tmp_path):
     """Towards a corner of a triangle 1 + sqrt(n); about an axis of a rectangle nothing."""
     share, height, said = 0.25, 6.0, "times the moment of the exact stress block"
     own = joint(2.0, compressive_strength=20e3 * height / share)
@@ -267,6 +277,10 @@ def test_reports_say_how_far_crushing_is_beyond_the_stress_block(joint):
     assert "sqrt(" not in " ".join(joint(2.0).assumed())
     corner = pushed(prism([(0, 0.4), (0, -0.4), (0.9, 0)], height), own, (1.0, 0.0))
     for analysis in (lb.bounds, lb.nonassociated):
-        assert f"ground|foot carries 1.50 {said}" in " ".join(section(corner, analysis(corner)).warnings)
+        result = analysis(corner)
+        assert " ".join(section(corner, result).warnings).count(f"ground|foot carries 1.50 {said}") == 1
+        assert f"; crushing by Eq. (39): ground|foot carries 1.50 {said}; " in str(result)
+        kept = lb.read_result(result.save(tmp_path / "result.json", overwrite=True))
+        assert kept.remarks == lb.check_mcp(corner, kept).remarks == result.remarks
     flat = pushed(prism([(0, 0), (1, 0), (1, 0.7), (0, 0.7)], height), own, (1.0, 0.0))
-    assert said not in " ".join(section(flat, lb.bounds(flat)).warnings)
+    assert said not in " ".join([str(lb.bounds(flat)), *section(flat, lb.bounds(flat)).warnings])

@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import minimize
 
 from limitblocks.errors import GeometryError
+from limitblocks.joints import areas
 from limitblocks.joints.torsion import (
     plastic_centre,
     rectangle_torsion_constant,
@@ -52,6 +53,27 @@ def test_regular_polygons(n):
     a, b = np.cos(np.pi / n), np.sin(np.pi / n)
     expected = 2 * n * (a * b + a**3 * np.log((b + 1) / a)) / 6 / (n * a * b)
     assert torsion_constant(regular(n)) == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_list_of_corners_is_an_array():
+    """One polygon of 2 x 2 m, and a stack of it and one of 4 x 4 m."""
+    c_T = (np.sqrt(2) + np.arcsinh(1)) / 6  # of a square of side 1
+    assert areas(SQUARE.tolist()) == pytest.approx(4.0)
+    assert torsion_constants(SQUARE.tolist()) == pytest.approx(2 * c_T)
+    stack = [SQUARE.tolist(), (2 * SQUARE).tolist()]
+    np.testing.assert_allclose(areas(stack), [4.0, 16.0])
+    np.testing.assert_allclose(torsion_constants(stack), [2 * c_T, 4 * c_T])
+
+
+@pytest.mark.parametrize(
+    "wrong", [[SQUARE.tolist(), TRIANGLE.tolist()], [1.0, 2.0], SQUARE[:2], "square", None]
+)
+def test_what_is_no_polygon_is_refused(wrong):
+    for ask in (areas, torsion_constants):
+        with pytest.raises(
+            GeometryError, match=r"expected an array of shape \(\.\.\., n, 2\): repeat a vertex"
+        ):
+            ask(wrong)
 
 
 def test_circle():

@@ -116,6 +116,22 @@ def test_a_list_of_loads_has_a_sum():
         sum([one, two], 1)
 
 
+def test_a_load_is_negated_subtracted_and_divided():
+    push, weight = lb.mass_proportional((1, 0, 0)), lb.self_weight()
+    assert -push == -1.0 * push
+    assert weight - push == weight + -1.0 * push
+    assert push / 2 == 0.5 * push
+    assert (3 * push) / 3 == push
+    with pytest.raises(lb.ModelError, match="divisor of a load is 0, expected any other number"):
+        push / 0
+    with pytest.raises(lb.ModelError, match="divisor of a load is 'two', expected a finite number"):
+        push / "two"
+    with pytest.raises(lb.ModelError, match="1 cannot be added to a load"):
+        push - 1
+    with pytest.raises(TypeError, match="unsupported operand"):
+        2 / push
+
+
 def test_turned_load_keeps_factors_and_masses():
     mass = lb.loads.added_mass("block", (0, 0, 3), weight=1e3)
     load = 0.3 * lb.mass_proportional((1, 0, 0), [mass])

@@ -119,3 +119,10 @@ def test_a_settling_support_goes_to_where_the_structure_falls():
     hollow = lb.plots.settlement(replace(curve, points=points, falls=None)).lines[-1]
     assert hollow.get_markerfacecolor() == "white"
     assert len(hollow.get_xdata()) == 1
+
+
+def test_a_figure_has_the_shape_of_the_structure_and_its_ties(wall, tied):
+    """A block of 0.2 m x 1 m is upright, with ties of 5 m across it is not."""
+    upright, flat = (lb.plots.structure(model).figure.get_size_inches() for model in (wall, tied))
+    assert upright[1] > upright[0]
+    assert flat[0] > flat[1]

@@ -2,18 +2,23 @@ import subprocess
 import sys
 from collections import Counter
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.quiver import Quiver
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+from mpl_toolkits.mplot3d.proj3d import proj_transform
 from plotted import arch, bounds, corner, inked, path, rocking
 
 import limitblocks as lb
 from limitblocks.drawing.painter import painting_order, placed
 from limitblocks.evidence.interface_states import interface_states
+from limitblocks.plots.style import VERMILION
 
 DRAWINGS = ["structure", "mechanism", "forces", "interface_states"]
 UNITS = {"xz": "XZ", "yz": "YZ", "xy": "XY"}
@@ -228,3 +233,39 @@ def test_what_a_block_that_rocks_does_not_depend_on_has_no_colour():
     noisy = replace(found, friction=found.friction + 1e-12, unit_weight=found.unit_weight - 1e-12 / 20e3)
     title = lb.plots.sensitivity(rocking(), noisy).get_title()
     assert title.endswith("unit weights up to 0, friction up to 0")
+
+
+def test_the_live_load_of_a_tall_structure_is_an_arrow_within_the_figure():
+    """It is drawn above the axes of a structure that fills them, which would cut it off."""
+    ax = lb.plots.structure(
+        lb.structures.tower(lb.PointContact(0.6), length=2.4, width=2.4, courses=16), plane="3d"
+    )
+    for word in list(ax.texts):
+        word.remove()
+    canvas = FigureCanvasAgg(ax.figure)
+    canvas.draw()
+    orange = np.abs(np.asarray(canvas.buffer_rgba())[..., :3] / 255 - to_rgb(VERMILION)).max(axis=2) < 0.02
+    assert orange.sum() > 20
+
+
+@pytest.mark.parametrize("draw", [lb.plots.findings, lambda model: lb.plots.mechanism(model, bounds(corner))])
+def test_the_title_of_a_drawing_in_space_is_between_it_and_the_edge(draw):
+    ax = draw(corner())
+    canvas = FigureCanvasAgg(ax.figure)
+    canvas.draw()
+    frame = np.array(list(product(*(getattr(ax, f"get_{name}lim3d")() for name in "xyz"))))
+    x, y, _ = proj_transform(*frame.T, ax.get_proj())
+    title = ax.title.get_window_extent()
+    assert len(ax.get_title().splitlines()) > 1
+    assert ax.transData.transform(np.column_stack([x, y]))[:, 1].max() < title.y0
+    assert title.y1 < ax.figure.bbox.y1
+
+
+def test_a_thin_wall_far_from_the_origin_has_a_tick_on_its_thickness():
+    stones = [lb.Block.box("base", (3.0, 0.3, 0.2), (0.0, 12.55, -0.1))]
+    stones += [lb.Block.box("wall", (3.0, 0.3, 1.0), (0.0, 12.55, 0.5), 20e3)]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    push = lb.mass_proportional((0, 1, 0))
+    ax = lb.plots.structure(lb.Model(stones, ["base"], found, lb.self_weight(), push), plane="3d")
+    (tick,) = ax.yaxis.get_major_locator()()
+    assert 12.4 <= tick <= 12.7

@@ -1,7 +1,7 @@
 """Partial factors: closed forms of a sliding block, a tower, a crushing column, a tie; misuse; command."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import pytest
 from typer.testing import CliRunner
@@ -9,13 +9,54 @@ from typer.testing import CliRunner
 import limitblocks as lb
 from limitblocks.cli import app
 from limitblocks.joints import Dowel, Tie
-from limitblocks.practice import PartialFactors, adequacy, design_model, dowel, passive_fill, reinforced, tie
+from limitblocks.practice import (
+    PartialFactors,
+    adequacy,
+    capacity_curve,
+    design_model,
+    dowel,
+    passive_fill,
+    reinforced,
+    tie,
+)
 
 G, Q, M, PHI, S = 1.35, 1.5, 2.2, 1.25, 1.15
 
 
 def block(width=1.0, height=0.4, friction=0.3, joint=lb.PointContact):
     return lb.structures.block(joint(friction), width=width, height=height)
+
+
+@dataclass(frozen=True)
+class Glued:
+    friction: float
+    cohesion: float
+    scale: float = 2.0
+
+    def yield_rows(self, polygons, stress_unit=1.0):
+        return lb.OrdunaLourenco(self.friction, cohesion=self.cohesion).yield_rows(polygons, stress_unit)
+
+
+@dataclass(frozen=True)
+class Nameless:
+    friction: float
+    c: float
+
+    def yield_rows(self, polygons, stress_unit=1.0):
+        return lb.OrdunaLourenco(self.friction, cohesion=self.c).yield_rows(polygons, stress_unit)
+
+
+def test_a_strength_of_ones_own_joint_is_divided_or_refused():
+    """alpha = mu + c A / W; a bond under another name was left whole, and stayed after the joint had slid."""
+    W = block().free_blocks[0].weight
+    glue = 0.1 * W / lb.joints.areas(block().interfaces[0].polygon[None]).item()  # Pa
+    found = adequacy(block(joint=lambda mu: Glued(mu, glue)), PartialFactors(1.0, 1.0, 2.0))
+    assert found.factor == pytest.approx((0.3 + 0.1) / 2.0, rel=1e-6)
+    nameless = block(joint=lambda mu: Nameless(mu, glue))
+    assert lb.bounds(nameless).upper == pytest.approx(0.3 + 0.1, rel=1e-6)
+    for ask in (lambda: adequacy(nameless, PartialFactors(1.0, 1.0, 2.0)), lambda: capacity_curve(nameless)):
+        with pytest.raises(lb.ModelError, match="leave c as it is, a strength; name it cohesion"):
+            ask()
 
 
 @pytest.mark.parametrize("phi", [None, PHI])

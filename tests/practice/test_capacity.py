@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from few_blocks import sliding_block, toe_corner
 from scipy.optimize import brentq
+from scipy.spatial.transform import Rotation
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
@@ -152,7 +153,7 @@ def test_a_facade_of_37_blocks(joint, push):
     assert curve.proven_to == curve.displacements[-1] == pytest.approx(0.05, rel=1e-9)
     assert curve.load_factors[-1] < 0.96 * curve.load_factors[0]
     if joint is JOINTS[0]:  # with the paper's it may rise: the load factor is not unique
-        assert (np.diff(curve.load_factors) < 1e-3 * curve.load_factors[0]).all()  # else unique to some 1e-4
+        assert (np.diff(curve.load_factors) < 3e-4 * curve.load_factors[0]).all()  # it is unique to some 1e-4
         assert curve.load_factors[-1] < (1 - 0.05 / 0.6) * curve.load_factors[0]  # straight to .6 m
     assert curve.points[1].changes
 
@@ -220,6 +221,25 @@ def test_prestress_stays_on_the_line_of_its_tie(away, gamma):
         + gamma * block.weight * (toe - middle)[:, 0]
     )
     assert curve.load_factors == pytest.approx(held / (block.weight * (middle - toe)[:, 2]), abs=1e-9)
+
+
+def test_prestress_of_ties_that_cross_at_their_middles_stays_on_their_lines():
+    """Each of a cross of rods pulls with its strength along its own line: moments about the toe."""
+    model = lb.structures.block(JOINTS[0], width=B, height=H)
+    block, toe = model.free_blocks[0], toe_corner(model) - [0, 0, H]
+    most, anchors = 0.1 * block.weight, np.array([[-B, 0, 0.8 * H], [-B, 0, 0.4 * H]])
+    feet = anchors[::-1] - [9.0, 0, 0]
+    rods = [
+        tie("block 1", head, "base", foot, area=1e-4, strength=most / 1e-4, prestress=most / 2)
+        for head, foot in zip(toe + anchors, toe + feet, strict=True)
+    ]
+    curve = capacity_curve(reinforced(model, *rods), control=("block 1", toe_corner(model)), steps=3)
+    for turned, found in zip(np.arcsin(curve.displacements / H), curve.load_factors, strict=True):
+        turn = Rotation.from_rotvec([0, turned, 0])
+        middle, arms = turn.apply([-B / 2, 0, H / 2]), turn.apply(anchors)
+        along = (feet - arms) / np.linalg.norm(feet - arms, axis=1)[:, None]
+        held = -most * np.cross(arms, along)[:, 1].sum() - block.weight * middle[0]
+        assert found == pytest.approx(held / (block.weight * middle[2]), abs=1e-9)
 
 
 @pytest.mark.parametrize("upside_down", [False, True])

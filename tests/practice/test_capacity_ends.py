@@ -81,7 +81,7 @@ def test_blocks_that_meet_stop_the_curve():
     model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
     curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
     assert curve.zero is None
-    assert curve.ended.startswith("blocks meet at 0.05")
+    assert curve.ended.startswith("contacts that close, or blocks that meet, stop the mechanism at 0.05")
     assert curve.displacements[-1] == pytest.approx(0.05, abs=1e-4)
     assert curve.load_factors[-1] == pytest.approx(np.tan(np.arctan(B / H) - np.arcsin(0.05 / H)), abs=2e-4)
 
@@ -138,6 +138,22 @@ def test_a_curve_whose_end_is_not_solved_ends_on_the_safe_side_of_its_zero(monke
         assert "no checked answer beyond" in curve.ended
     else:
         assert exact - max(1e-6, lost) * assembly_of(model).size <= curve.zero < exact
+
+
+@pytest.mark.parametrize(("left", "zero"), [(0.005, True), (0.06, False)])
+def test_a_load_factor_that_drops_and_is_lost_is_not_zero(monkeypatch, left, zero):
+    """It drops to 6 % in a millimetre, so that the secant is zero .06 mm on: nothing says that it goes on."""
+    model = lb.structures.block(JOINT, width=B, height=H)
+
+    def advanced_to(assembly, control, point, step):
+        if point.displacement > 0.0:
+            raise lb.SolveError("lost")
+        return assembly, control, replace(point, displacement=step, load_factor=left * B / H)
+
+    monkeypatch.setattr(capacity, "_advanced", advanced_to)
+    curve = capacity_curve(model, control=("block 1", toe_corner(model)), steps=3)
+    assert curve.zero == (pytest.approx(1e-3 * assembly_of(model).size) if zero else None)
+    assert ("no checked answer beyond" in curve.ended) != zero
 
 
 def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(monkeypatch):

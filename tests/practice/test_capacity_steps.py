@@ -66,7 +66,7 @@ def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(monkeypat
     assert 1e-4 * there.size <= min(tried) < 2e-4 * there.size
 
 
-def test_a_round_of_a_fall_is_a_twentieth_of_a_block():
+def test_a_round_of_a_fall_is_a_twentieth_of_a_block(monkeypatch):
     """Its centre half a micrometre beyond the edge it stays; .1 m beyond it falls, by no more than .05 m."""
     for beyond in (0.1, 0.5 + 5e-7, 0.6):
         stones = [
@@ -85,6 +85,9 @@ def test_a_round_of_a_fall_is_a_twentieth_of_a_block():
         way = steepest(there)[0] / [*[stones[1].size] * 3, 1, 1, 1]
         if beyond == 0.6:
             assert np.abs(way).max() == pytest.approx(0.05, rel=1e-6)
+            monkeypatch.setattr("limitblocks.practice.snapped.ROUNDS", 3)  # nothing is below it
+            with pytest.raises(lb.SolveError, match="snaps, and where it comes to rest was not found"):
+                snapped(there)
         else:
             assert snapped(there) == (there, ())
 

@@ -312,6 +312,29 @@ def test_support_that_is_a_free_block_and_load_that_stays_behind():
         settlement_to_collapse(loaded, "right support", SPREAD)
 
 
+@pytest.mark.parametrize("falls", [True, False])
+def test_the_end_says_what_is_known_where_no_answer_is_found(monkeypatch, falls):
+    """A beam with a bearing of .2 m, no answer from .08 m on; the step to .2 m falls."""
+    model = beam_on({"left": (-2.0, -1.9), "right": (1.4, 1.6)}, (-2.4, 1.6), lb.PointContact(0.5))
+    found = importlib.import_module("limitblocks.practice.collapse")
+    solve = found.settlement
+
+    def lost(there, *given, **options):
+        way = there.blocks[1].centroid[0] - model.blocks[1].centroid[0]
+        if way > 0.18 and falls:
+            raise lb.errors.NoEquilibrium(("beam",))
+        if way > 0.08:
+            raise lb.SolveError("lost")
+        return solve(there, *given, **options)
+
+    monkeypatch.setattr(found, "settlement", lost)
+    curve = settlement_to_collapse(model, "right", SPREAD, step=0.15, accuracy=1e-3)
+    assert 0.08 - 2e-3 < curve.stands_to <= 0.08
+    assert (curve.falls is not None) == falls
+    until = f" until it falls at {curve.falls:.9g} m" if falls else ""
+    assert curve.ended == f"no checked answer beyond {curve.stands_to:.6g} m{until}: lost"
+
+
 @pytest.mark.parametrize("within", [False, True])
 def test_an_interrupted_settlement_keeps_its_points(monkeypatch, within):
     """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""

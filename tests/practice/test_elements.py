@@ -204,7 +204,9 @@ def test_file_keeps_ties(tmp_path):
         (lambda: tie("a", (0, 0, 0), "b", (0, 0, 0), area=1, strength=1), "both anchors are at"),
         (lambda: rod(8e3, strength=-1.0), "strength is -1.0, expected a finite number > 0 in Pa"),
         (lambda: rod(8e3, area=0.0), "area is 0.0, expected a finite number > 0 in m2"),
-        (lambda: rod(-8e3), "pull_out is -8000.0 N, expected a force > 0"),
+        (lambda: rod(-8e3), "pull_out is -8000.0, expected a finite number > 0 in N"),
+        (lambda: rod("8e3"), "pull_out is '8e3', expected a finite number"),
+        (lambda: rod(8e3, prestress=None), "prestress is None, expected a finite number"),
         (lambda: rod(8e3, prestress=9e3), "prestress is 9000 N, expected 0 to less than the 8000 N"),
         (lambda: rod(8e3, number_of=0), "number_of is 0"),
         (lambda: reinforced(facade(), unknown()), "'x' is not"),
@@ -285,5 +287,6 @@ def test_a_strip_or_dowel_off_its_joint_is_refused(at):
     start = joint.centroid
     for made, size in ((strip, {"width": 0.1}), (dowel, {"diameter": 0.1})):
         assert made(joint, start + np.array([0.25, 0.5, 0.0]), **size, capacity=1e3)
+        assert made(joint, start + np.array([0.0, 0.5, 4e-4]), **size, capacity=1e3)  # within 1e-3 of 0.5 m
         with pytest.raises(lb.ModelError, match=r"not on the joint, 0\.01 m off it"):
             made(joint, start + np.array(at), **size, capacity=1e3)

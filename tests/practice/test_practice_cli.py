@@ -107,6 +107,24 @@ def test_verify(block, tmp_path):
     assert "F0 is 1.0" in run("verify", block, *site[:4], "--f0", 1, *site[6:]).output
 
 
+def test_verify_takes_a_curve_that_was_kept(block, tmp_path, monkeypatch):
+    """A curve may take minutes, and was drawn anew."""
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2)
+    anew = json.loads(run("verify", block, *site, "--json").stdout)
+    kept, bounds = tmp_path / "curve.json", tmp_path / "bounds.json"
+    assert run("capacity", block, "-o", kept).exit_code == run("bounds", block, "-o", bounds).exit_code == 0
+    monkeypatch.setattr("limitblocks.cli.analyses.capacity", lambda _: pytest.fail("a curve was drawn"))
+    done = run("verify", block, *site, "--curve", kept, "--json")
+    assert done.exit_code == 1
+    found = json.loads(done.stdout)
+    assert found["checks"] == anew["checks"]
+    assert found["remarks"] == ["the capacity curve is as a file says, not computed here"]
+    assert (
+        "--curve is a Bounds, expected CapacityCurve" in run("verify", block, *site, "--curve", bounds).stderr
+    )
+    assert "give one of both" in run("verify", block, *site, "--curve", kept, "--linear").stderr
+
+
 def test_verify_refuses_a_slip_before_it_draws_a_curve(block, monkeypatch):
     """A curve may take minutes, and what is wrong was said after it."""
     monkeypatch.setattr("limitblocks.cli.analyses.capacity", lambda _: pytest.fail("a curve was drawn"))

@@ -10,6 +10,7 @@ from limitblocks.practice import (
     Deck,
     Rocking,
     Vehicle,
+    dowel,
     element_acceleration,
     element_force,
     least_masses,
@@ -17,6 +18,7 @@ from limitblocks.practice import (
     passive_fill,
     reinforced,
     repair,
+    strip,
     tie,
     uplift,
     vehicle_load,
@@ -163,6 +165,24 @@ def test_uplift_in_a_radial_joint_that_crosses_the_level():
     assert load[3:] == pytest.approx(np.cross(at - model.free_blocks[0].centroid, push), abs=1e-12)
 
 
+def test_no_water_in_ties_strips_dowels_and_passive_fill():
+    """Water of depth h lifts a wedge by gamma h A, whatever holds it; what is no joint is refused."""
+    model, h = wedge(), 0.5
+    bed = model.interfaces[0]
+    held = reinforced(
+        model,
+        tie("wedge", (0, 0, 0.2), "ground", (-3, 0, 0.2), area=0.1, strength=1e5),
+        strip(bed, (0, 0, 0), width=0.3, capacity=1e3),
+        dowel(bed, (0.5, 0, 0), diameter=0.3, capacity=1e3),
+        *passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0),
+    )
+    lift = uplift(held, h, unit_weight=9810.0).on(held.free_blocks)
+    assert lift == pytest.approx(np.array([[0, 0, 9810.0 * h, 0, -9810.0 * h * (0.5 - 1 / 3), 0]]))
+    for word, own in zip(("tie", "strip", "dowel", "fill"), held.interfaces[1:], strict=True):
+        with pytest.raises(lb.ModelError, match=f"is of a {word}, in which there is no water"):
+            uplift(held, h, interfaces=[own])
+
+
 def beam():
     """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
     stones = [
@@ -180,6 +200,18 @@ def test_worst_position_is_the_end_of_the_overhang():
     model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
     found = worst_position(model, vehicle, deck, (3.2, 3.95), positions=4)
     assert found.position == pytest.approx(3.95, abs=1e-3)
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
+def test_a_vehicle_runs_in_the_middle_of_a_bridge_wherever_that_is():
+    """A bridge drawn beside the X axis: the overhang tips about x = 3, P (x - 3) = W (3 - 2)."""
+    moved = [
+        lb.Block(one.name, np.add(one.vertices, (0, 7.5, 0)), one.faces, one.unit_weight)
+        for one in beam().blocks
+    ]
+    model = replace(beam(), blocks=moved, interfaces=lb.find_interfaces(moved, JOINT))
+    found = worst_position(model, Vehicle((10e3,), contact=1e-3), Deck(level=0.5), (3.2, 3.95), positions=4)
+    assert (found.deck.y, Deck(0.5, y=7.2).on(model).y) == (7.5, 7.2)
     assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
 
 
@@ -248,16 +280,21 @@ def test_axle_on_the_approach_puts_nothing_on_the_bridge():
         vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5), 40.0)
 
 
-def test_passive_fill_holds_a_block_that_moves_into_it_only():
-    """A wedge of 45 degrees that slides at mu: K_p gamma depth per area helps one way."""
+def wedge(sign=1.0):
+    """A wedge of 45 degrees on the ground, pushed along or against X."""
     outline = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
     points = np.concatenate([np.insert(outline, 1, y, axis=1) for y in (-0.5, 0.5)])
     faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
     stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
     found = lb.find_interfaces(stones, lb.PointContact(0.2))
+    return lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((sign, 0, 0)))
+
+
+def test_passive_fill_holds_a_block_that_moves_into_it_only():
+    """A wedge of 45 degrees that slides at mu: K_p gamma depth per area helps one way."""
     held = 2.0 * 1e3 * (1.5 - 0.5) * 1.0 * 1.0
     for sign, more in ((1.0, held / 10e3), (-1.0, 0.0)):
-        model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((sign, 0, 0)))
+        model = wedge(sign)
         fill = passive_fill(model, 1.5, unit_weight=1e3, coefficient=2.0)
         result = lb.nonassociated(reinforced(model, *fill))
         assert result.load_factor == pytest.approx(0.2 + more, rel=1e-6)

@@ -316,6 +316,7 @@ def test_a_load_factor_is_not_shown_without_the_self_stress_that_it_needs():
     model = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), push)
     chapter = lb.report(model, lb.stability(model)).text
     assert "stands only by self-stress" in chapter[:600]
+    assert "with a margin of 1 of the largest dead load tied to an interface" in " ".join(chapter.split())
 
 
 def test_what_to_know_of_the_number_stands_beside_it(house, results):

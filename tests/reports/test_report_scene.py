@@ -42,7 +42,7 @@ def test_scene_holds_the_geometry(arch, shown):
     blocks = shown["blocks"]
     assert blocks["name"] == [block.name for block in arch.blocks]
     assert [blocks["name"][k] for k in blocks["support"]] == list(arch.supports)
-    centroids = rows(blocks["centroid"], 3)
+    centroids = rows(blocks["centroid"], 3) + shown["origin"]
     for block, centroid, kind in zip(arch.blocks, centroids, blocks["shape"], strict=True):
         shape = shown["shapes"][kind]
         assert np.allclose(centroid + rows(shape["vertices"], 3), block.vertices, atol=1e-5)
@@ -51,6 +51,24 @@ def test_scene_holds_the_geometry(arch, shown):
     for interface, outline in zip(arch.interfaces, outlines, strict=True):
         assert np.allclose(rows(outline["corners"], 3), interface.polygon @ interface.axes[:2], atol=1e-5)
         assert np.allclose(rows(outline["axes"], 3), interface.axes, atol=1e-5)
+
+
+def test_a_survey_far_from_the_origin_is_the_same_picture():
+    """Six digits of a northing are 10 m, and WebGL draws with seven: the picture counts from its middle."""
+
+    def stones(offset):
+        boxes = [((4.0, 1.0, 0.2), (0.0, 0.0, -0.1)), ((0.5, 1.0, 2.0), (0.125, 0.0, 1.0))]
+        blocks = [lb.Block.box(str(k), size, np.add(at, offset), 20e3) for k, (size, at) in enumerate(boxes)]
+        push = lb.mass_proportional((1, 0, 0))
+        return lb.Model(blocks, ["0"], lb.find_interfaces(blocks, JOINT), lb.self_weight(), push)
+
+    offset = np.array([512345.0, 5398765.0, 312.0])  # m
+    near, far = stones(np.zeros(3)), stones(offset)
+    pictures = [scene(model, (), "") for model in (near, far)]
+    assert np.subtract(*(one.pop("origin") for one in reversed(pictures))).tolist() == offset.tolist()
+    assert pictures[0] == pictures[1]
+    here, there = (interface_rows(model, lb.bounds(model))[0]["centre_of_pressure"] for model in (near, far))
+    assert np.allclose(np.subtract(there, here), offset, rtol=0.0, atol=1e-5)
 
 
 def test_blocks_of_one_shape_share_it():

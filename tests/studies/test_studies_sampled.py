@@ -126,7 +126,9 @@ def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
 
 def test_a_study_without_an_answer_prints():
     none = lb.study(falls_where_slippery, {"friction": (0.1, 0.2)}, 2)
-    assert str(none) == "2 analyses of friction, no load factor, 2 without an answer"
+    assert str(none) == (
+        "2 analyses of friction, no load factor; 2 without an answer (ModelError: too slippery)"
+    )
 
 
 def test_sobol_indices_of_a_product():

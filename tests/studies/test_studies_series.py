@@ -5,6 +5,7 @@ import json
 import os
 import signal
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,8 @@ import limitblocks as lb
 from limitblocks import studies
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.studies.pool import in_order
+from limitblocks.evidence.ending import Status
+from limitblocks.studies.pool import ANALYSES, INTERRUPTED, in_order
 
 WEIGHT, B1, B2, H = 20e3, 1.0, 1.6, 2.0
 
@@ -89,7 +91,56 @@ def test_load_moving_over_a_cantilever():
     assert np.isnan(series.load_factors[4])
     assert "no free block" in series.errors[4]
     assert series.worst_position == (2.4, 0.0)
-    assert "least load factor 14.2857 at x 2.4 m, y 0 m; 2 without an answer" in str(series)
+    said = (
+        "least load factor 14.2857 at x 2.4 m, y 0 m; 1 unlimited; 1 without an answer (ModelError: live load"
+    )
+    assert said in str(series)
+    middle = studies.moving_load(slab(), (0, 0, -1e3), [(0.0, 0.0), (0.5, 0.0)])
+    assert str(middle) == "2 analyses, no load factor; 2 unlimited"
+
+
+def test_a_maker_that_fails_on_a_value_costs_its_row():
+    """A ValueError of one's own, or of numpy, after hours of rows."""
+
+    def made(friction):
+        if friction > 0.5:
+            raise ValueError("too rough")
+        return block() if friction > 0.4 else 1 / 0
+
+    series = studies.sweep(made, [0.3, 0.45, 0.6])
+    assert [error.split(":")[0] for error in series.errors] == ["ZeroDivisionError", "", "ValueError"]
+    sampled = lb.study(made, {"friction": (0.35, 0.55)}, 16, sampler="random")
+    lost = (sampled.values[:, 0] > 0.5) | (sampled.values[:, 0] <= 0.4)
+    assert np.isnan(sampled.load_factors).tolist() == lost.tolist()
+    assert 0 < lost.sum() < 16
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        lb.study(made, {"mu": (0.35, 0.55)}, 2)
+
+
+def test_the_user_who_stops_one_analysis_stops_the_study(monkeypatch):
+    """The path gives its best state as an error: it was a row without an answer, and the next one began."""
+    asked, best = [], replace(lb.nonassociated(block()), status=Status.INTERRUPTED)
+
+    def stopped(model, **_):
+        asked.append(model)
+        if len(asked) == 2:
+            raise lb.NotConverged("interrupted", best)
+        return lb.nonassociated(model)
+
+    monkeypatch.setitem(ANALYSES, "nonassociated", stopped)
+    series = studies.directions(block(), 4, analysis="nonassociated")
+    assert len(asked) == 2
+    assert series.errors == ("", *[INTERRUPTED] * 3)
+    assert np.isnan(series.load_factors).tolist() == [False, True, True, True]
+
+
+def test_a_state_that_is_no_solution_is_no_row_with_an_answer(monkeypatch):
+    best = replace(lb.nonassociated(block()), status=Status.OUT_OF_STEPS)
+    monkeypatch.setitem(ANALYSES, "nonassociated", lambda _model, **_: best)
+    series = studies.directions(block(), 1, analysis="nonassociated", throw=False)
+    assert np.isnan(series.load_factors).all()
+    assert series.errors[0].startswith("NotConverged: not converged")
+    assert series.results == (best,)
 
 
 def test_load_moving_over_an_arch_is_symmetric_and_worst_off_the_crown():

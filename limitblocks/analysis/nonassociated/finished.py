@@ -13,6 +13,7 @@ from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, settled, unknown, within
+from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.ending import BELOW_ZERO, UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
@@ -65,11 +66,12 @@ def finished(
     )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
+    resultants = resultants_of(problem, state.x)
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
         associated=enclosing.associated,
-        stress_resultants=resultants_of(problem, state.x),
+        stress_resultants=resultants,
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
@@ -87,6 +89,7 @@ def finished(
             *given_power(flow, state, tolerance),
             *locked_shear(flow, state),
             *locked_tension(model, flow, state),
+            *beyond_stress_block(model, resultants),
             *unconfirmed(change),
             *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
         ),

@@ -26,6 +26,7 @@ from limitblocks.analysis.nonassociated.ways import Given, Half, first_to_solve,
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
+from limitblocks.errors import sequence_of
 from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -109,6 +110,7 @@ def nonassociated(
     way = method_of(method)
     limit = checked_limit(backward_error)
     number(tolerance, "tolerance", "", above=0.0)
+    means = MEANS if means is None else sequence_of("means", means, Means) or MEANS
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
@@ -127,7 +129,7 @@ def nonassociated(
             scale = load_scale(at.problem, enclosing.associated)
             near = partial(_near, at, tolerance, limit)
             given = Given(at, x0, scale, tolerance, record)
-            return first_to_solve(given, means or MEANS, near, half)
+            return first_to_solve(given, means, near, half)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
     record(end(flow, state))

@@ -21,6 +21,7 @@ from limitblocks.mechanics.loads.load import (
     unit_vector,
     vector,
 )
+from limitblocks.shown import coordinates
 from limitblocks.units import gravity
 
 DOWN = (0.0, 0.0, -1.0)
@@ -63,7 +64,7 @@ class AddedMass:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        where = f"fixed to block {self.block!r} at {triple(self.at)} m"
+        where = f"fixed to block {self.block!r} at {coordinates(self.at)} m"
         return f"a mass that weighs {self.weight / 1e3:.4g} kN, {where}, {along(self.direction)}"
 
 
@@ -81,7 +82,7 @@ class PointForce:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        return f"a force {triple(self.force, 1e3)} kN on block {self.block!r} at {triple(self.at)} m"
+        return f"a force {triple(self.force, 1e3)} kN on block {self.block!r} at {coordinates(self.at)} m"
 
 
 @dataclass(frozen=True)
@@ -112,7 +113,7 @@ class JointPressure:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        where = f"from the joint with {self.block_i!r} at {triple(self.at)} m"
+        where = f"from the joint with {self.block_i!r} at {coordinates(self.at)} m"
         return f"a force {triple(self.force, 1e3)} kN on block {self.block_j!r} {where}, and its opposite"
 
 

@@ -30,7 +30,7 @@ class Term(Protocol):
 
 @dataclass(frozen=True)
 class Load:
-    """A sum of load terms, each with a factor. Loads add up and can be multiplied by a number."""
+    """A sum of load terms, each with a factor. Loads add up, and a number times a load is one."""
 
     terms: tuple[tuple[float, Term], ...] = ()
 
@@ -50,6 +50,18 @@ class Load:
         return Load(tuple((times * own, term) for own, term in self.terms))
 
     __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Load:
+        by = number(divisor, "divisor of a load", "")
+        if by == 0.0:
+            raise ModelError("divisor of a load is 0, expected any other number")
+        return Load(tuple((own / by, term) for own, term in self.terms))
+
+    def __neg__(self) -> Load:
+        return -1.0 * self
+
+    def __sub__(self, other: Any) -> Load:
+        return self + (-other if isinstance(other, Load) else other)
 
     def on(self, blocks: Sequence[Block]) -> Array:
         """Return forces (N) and moments (N m) at the centroids of `blocks`, global axes, shape (n, 6).

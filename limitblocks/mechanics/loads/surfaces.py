@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from limitblocks.arrays import Array, Indices
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
 from limitblocks.mechanics.loads.faces import faces_through, faces_towards, integrals, part_where
@@ -23,6 +23,7 @@ from limitblocks.mechanics.loads.load import (
     unit_vector,
     vector,
 )
+from limitblocks.shown import coordinate, coordinates
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -83,8 +84,8 @@ class Pressure:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        where = f"at {triple(self.at)} m" if self.at else f"facing {triple(self.facing or ())}"
-        linear = f"{self.unit_weight / 1e3:.4g} kN/m³ times the depth below Z = {self.level:.4g} m"
+        where = f"at {coordinates(self.at)} m" if self.at else f"facing {triple(self.facing or ())}"
+        linear = f"{self.unit_weight / 1e3:.4g} kN/m³ times the depth below Z = {coordinate(self.level)} m"
         parts = [f"{self.pressure / 1e3:.4g} kPa"] * bool(self.pressure) + [linear] * bool(self.unit_weight)
         return f"a pressure of {' plus '.join(parts)} on the face {where} of {some(self.blocks)}"
 
@@ -129,7 +130,7 @@ class Fill:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {self.level:.4g} m"
+        said = f"fill of {self.unit_weight / 1e3:.4g} kN/m³ up to Z = {coordinate(self.level)} m"
         said += f" on {some(self.blocks) if self.blocks else 'all blocks'}"
         if not self.coefficient:
             return said
@@ -240,7 +241,7 @@ def fill(
 
 
 def _names(blocks: str | Sequence[str]) -> tuple[str, ...]:
-    return (blocks,) if isinstance(blocks, str) else tuple(blocks)
+    return (blocks,) if isinstance(blocks, str) else sequence_of("blocks", blocks, str)
 
 
 def _keep(term: object, **values: float) -> None:

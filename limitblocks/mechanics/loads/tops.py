@@ -11,6 +11,7 @@ from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.load import Load, Place, Vector, of, place, triple, vector
+from limitblocks.shown import coordinates
 
 _SIDE = 1e-9  # of a block's size squared: a triangle with a smaller area in plan counts as vertical
 _TOUCH = 1e-9  # of the blocks' size: an edge belongs to both its blocks, and the first of them counts
@@ -29,7 +30,8 @@ class TopForce:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        return f"a force {triple(self.force, 1e3)} kN on top of the structure at {triple(self.at)} m in plan"
+        where = f"on top of the structure at {coordinates(self.at)} m in plan"
+        return f"a force {triple(self.force, 1e3)} kN {where}"
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class LineLoad:
 
     def in_words(self) -> str:
         """Return the term in words."""
-        line = f"from {triple(self.start)} m to {triple(self.end)} m in plan"
+        line = f"from {coordinates(self.start)} m to {coordinates(self.end)} m in plan"
         return f"a line load {triple(self.force_per_length, 1e3)} kN/m on top of the structure, {line}"
 
 

@@ -69,7 +69,7 @@ def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
 
 def size_of(values: Array) -> Array:
     """Largest of the numbers (K, ...) of each place, one for nothing, to divide them by."""
-    size = np.abs(values).max(axis=(1, 2), keepdims=True)
+    size = np.abs(values).max(axis=tuple(range(1, values.ndim)), keepdims=True)
     return np.asarray(np.where(size > 0.0, size, 1.0))
 
 

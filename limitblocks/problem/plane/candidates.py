@@ -35,7 +35,8 @@ def candidates(problem: LimitProblem, strain: Array) -> Iterator[tuple[Array, In
 
 def _parallel_to_all(problem: LimitProblem, strain: Array) -> Array | None:
     """Unit vector across all normals of interfaces and all forces; None where there is not just one."""
-    pressing = np.unique(problem.resultants[2::6].indices)
+    Q = problem.resultants
+    pressing = Q.indices[np.repeat(np.arange(Q.shape[0]) % 6, np.diff(Q.indptr)) == 2]
     forces = [load.reshape(-1, 6)[:, :3] for load in (problem.dead, problem.live)]
     sizes = [max(float(np.abs(force).max()), np.finfo(float).tiny) for force in forces]
     vectors = [strain[pressing, :, :3].reshape(-1, 3)]

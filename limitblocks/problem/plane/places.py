@@ -8,9 +8,8 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-from scipy import sparse
 
-from limitblocks.arrays import Array, Indices, owned
+from limitblocks.arrays import Array, Indices, in_blocks, owned
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.places import places
 
@@ -73,11 +72,14 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     of_row = of_member[problem.cones.member]
     count = int(max(of_member.max(initial=-1), of_stress.max(initial=-1))) + 1
     columns, column = owned(of_stress, count)
-    rows, _ = owned(of_row, count)
+    rows, row = owned(of_row, count)
     for its, linear, cones in _alike(problem, of_member, of_stress, count):
-        c, r = np.bincount(of_stress)[its[0]], linear + sum(cones)
+        c, r = int((of_stress == its[0]).sum()), linear + sum(cones)
         own, its_rows = columns[its, :c], rows[its, :r]
         unit = problem.units.row[its_rows]
+        number = np.full(count, -1)
+        number[its] = np.arange(len(its))
+        first = np.where(number[of_row] >= 0, (number[of_row] * r + row) * c, -1)
         at = strain[own].transpose(0, 2, 1, 3)
         yield Place(
             columns=own,
@@ -87,18 +89,10 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
             strain=at,
             middle=_means(at, problem.stress_interface[own[:, 0]]),
-            F=_dense(problem.F, its_rows, column, unit)[..., :c],
-            G=_dense(problem.G, its_rows, column, unit)[..., :c],
+            F=in_blocks(problem.F, first, column, (len(its), r, c)) * unit[..., None],
+            G=in_blocks(problem.G, first, column, (len(its), r, c)) * unit[..., None],
             g=problem.g[its_rows] * unit,
         )
-
-
-def _dense(matrix: sparse.csr_array, rows: Indices, column: Indices, unit: Array) -> Array:
-    """Rows (K, r) of a matrix times their `unit`, (K, r, most), its columns at their positions in places."""
-    own, most = matrix[rows.ravel()], int(column.max(initial=-1)) + 1
-    data = own.data * np.repeat(unit.ravel(), np.diff(own.indptr))
-    narrow = sparse.csr_array((data, column[own.indices], own.indptr), shape=(rows.size, most))
-    return np.asarray(narrow.toarray().reshape(*rows.shape, most))
 
 
 def _means(values: Array, of: Indices) -> Array:
@@ -122,7 +116,8 @@ def _alike(
     kinds = np.unique(size[cones.linear :]).tolist()
     numbers = [np.bincount(of_stress, minlength=count)]
     numbers += [np.bincount(of_member[size == kind], minlength=count) for kind in (0, *kinds)]
-    table = np.stack(numbers, axis=1)
-    for own in np.unique(table, axis=0).tolist():
-        conic = tuple(kind for kind, k in zip(kinds, own[2:], strict=True) for _ in range(k))
-        yield np.flatnonzero((table == own).all(axis=1)), own[1], conic
+    of_kind = np.ravel_multi_index(numbers, [int(number.max()) + 1 for number in numbers])
+    for kind in np.unique(of_kind).tolist():
+        its = np.flatnonzero(of_kind == kind)
+        linear, *its_cones = (int(number[its[0]]) for number in numbers[1:])
+        yield its, linear, tuple(size for size, k in zip(kinds, its_cones, strict=True) for _ in range(k))

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, equal_rows
 
 ROUNDING = 1e-10  # of rows of unit length
 DECIMALS = 9  # rows that agree to these are judged once
+ENTRIES = 2**20  # of an array of all sums of two rows: sets are judged so many at a time
 
 Flags = npt.NDArray[np.bool_]
 
@@ -35,38 +34,39 @@ def redundant(rows: Array, present: Flags, flow: Array | None = None) -> Flags:
     moves = np.where(there[..., None], moves, 0.0)
     kinds = np.concatenate([own.reshape(K, -1), moves.reshape(K, -1), there], axis=1)
     kinds = np.round(kinds, DECIMALS) + 0.0
-    _, first, kind = np.unique(kinds, axis=0, return_index=True, return_inverse=True)
+    first, kind = equal_rows(kinds)
     constant = np.broadcast_to(np.eye(D)[-1], (len(first), 1, D))
     still = np.zeros((len(first), 1, moves.shape[2]))
-    follows = _follows(
-        np.concatenate([own[first], constant], axis=1),
-        there[first],
-        np.concatenate([moves[first], still], axis=1),
-    )[kind.ravel()]
+    lines, flows = (np.concatenate(both, axis=1) for both in ((own[first], constant), (moves[first], still)))
+    few = max(1, ENTRIES // (lines.shape[1] ** 3 * D))
+    chunks = [slice(at, at + few) for at in range(0, len(first), few)]
+    follows = [_follows(lines[its], there[first[its]], flows[its]) for its in chunks]
     flags = np.zeros_like(present)
-    np.put_along_axis(flags, order, follows, axis=1)
+    if follows:
+        np.put_along_axis(flags, order, np.concatenate(follows)[kind], axis=1)
     return flags
 
 
 def _follows(rows: Array, present: Flags, flow: Array) -> Flags:
     """The same of rows of unit length, the last of which is the constant; one row after the other."""
     K, L = present.shape
-    left = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1)
-    pairs = np.array(list(combinations(range(L + 1), 2)), dtype=int).reshape(-1, 2)
+    i, j = np.triu_indices(L + 1, 1)
     products = rows @ rows.transpose(0, 2, 1)
-    follows = np.zeros((K, L), dtype=bool)
+    cosine, a, b = products[:, None, i, j], products[:, :L, i], products[:, :L, j]
+    sine = 1.0 - cosine**2
+    apart = sine > ROUNDING
+    sine = np.where(apart, sine, 1.0)
+    by_i, by_j = (a - b * cosine) / sine, (b - a * cosine) / sine
+    off = by_i[..., None] * rows[:, None, i] + by_j[..., None] * rows[:, None, j] - rows[:, :L, None]
+    sums = apart & (np.minimum(by_i, by_j) >= -ROUNDING) & (np.abs(off).max(axis=3) <= ROUNDING)
+    own = np.arange(L)[:, None]
+    sums &= (i != own) & (j != own)
+    left, follows = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1), np.zeros_like(present)
     for c in range(L):
-        i, j = pairs[(pairs != c).all(axis=1)].T
-        cosine, a, b = products[:, i, j], products[:, i, c], products[:, j, c]
-        sine = 1.0 - cosine**2
-        usable = left[:, i] & left[:, j] & (sine > ROUNDING)
-        sine = np.where(usable, sine, 1.0)
-        by_i, by_j = (a - b * cosine) / sine, (b - a * cosine) / sine
-        sums = by_i[..., None] * rows[:, i] + by_j[..., None] * rows[:, j]
-        off = np.abs(sums - rows[:, c, None]).max(axis=2)
-        implied = usable & (np.minimum(by_i, by_j) >= -ROUNDING) & (off <= ROUNDING)
+        implied = sums[:, c] & left[:, i] & left[:, j]
         if flow.shape[2]:
-            implied &= _flows(flow, c, np.where(by_i > ROUNDING, i, L), np.where(by_j > ROUNDING, j, L))
+            by = by_i[:, c] > ROUNDING, by_j[:, c] > ROUNDING
+            implied &= _flows(flow, c, np.where(by[0], i, L), np.where(by[1], j, L))
         follows[:, c] = left[:, c] & implied.any(axis=1)
         left[:, c] &= ~follows[:, c]
     return follows

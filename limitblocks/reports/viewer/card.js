@@ -19,8 +19,13 @@ function inUnits(value, unit) {
   return Math.abs(value) >= 1000 ? `${digits(value / 1000)} k${unit}` : `${digits(value)} ${unit}`;
 }
 
-function place(point) {
-  return Number.isFinite(point[0]) ? `${point.map((x) => Number(x.toFixed(5))).join(", ")} m` : "–";
+// A point of the picture in global axes, to a hundredth of a millimetre.
+function globally(scene, point) {
+  return point.map((x, a) => Number((x + scene.origin[a]).toFixed(5)));
+}
+
+function place(scene, point) {
+  return Number.isFinite(point[0]) ? `${globally(scene, point).join(", ")} m` : "–";
 }
 
 function blockCard(scene, k, result, step) {
@@ -32,7 +37,7 @@ function blockCard(scene, k, result, step) {
   if (block.colour) rows.push(["Colour", block.colour]);
   if (block.weight !== null) rows.push(["Weight", inUnits(block.weight, "N")]);
   rows.push(["Volume", `${digits(block.volume)} m³`]);
-  rows.push(["Centroid", place(block.centroid)]);
+  rows.push(["Centroid", place(scene, block.centroid)]);
   if (step) {
     const u = [...step.displacements.subarray(6 * k, 6 * k + 6)];
     rows.push([result.moves, `${u.slice(0, 3).map(digits).join(", ")} m`]);
@@ -59,9 +64,9 @@ function interfaceCard(scene, k, result, step) {
     rows.push(["V1", inUnits(V1, "N")], ["V2", inUnits(V2, "N")], ["T", inUnits(T, "N m")]);
     rows.push(["M1", inUnits(M1, "N m")], ["M2", inUnits(M2, "N m")]);
     const centre = [0, 1, 2].map((a) => one.centroid[a] + step.centres[3 * k + a]);
-    rows.push(["Centre of pressure", place(centre)]);
+    rows.push(["Centre of pressure", place(scene, centre)]);
   } else {
-    rows.push(["Centroid", place(one.centroid)]);
+    rows.push(["Centroid", place(scene, one.centroid)]);
   }
   const links = [one.i, one.j].map((at) => [scene.blocks[at].name, { block: at }]);
   return { kind: "Interface", name: one.name, rows, linked: "Blocks", links };

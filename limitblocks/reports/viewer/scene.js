@@ -10,6 +10,7 @@ function readScene() {
   const scene = {
     title: data.title,
     live: data.live,
+    origin: data.origin, // of all centroids, in global axes
     eye: data.eye,
     chains: data.chains,
     joints: data.joints,

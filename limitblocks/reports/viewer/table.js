@@ -43,7 +43,8 @@ function interfacesCsv(scene, step) {
     return [
       ...[one.name, scene.blocks[one.i].name, scene.blocks[one.j].name, one.joint].map(csvText),
       csvText(scene.stateNames[step.states[k]]),
-      ...[step.utilisation[k], ...step.stresses.subarray(6 * k, 6 * k + 6), ...centre].map(number),
+      ...[step.utilisation[k], ...step.stresses.subarray(6 * k, 6 * k + 6)].map(number),
+      ...globally(scene, centre).map((value) => (Number.isFinite(value) ? String(value) : "")),
       csvText(modes),
     ].join(",");
   });

@@ -85,10 +85,12 @@ def encoded(
         mesh = trimesh.Trimesh(points, block.triangles, process=False, visual=visual)
         scene.add_geometry(mesh, node_name=str(k), geom_name=str(k))
 
+    origin = blocks[0].centroid if blocks and states is not None else np.zeros(3)
+
     def finish(buffers: dict[str, bytes], document: dict[str, Any]) -> None:
         for block, node, mesh in zip(blocks, document["nodes"], document["meshes"], strict=True):
             # an animation moves a translation, not the matrix that trimesh would write
-            node |= {"name": block.name, "translation": (Z_UP.T @ block.centroid).tolist()}
+            node |= {"name": block.name, "translation": ((block.centroid - origin) @ Z_UP).tolist()}
             mesh["name"] = block.name
             # what the material alone would not tell; its colour is for show where the block has none
             extras: dict[str, Any] = {"layer": layers.get(block.name, "")} if block.material else {}
@@ -96,7 +98,11 @@ def encoded(
                 extras["groups"] = list(block.groups)
             node["extras"] = extras | {"colour": block.colour}
         if states is not None:
-            document["animations"] = [_animation(buffers, document["accessors"], blocks, states)]
+            document["animations"] = [_animation(buffers, document["accessors"], blocks, states, origin)]
+            # about a node of its own: tracks have single precision, nodes all digits
+            whole = {"translation": (origin @ Z_UP).tolist(), "children": list(range(len(blocks)))}
+            document["nodes"].append(whole)
+            document["scenes"][0]["nodes"] = [len(blocks)]
 
     return bytes(gltf.export_glb(scene, include_normals=False, buffer_postprocessor=finish))
 
@@ -113,9 +119,13 @@ def _material(trimesh: ModuleType, block: Block, layers: Mapping[str, str], supp
 
 
 def _animation(
-    buffers: dict[str, bytes], accessors: dict[str, Any], blocks: Sequence[Block], states: Array
+    buffers: dict[str, bytes],
+    accessors: dict[str, Any],
+    blocks: Sequence[Block],
+    states: Array,
+    origin: Array,
 ) -> dict[str, Any]:
-    """Return translation and rotation of each moving block through `states` (k, n, 6)."""
+    """Return translation, off `origin`, and rotation of each moving block through `states` (k, n, 6)."""
 
     def add(values: Array, kind: str) -> int:
         """Append `values` (k, columns) and return the number of their accessor."""
@@ -131,7 +141,7 @@ def _animation(
     channels: list[dict[str, Any]] = []
     samplers: list[dict[str, Any]] = []
     for k in np.flatnonzero(states.any(axis=(0, 2))).tolist():
-        places = (blocks[k].centroid + states[:, k, :3]) @ Z_UP
+        places = (blocks[k].centroid - origin + states[:, k, :3]) @ Z_UP
         turns = Rotation.from_rotvec(states[:, k, 3:] @ Z_UP).as_quat()
         for path, values, kind in (("translation", places, "VEC3"), ("rotation", turns, "VEC4")):
             channels.append({"sampler": len(samplers), "target": {"node": k, "path": path}})
