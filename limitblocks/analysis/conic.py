@@ -44,7 +44,8 @@ def compiled(problem: cp.Problem) -> Conic:
         tails = count + np.arange(count * (size - 1)).reshape(count, -1)
         order.append(zero + rows[0, 0] + np.column_stack([np.arange(count), tails]).ravel())
     place = np.concatenate(order)
-    A = sparse.csr_array(sparse.vstack([matrix for matrix, _ in parts], format="csr")[place])
+    A = sparse.csr_array(sparse.vstack([matrix for matrix, _ in parts], format="csr"))
+    A = A[place] if K.second_order else A
     A.data[A.indptr[zero] :] *= -1.0
     A.eliminate_zeros()
     constants = np.concatenate(right + [constant for _, constant in parts[len(equal) :]])

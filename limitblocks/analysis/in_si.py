@@ -16,7 +16,7 @@ def resultants_of(problem: LimitProblem, x: Array) -> Array:
 
 def in_model_order(model: Model, rates: Array) -> Array:
     """Displacement rates (n, 6) of all blocks, supports as zero; `rates` of the free ones, m and rad."""
-    place = {block.name: k for k, block in enumerate(model.blocks)}
-    ordered = np.zeros((len(place), 6))
-    ordered[[place[name] for name in model.problem.blocks]] = rates.reshape(-1, 6)
+    supports = set(model.supports)
+    ordered = np.zeros((len(model.blocks), 6))
+    ordered[[block.name not in supports for block in model.blocks]] = rates.reshape(-1, 6)
     return read_only(ordered)

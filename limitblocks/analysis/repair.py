@@ -107,9 +107,9 @@ class PlanarRepair:
     @cached_property
     def interface(self) -> Indices:
         """Interface of the reduced problem that each row of the whole one belongs to, shape (R,)."""
-        M, m = self.plane.multipliers.tocoo(), len(self.whole.interfaces)
-        reduced = np.zeros(m, dtype=np.int64)
-        reduced[self.whole.row_interface[M.row]] = self.plane.problem.row_interface[M.col]
+        M, reduced = self.plane.multipliers, np.zeros(len(self.whole.interfaces), dtype=np.int64)
+        whole = np.repeat(self.whole.row_interface, np.diff(M.indptr))
+        reduced[whole] = self.plane.problem.row_interface[M.indices]
         return np.asarray(reduced[self.whole.row_interface])
 
     def _everywhere(self, y: Array, needed: bool) -> Array:

@@ -198,9 +198,10 @@ def balanced(p: Scaled, loads: Array, x: Array) -> Array:
 
 def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | None = None) -> Array:
     """Return the nearest multipliers that follow the rates, brought into K; `solve` is for F^T F."""
-    solve = solve or solver_of(p.F.T @ p.F)
+    across, strain = p.F.T, p.C @ u
+    solve = solve or solver_of(across @ p.F)
     for _ in range(2):
-        y = y - p.F @ solve(p.C @ u + p.F.T @ y)
+        y = y - p.F @ solve(strain + across @ y)
     return p.raised(y)
 
 

@@ -115,10 +115,10 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     """Return the largest least distance to yield of all states in equilibrium, over the interfaces' forces.
 
     Over all stresses x in equilibrium with dead + load_factor live, the largest t such that each row of
-    F x + g is at least t inside the cone K, t <= 1, every interface in the largest dead load of the blocks it
-    is tied to. A state within
-    the yield surface exists, and the loads stand (static theorem), exactly where t >= 0; below, -t is how
-    much every yield function would have to be widened: what a root finder needs, and yes and no do not give.
+    F x + g is at least t inside the cone K, t <= 1, every interface in the largest dead force on a block
+    that it is tied to. A state within the yield surface exists, and the loads stand (static theorem), exactly
+    where t >= 0; below, -t is how much every yield function would have to be widened: what a root finder
+    needs, and yes and no do not give.
     Joints without friction carry no shear; where no stresses at all balance the loads, the margin is -1.
 
     Parameters
@@ -209,9 +209,9 @@ def _standing_program(problem: Scaled, loads: Array, most: float) -> Program:
 
 
 def _own_loads(problem: LimitProblem) -> Array:
-    """Largest dead load of the blocks that an interface is tied to, in its unit of force, shape (m,)."""
+    """Largest dead force on a block that an interface is tied to, in its unit of force, shape (m,)."""
     force = problem.units.block_force
-    loads = np.linalg.norm(problem.dead.reshape(-1, 2, 3), axis=2).sum(axis=1) * force
+    loads = np.linalg.norm(problem.dead.reshape(-1, 6)[:, :3], axis=1) * force  # moments hang on a length
     largest = np.zeros_like(force)
     np.maximum.at(largest, problem.parts, loads)
     own = largest[problem.parts][problem.ends.max(axis=1)]
@@ -219,7 +219,7 @@ def _own_loads(problem: LimitProblem) -> Array:
 
 
 def _margin(problem: LimitProblem, x: Array) -> float:
-    """Least distance to yield over the largest dead load of the blocks tied to the interface."""
+    """Least distance to yield over the largest dead force on the blocks tied to the interface."""
     distance = problem.cones.margin(problem.F @ x + problem.g) * problem.units.row[problem.cones.heads]
     return float((distance / _own_loads(problem)[problem.member_interface]).min())
 

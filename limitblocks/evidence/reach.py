@@ -124,7 +124,7 @@ class Kinematic:
         change = np.zeros(len(self.problem.g))
         for rows, columns, kind, right, share in self._inverses:
             strain = _exactly(defect[columns], share[kind])
-            change[rows] = (right[kind] @ strain[..., None])[..., 0] * UP
+            change[rows] = (right.take(kind, axis=0) @ strain[..., None])[..., 0] * UP
         return change
 
     @cached_property

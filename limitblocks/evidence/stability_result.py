@@ -35,9 +35,9 @@ class Stability(Result):
     kind : Standing
         The answer.
     margin : float
-        How far every yield function of every interface can be lowered, in the largest dead load of the blocks
-        that the interface is tied to, before no stresses carry the dead loads; at most 1; negative where it
-        falls. Static theorem: the flow rule is of no account.
+        How far every yield function of every interface can be lowered, in the largest dead force on a
+        block that the interface is tied to, before no stresses carry the dead loads; at most 1; negative
+        where it falls. Static theorem: the flow rule is of no account.
     blocks : tuple of str
         Free blocks that fall, or that slide through where nobody wedges them; none where it stands.
     stress_resultants : Array, shape (m, 6), optional

@@ -8,6 +8,7 @@ import numpy as np
 
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force, moment
 from limitblocks.model import Model
@@ -43,3 +44,18 @@ def pressed(model: Model, support: str) -> Array:
         on_j = -stresses[:3] @ own.axes
         total += on_j if own.block_j == support else -on_j if own.block_i == support else 0.0
     return total
+
+
+def other_supports(model: Model, support: str) -> list[str]:
+    """Supports that stay; ModelError where `support` is none, or the only one."""
+    refuse_kind(support, str, "support")
+    others = [name for name in model.supports if name != support]
+    if support not in model.supports:
+        kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
+        known = ", ".join(map(repr, model.supports))
+        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {known}")
+    if not others:
+        raise ModelError(
+            f"settlement: {support!r} is the only support; the whole structure would move with it"
+        )
+    return others

@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
+from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
@@ -22,7 +22,7 @@ from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
 from limitblocks.practice.elements import CORNERS, Element, axes_of
-from limitblocks.practice.freed import as_before, pressed
+from limitblocks.practice.freed import as_before, other_supports, pressed
 from limitblocks.shown import Result
 
 JAMMED = (
@@ -208,7 +208,7 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     """
     checked_model(model)
     d = np.array(unit_vector(direction, f"settlement of {support!r}: direction"))
-    others = _other_supports(model, support)
+    others = other_supports(model, support)
     block = next(block for block in model.blocks if block.name == support)
     model = fill_at_rest(model, support)
     weight = float(np.linalg.norm(model.dead.on(model.free_blocks)[:, :3], axis=1).sum())
@@ -238,18 +238,3 @@ def settling(model: Model, support: str, direction: Sequence[float]) -> Settling
     )
     on_support = (pulled + water + reaction).on([block])[0]
     return Settling(as_before(model, freed, support, on_support), support, read_only(d), held, weight)
-
-
-def _other_supports(model: Model, support: str) -> list[str]:
-    """Supports that stay; ModelError where `support` is none, or the only one."""
-    refuse_kind(support, str, "support")
-    others = [name for name in model.supports if name != support]
-    if support not in model.supports:
-        kind = "a free block" if support in {b.name for b in model.blocks} else "not a block of the model"
-        known = ", ".join(map(repr, model.supports))
-        raise ModelError(f"settlement: {support!r} is {kind}; expected one of the supports {known}")
-    if not others:
-        raise ModelError(
-            f"settlement: {support!r} is the only support; the whole structure would move with it"
-        )
-    return others

@@ -12,6 +12,7 @@ from limitblocks.analysis.unstressed import arising, joint_compliance
 from limitblocks.errors import SolverFailure
 from limitblocks.evidence.residuals import Residual, Residuals
 from limitblocks.evidence.stability_result import arising_residuals, mechanism_residuals
+from limitblocks.practice import reinforced, tie
 from limitblocks.problem import ASSOCIATED, Flow, State
 from limitblocks.structures.convex import hull
 
@@ -38,6 +39,32 @@ def on_a_slope(joint, tangent, unit_weight=GAMMA, move=lambda corners: corners):
 
     stone = prism("stone", rectangle(1, 0.0, 0.3), unit_weight, move)
     return model([prism("plane", rectangle(3, -1.0, 0.0), None, move), stone], ["plane"], joint)
+
+
+def under_water(s, joint):
+    """A wall of width s and height 2 s under water of depth 1.6 s, which is about to push it along."""
+    blocks = [
+        lb.Block.box("ground", (8 * s, s, s), (0, 0, -0.5 * s)),
+        lb.Block.box("wall", (s, s, 2 * s), (0, 0, s), GAMMA),
+    ]
+    water = lb.loads.pressure("wall", facing=(-1, 0, 0), unit_weight=9810.0, level=1.6 * s)
+    own = model(blocks, ["ground"], joint)
+    return replace(own, dead=own.dead + water)
+
+
+@pytest.mark.parametrize("s", [1.0, 1.3, 1.7])
+def test_margin_is_over_the_dead_force_whatever_the_size(s):
+    """(mu W - V) / hypot(W, V): its moment about the centroid counts in the balance alone."""
+    W, V = 2 * GAMMA, 9810.0 * 1.6**2 / 2
+    found = lb.stability(under_water(s, lb.OrdunaLourenco(0.4)))
+    assert found.margin == pytest.approx((0.4 * W - V) / np.hypot(W, V), rel=1e-9)
+
+
+def test_a_slack_tie_is_half_its_strength_from_yield():
+    """Of a tension between 0 and c no state is farther than c / 2 from both."""
+    own = model([*under_water(1.0, lb.OrdunaLourenco(0.4)).blocks], ["ground"], lb.OrdunaLourenco(0.4))
+    rod = tie("wall", (-0.5, 0, 1), "ground", (-3, 0, 1), area=1e-4, strength=1e7)
+    assert lb.stability(reinforced(own, rod)).margin == pytest.approx(500.0 / (2 * GAMMA), rel=1e-9)
 
 
 def between_walls(joint, degrees, unit_weight=GAMMA, move=lambda corners: corners):

@@ -46,11 +46,11 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     units = problem.units.row
     W = in_units(weights, 1.0 / units[source], units)
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
-    B = sparse.csr_array(problem.resultants @ stresses)
+    B = _cleaned(problem.resultants @ stresses)
     six = (6 * kept[:, None] + np.arange(6)).ravel()
     planar = replace(
         problem,
-        C=_cleaned(stresses.T @ problem.C @ rates),
+        C=_cleaned(sparse.csr_array(stresses.T) @ problem.C @ rates),
         dead=read_only(rates.T @ problem.dead),
         live=read_only(rates.T @ problem.live),
         F=_cleaned(W @ problem.F @ stresses),
@@ -59,7 +59,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         cones=cones,
         pivot=read_only(np.zeros(len(source))),
         half_sides=problem.half_sides[kept],
-        resultants=_cleaned(B[six]),
+        resultants=B if len(six) == B.shape[0] else B[six],
         compliance=read_only(stresses.multiply(stresses).T @ problem.compliance),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
@@ -181,9 +181,8 @@ def _joined(parts: list[PlaneRows], height: int) -> tuple[Indices, sparse.csr_ar
     return source, sparse.csr_array(weights), Cones.of_sizes(linear, sizes)
 
 
-def _cleaned(matrix: Any) -> sparse.csr_array:
-    """The matrix without entries that are rounding of nothing."""
-    A: sparse.csr_array = sparse.csr_array(matrix).copy()
+def _cleaned(A: sparse.csr_array) -> sparse.csr_array:
+    """The matrix, a product, without entries that are rounding of nothing."""
     A.data[np.abs(A.data) <= NOTHING * np.repeat(largest_in_rows(A), np.diff(A.indptr))] = 0.0
     A.eliminate_zeros()
     return A
