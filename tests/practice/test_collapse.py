@@ -303,7 +303,8 @@ def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure
         model, "right", (1, 0, -1), step=5.0, accuracy=0.5, without_dilatancy=False
     )
     assert curve.ended == "the settlement 5 m, the size of the structure, is reached"
-    assert curve.points[-1].displacement == pytest.approx(5.0) and curve.falls is None
+    assert curve.points[-1].displacement == pytest.approx(5.0)
+    assert curve.falls is None
 
 
 @pytest.mark.parametrize(
