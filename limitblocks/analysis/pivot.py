@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,9 +20,9 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
+from limitblocks.analysis.elimination import Entries, Factors, elimination, factors_in_order, placed
 from limitblocks.analysis.polish import admissible, defect, polished
 from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
@@ -165,9 +165,11 @@ class _Linearised:
         return self._refined(units)
 
     def _refined(self, right: Array) -> Array:
-        J, lu = self._system
-        ends = lu.solve(right)
-        return np.asarray(ends + lu.solve(right - J @ ends))
+        J, factors = self._system
+        ends = factors.solve(right)
+        left = J @ ends
+        ends += factors.solve(np.subtract(right, left, out=left))  # many columns: no more copies than needed
+        return ends
 
     @cached_property
     def _matrix(self) -> sparse.csr_array:
@@ -178,19 +180,23 @@ class _Linearised:
         return None if self.flow.constant else self.flow.derivative(self.now.x, self.sigma * self.now.y)
 
     @cached_property
-    def _system(self) -> tuple[sparse.csc_array, Any]:
+    def _system(self) -> tuple[sparse.csr_array, Factors]:
         """The system of what is held, and its factors."""
-        p, held, live = self.flow.problem, self.held, sparse.csr_array(self.flow.problem.live[:, None])
-        kappa = np.concatenate([np.zeros(np.count_nonzero(self.tight)), self.pairs.kappa])
-        blocks: list[list[Any]] = [
-            [self._turn, -p.C, None, -sparse.csr_array(self._matrix.T @ held.T)],
-            [sparse.csr_array(p.C.T), None, -live, None],
-            [None, live.T, None, None],
-            [sparse.csr_array(held @ p.F), None, None, sparse.diags_array(kappa)],
-        ]
-        J = sparse.block_array(blocks, format="csc")
-        J = sparse.csc_array(J + self.delta * sparse.eye_array(J.shape[0]))
-        return J, diagonal_factors(J)
+        p, held, tight = self.flow.problem, self.held, np.count_nonzero(self.tight)
+        n, a = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
+        C, live, height = Entries.of(p.C), Entries.of(sparse.csr_array(p.live[:, None])), held.shape[0]
+        across = np.arange(tight, height)
+        blocks = [
+            (-C, 0, n), (-Entries.of(held @ self._matrix).T, 0, a + 1),
+            (C.T, n, 0), (-live, n, a),
+            (live.T, a, n),
+            (Entries.of(held @ p.F), a + 1, 0), (Entries(self.pairs.kappa, across, across), a + 1, a + 1),
+        ]  # fmt: skip
+        if self._turn is not None:
+            blocks.append((Entries.of(self._turn), 0, 0))
+        every = np.arange(a + 1 + height)
+        J = placed([*blocks, (Entries(np.full(len(every), self.delta), every, every), 0, 0)], len(every))
+        return J, factors_in_order(J, elimination(p, p.row_interface[held.indices[held.indptr[:-1]]]))
 
 
 def _exchanged(table: Array, was_tight: Mask) -> tuple[Array, Array]:

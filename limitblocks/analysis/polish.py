@@ -21,13 +21,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Any
 
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
-from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
@@ -39,9 +38,6 @@ REFINEMENTS = 4
 ROUNDING = 1e-14  # a residual that cannot fall further
 STEPS = 20  # of Newton's method
 PATIENCE = 4  # steps in turn that do not better the best state
-
-
-Solution = Callable[[sparse.csr_array, Array, int], Array]
 
 
 class Kind(IntEnum):
@@ -59,6 +55,9 @@ class Active:
     kind: Indices
     rows: Indices
     on_boundary: Indices
+
+
+Solution = Callable[[LimitProblem, Active, sparse.csr_array, Array], Array]
 
 
 def defect(flow: Flow, state: State) -> float:
@@ -148,25 +147,25 @@ def _step(flow: Flow, now: State, active: Active, solution: Solution) -> State:
     now = State(now.load_factor, now.x, now.u, y)
     residual, J = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
-    d = solution(J, -residual, n)
+    d = solution(p, active, J, -residual)
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
 
 
-def _proximal_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
-    """Solution of J d = r from J + delta I with refinement; the first n equations negated."""
-    sign = np.where(np.arange(len(r)) < n, -1.0, 1.0)
-    signed = in_units(J, sign, np.ones(len(r)))
-    lu = diagonal_factors(signed + PROXIMAL * sparse.eye_array(len(r), format="csr"))
-    d = lu.solve(sign * r)
+def _proximal_solution(p: LimitProblem, active: Active, J: sparse.csr_array, r: Array) -> Array:
+    """Solution of J d = r from J + delta I with refinement; the first equations (s,) negated."""
+    sign = np.where(np.arange(len(r)) < p.C.shape[0], -1.0, 1.0)
+    signed = in_units(J, sign, np.ones(len(r))) + PROXIMAL * sparse.eye_array(len(r), format="csr")
+    factors = factors_in_order(signed, elimination(p, p.row_interface[active.rows]))
+    d = factors.solve(sign * r)
     for _ in range(REFINEMENTS):
-        d = d + lu.solve(sign * (r - J @ d))
-    return np.asarray(d)
+        d = d + factors.solve(sign * (r - J @ d))
+    return d
 
 
-def _least_solution(J: sparse.csr_array, r: Array, n: int) -> Array:
-    """Least-norm least-squares solution of J d = r, where rows contradict each other; n as above."""
+def _least_solution(p: LimitProblem, active: Active, J: sparse.csr_array, r: Array) -> Array:
+    """Least-norm least-squares solution of J d = r, where rows contradict each other."""
     return least_solution(J, r, REGULAR)
 
 
@@ -174,33 +173,34 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
     """Residual of the equations of the yielding rows, and their derivative by (x, u, a, y of the rows)."""
     p = flow.problem
     s = p.F @ now.x + p.g
-    G = flow.matrix(now.x)
-    yields, conditions, by_stress, by_multiplier = _complementarity(p, s, now.y, active)
-    live = sparse.csr_array(p.live[:, None])
+    conditions, by_stress, by_multiplier = _complementarity(p, s, now.y, active)
     residual = np.concatenate(
         [
-            p.C @ now.u + G.T @ now.y,
-            p.C.T @ now.x - p.dead - now.load_factor * p.live,
+            p.C @ now.u + flow.strains(now.x, now.y),
+            p.balance @ now.x - p.dead - now.load_factor * p.live,
             [p.live @ now.u - 1.0],
             conditions,
         ]
     )
-    turn = None if flow.constant else -flow.derivative(now.x, now.y)
-    blocks: list[list[Any]] = [
-        [turn, p.C, None, G[yields].T],
-        [p.C.T, None, -live, None],
-        [None, live.T, None, None],
-        [by_stress, None, None, by_multiplier],
-    ]
-    if not len(yields):
-        blocks = [row[:3] for row in blocks[:3]]
-    return residual, sparse.csr_array(sparse.block_array(blocks))
+    n, a = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
+    C, yields, loaded = Entries.of(p.C), np.arange(len(active.rows)), np.flatnonzero(p.live)
+    flows, no = (
+        Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T,
+        np.zeros_like(loaded),
+    )
+    blocks = [
+        (C, 0, n), (flows, 0, a + 1),
+        (C.T, n, 0), (Entries(-p.live[loaded], loaded, no), n, a),
+        (Entries(p.live[loaded], no, loaded), a, n),
+        (by_stress, a + 1, 0), (by_multiplier, a + 1, a + 1),
+    ]  # fmt: skip
+    if not flow.constant:
+        blocks.append((Entries.of(-flow.derivative(now.x, now.y)), 0, 0))
+    return residual, placed(blocks, len(residual))
 
 
-def _complementarity(
-    p: LimitProblem, s: Array, y: Array, active: Active
-) -> tuple[Indices, Array, sparse.csr_array, sparse.csr_array]:
-    """Yielding rows, their conditions s = 0 or s o y = 0, and the derivatives by x and by y of these rows."""
+def _complementarity(p: LimitProblem, s: Array, y: Array, active: Active) -> tuple[Array, Entries, Entries]:
+    """Conditions s = 0 or s o y = 0 of the yielding rows, and their derivatives by x and by y of the rows."""
     rows, cones = active.rows, p.cones
     both = np.zeros(cones.height, dtype=bool)
     both[active.on_boundary] = True
@@ -208,10 +208,17 @@ def _complementarity(
     unit = np.maximum(np.abs(s[cones.heads]), np.abs(y[cones.heads]))[cones.member]
     unit = np.maximum(unit, 1e-300)
     factor = np.where(both, y / unit, cones.identity)  # s = s o e, e the identity
-    by_stress, by_multiplier = cones.arrow(factor)[rows], cones.arrow(np.where(both, s / unit, 0.0))[rows]
-    for arrow in (by_stress, by_multiplier):
-        arrow.eliminate_zeros()
-    return rows, cones.product(s, factor)[rows], by_stress @ p.F, by_multiplier[:, rows]
+    place = np.full(cones.height, -1)
+    place[rows] = np.arange(len(rows))
+
+    def derivative(v: Array) -> Entries:
+        """Of s o v in the yielding rows, by s."""
+        data, row, column = cones.arrow_entries(v)
+        kept = (data != 0.0) & (place[row] >= 0)
+        return Entries(data[kept], place[row[kept]], column[kept])
+
+    by_stress, (data, row, column) = derivative(factor), derivative(np.where(both, s / unit, 0.0))
+    return cones.product(s, factor)[rows], by_stress.times(p.F), Entries(data, row, place[column])
 
 
 def admissible(cones: Cones, state: State) -> State:

@@ -78,6 +78,13 @@ class Given:
         return np.asarray(np.bincount(p.cones.member, weights, minlength=p.cones.degree), dtype=float)
 
     @cached_property
+    def lever(self) -> Array:
+        """What makes rotations comparable to displacements: half the size of the interface, else 1, (s,)."""
+        p = self.flow.problem
+        is_force = abs(p.resultants).T @ np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(p.interfaces)) > 0.0
+        return np.where(is_force, 1.0, p.half_sides.max(axis=1)[p.stress_interface])
+
+    @cached_property
     def off(self) -> Array:
         """Least change of strength, or of forces by what acts, that takes each row to yield, (degree,)."""
         p, s = self.flow.problem, self.flow.problem.F @ self.state.x + self.flow.problem.g

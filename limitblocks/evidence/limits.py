@@ -16,7 +16,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import LimitProblem, in_units
 
 ROUNDING = 4 * np.finfo(float).eps  # of the terms of a row: no change of strength makes up for it
 Flags = npt.NDArray[np.bool_]
@@ -62,9 +62,8 @@ class Limits:
         drops = np.diff(dropped.indptr) > 0
         normal = np.zeros(p.F.shape[1])
         normal[p.resultants[2::6].indices] = 1.0
-        keep = sparse.diags_array(1.0 * (~drops & (self.sign != 0.0)))
-        rubbing = sparse.diags_array(1.0 * (drops & (self.sign != 0.0))) @ dropped
-        return sparse.csr_array((rubbing + keep @ p.F) @ sparse.diags_array(normal))
+        rubbing, along = (1.0 * (these & (self.sign != 0.0)) for these in (drops, ~drops))
+        return sparse.csr_array(in_units(dropped, rubbing, normal) + in_units(p.F, along, normal))
 
     @cached_property
     def constant(self) -> Array:
@@ -75,6 +74,10 @@ class Limits:
             g[first] = (self.problem.g[first] - self.problem.g[second]) / 2.0
             g[second] = -g[first]
         return g
+
+    @cached_property
+    def _sizes(self) -> sparse.csr_array:
+        return abs(self.problem.F)
 
     def changes(self, x: Array) -> Array:
         """Return the relative change of strength that takes each linear row and cone to yield, (degree,).
@@ -94,7 +97,7 @@ class Limits:
             at = slice(first, first + len(v))
             lacking[at] = np.where(parabola, bent, lacking[at])
             first += len(v)
-        terms = (abs(p.F) @ np.abs(x) + np.abs(p.g))[heads]
+        terms = (self._sizes @ np.abs(x) + np.abs(p.g))[heads]
         lacking = np.where(np.abs(lacking) <= ROUNDING * terms, 0.0, lacking)
         change = np.where(lacking == 0.0, 0.0, np.copysign(np.inf, lacking))
         np.divide(lacking, strength, out=change, where=(strength > 0.0) & (lacking != 0.0))

@@ -95,7 +95,7 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     )
     x = _cheapest(given, choice)
     at = _flowing(given, x, choice)
-    dead = p.C.T @ x - state.load_factor * p.live
+    dead = p.balance @ x - state.load_factor * p.live
     # dilatancy and what turns about the centre of pressure are in G and pivot already
     scaled = given.limits.scaled(_finite(at.change))
     ones = np.ones(len(p.friction))
@@ -139,9 +139,8 @@ def _flowing(given: Given, x: Array, choice: _Choice) -> _Flowing:
     rows, columns, count = given.places[0][p.cones.member], given.places[1], len(given.force)
     rates = p.C @ choice.u
     meant = np.bincount(rows, weights=np.abs(choice.y), minlength=count) > 0.0
-    off = np.where(meant[columns], rates + flow.matrix(x).T @ y, 0.0)
-    lever = _levers(p)
-    by_angle, whole = (np.bincount(columns, (lever * v) ** 2, count) for v in (off, rates))
+    off = np.where(meant[columns], rates + flow.strains(x, y), 0.0)
+    by_angle, whole = (np.bincount(columns, (given.lever * v) ** 2, count) for v in (off, rates))
     tangent = np.where(by_angle > 0.0, np.inf, 0.0)
     np.divide(np.sqrt(by_angle), np.sqrt(whole), out=tangent, where=whole > 0.0)
     return _Flowing(change, y, off, tangent)
@@ -162,6 +161,8 @@ def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_arra
 def _aligned(given: Given, s: Array, choice: _Choice) -> Array:
     """The multipliers of cones on the ray opposite to s = F x + g, nearest in flow to those given."""
     p, y = given.flow.problem, choice.y
+    if not p.cones.groups:
+        return y
     ray, fixed = y.copy(), [np.zeros(p.cones.linear, dtype=bool)]
     for rows in p.cones.groups:
         z, w = s[rows][:, 1:], y[rows]
@@ -191,10 +192,3 @@ def _turned(given: Given, at: _Flowing) -> sparse.csr_array:
     E = sparse.coo_array((at.off, (columns, np.arange(s))), shape=(count, s)).tocsr()
     centroid = replace(given.flow, turning=Turning.CENTROID).matrix(given.state.x)
     return sparse.csr_array(centroid - Y @ E)
-
-
-def _levers(p: LimitProblem) -> Array:
-    """What makes rotations of interfaces comparable to displacements: half of their size, else 1, (s,)."""
-    forces = np.tile([1.0, 1.0, 1.0, 0.0, 0.0, 0.0], len(p.interfaces))
-    is_force = abs(p.resultants).T @ forces > 0.0
-    return np.where(is_force, 1.0, p.half_sides.max(axis=1)[p.stress_interface])

@@ -97,7 +97,7 @@ def residual(
     `of` numbers the places of the values; left out, there is one for each. Nothing over nothing is zero;
     something over nothing, and NaN, is infinite.
     """
-    size, scale = np.abs(np.atleast_1d(values)), np.broadcast_to(scale, np.shape(np.atleast_1d(values)))
+    size, scale = np.abs(np.atleast_1d(values)), np.asarray(scale)
     shares = np.where(size == 0.0, 0.0, np.inf)
     np.divide(size, scale, out=shares, where=(scale > 0.0) & np.isfinite(scale) & np.isfinite(size))
     if not len(shares):
@@ -119,7 +119,7 @@ def static_residuals(
     """Residuals of the static theorem, Eqs (56) and (57)."""
     none = np.zeros(0)
     measure = measure or Measure(problem, State(load_factor, x, none, none))
-    unbalanced = problem.dead + load_factor * problem.live - problem.C.T @ x
+    unbalanced = problem.dead + load_factor * problem.live - problem.balance @ x
     margin = problem.cones.margin(problem.F @ x + problem.g)
     k = problem.member_interface
     rows = problem.units.row[problem.cones.heads]
@@ -147,7 +147,7 @@ def kinematic_residuals(
 ) -> tuple[Residual, ...]:
     """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
     p, measure = flow.problem, measure or Measure(flow.problem, state)
-    strain_rates = p.C @ state.u + flow.matrix(state.x).T @ state.y
+    strain_rates = p.C @ state.u + flow.strains(state.x, state.y)
     k = p.member_interface
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads]
     return (
@@ -238,7 +238,7 @@ def worth_of_violations(problem: LimitProblem, state: State) -> float:
     """
     x, u, y, cones = state.x, state.u, state.y, problem.cones
     s = problem.F @ x + problem.g
-    unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ x
+    unbalanced = problem.dead + state.load_factor * problem.live - problem.balance @ x
     flow = problem.C @ u + problem.F.T @ y
     outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(

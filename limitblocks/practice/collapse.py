@@ -61,7 +61,7 @@ def settlement_to_collapse(
     step : float, optional
         Largest step, m. Default: .01 of the size of the structure.
     largest : float
-        Settlement at which the curve ends, m.
+        Settlement at which the curve ends, m; at most the size of the structure.
     accuracy : float, optional
         Of the settlement at collapse, m. Default: 1e-6 of the size of the structure.
     progress : callable, optional
@@ -107,10 +107,12 @@ def _way(
     """The points, then the settlement at which it falls, or None, and why the way ends."""
     step, longest, accuracy, largest = lengths
     falls: float | None = None
+    end = min(largest, whole := assembly.size)
     while True:
         yield point
-        if point.displacement >= largest * (1.0 - 1e-12):
-            yield None, f"the settlement {largest:g} m is reached"
+        if point.displacement >= end * (1.0 - 1e-12):
+            size = "" if largest <= whole else ", the size of the structure,"
+            yield None, f"the settlement {end:g} m{size} is reached"
             return
         if not (
             point.reaction > CLOSED * point.found.settling.unit or _bears(assembly, control, point.found)
@@ -118,7 +120,7 @@ def _way(
             yield None, f"nothing rests on the support any more at {point.displacement:.6g} m"
             return
         while True:
-            step = min(step, largest - point.displacement)
+            step = min(step, end - point.displacement)
             at = point.displacement + step
             try:
                 there = advanced(assembly, control, _rates(point.found), step)

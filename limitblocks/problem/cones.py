@@ -137,13 +137,17 @@ class Cones:
 
     def arrow(self, v: Array) -> sparse.csr_array:
         """Return the matrix L(v) of L(v) w = v o w."""
+        return self._block_diagonal(*self.arrow_entries(v))
+
+    def arrow_entries(self, v: Array) -> tuple[Array, Indices, Indices]:
+        """Return the entries of L(v), zeros among them, their rows and their columns."""
         blocks = []
         for index in self.groups:
             w = v[index]
             block = w[:, :1, None] * np.eye(w.shape[1])
             block[:, 0, 1:] = block[:, 1:, 0] = w[:, 1:]
             blocks.append(block)
-        return self.matrix(v[: self.linear], blocks)
+        return self._entries(v[: self.linear], blocks)
 
     def inverse_arrow(self, v: Array) -> sparse.csr_array:
         """Return the inverse of L(v)."""
@@ -157,18 +161,22 @@ class Cones:
             outer = z[:, :, None] * z[:, None, :] / (t * det)[:, None, None]
             block[:, 1:, 1:] = np.eye(w.shape[1] - 1) / t[:, None, None] + outer
             blocks.append(block)
-        return self.matrix(1.0 / v[: self.linear], blocks)
+        return self._block_diagonal(*self._entries(1.0 / v[: self.linear], blocks))
 
-    def matrix(self, line: Array, blocks: list[Array]) -> sparse.csr_array:
-        """Return the block diagonal matrix of `line` and the blocks of each group of cones, (R, R)."""
+    def _entries(self, line: Array, blocks: list[Array]) -> tuple[Array, Indices, Indices]:
+        """Entries of `line` and the blocks of each group of cones, their rows and their columns."""
+        return np.concatenate([line, *(block.ravel() for block in blocks)]), *self._places
+
+    @cached_property
+    def _places(self) -> tuple[Indices, Indices]:
+        """Rows and columns of linear rows and of the blocks of cones."""
         k = np.arange(self.linear)
-        data, rows, columns = [line], [k], [k]
-        for index, block in zip(self.groups, blocks, strict=True):
-            data.append(block.ravel())
-            rows.append(np.broadcast_to(index[:, :, None], block.shape).ravel())
-            columns.append(np.broadcast_to(index[:, None, :], block.shape).ravel())
-        entries = (np.concatenate(data), (np.concatenate(rows), np.concatenate(columns)))
-        return sparse.coo_array(entries, shape=(self.height, self.height)).tocsr()
+        rows = (index.repeat(index.shape[1]) for index in self.groups)
+        columns = (index.repeat(index.shape[1], axis=0).ravel() for index in self.groups)
+        return np.concatenate([k, *rows]), np.concatenate([k, *columns])
+
+    def _block_diagonal(self, data: Array, rows: Indices, columns: Indices) -> sparse.csr_array:
+        return sparse.coo_array((data, (rows, columns)), shape=(self.height, self.height)).tocsr()
 
 
 def rays(size: int, count: int) -> Array:

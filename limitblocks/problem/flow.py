@@ -96,6 +96,14 @@ class Flow:
         share = sparse.diags_array(self.share[p.row_interface])
         return sparse.csr_array(p.G + share @ (p.F - p.G))
 
+    @cached_property
+    def _transposed(self) -> sparse.csc_array:
+        return self._centroid.T
+
+    def strains(self, x: Array, y: Array) -> Array:
+        """Return G(x)^T y: the strain rates of multipliers y (R,), with the other sign, shape (s,)."""
+        return np.asarray((self._transposed if self.constant else self.matrix(x).T) @ y)
+
     def matrix(self, x: Array) -> sparse.csr_array:
         """Return G at the stresses x, shape (R, s)."""
         if self.constant:
@@ -137,7 +145,7 @@ class Flow:
 
     def dissipation(self, x: Array, y: Array) -> Array:
         """Return the power -x . G(x)^T y that each interface takes up, shape (m,); negative: it gives."""
-        power = -x * (self.matrix(x).T @ y)
+        power = -x * self.strains(x, y)
         taken = np.zeros(len(self.problem.ends))
         np.add.at(taken, self.problem.stress_interface, power)
         return taken

@@ -164,6 +164,11 @@ class LimitProblem:
         return interface
 
     @cached_property
+    def balance(self) -> sparse.csc_array:
+        """C^T: the loads that stresses balance, shape (6 n, s)."""
+        return self.C.T
+
+    @cached_property
     def acting(self) -> sparse.csc_array:
         """|C|^T: the sum of sizes in each equation of equilibrium per size of each stress, shape (6 n, s)."""
         return sparse.csc_array(abs(self.C).T)

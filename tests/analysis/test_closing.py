@@ -259,16 +259,10 @@ def parts(state):
 
 
 def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
-    """Of corners that crush the path leaves 1e-8 to 3e-7."""
-    size = {"length": 2.4, "return_length": 2.4, "courses": 4, "direction": (0.0, 1.0, 0.0)}
+    """Of a corner that crushes the path leaves 5e-8 to 3e-7, whichever kernel of BLAS it has."""
+    joint = lb.OrdunaLourenco(0.56, compressive_strength=0.3e6)
+    corner = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0.0, 1.0, 0.0))
     settings = {"means": MEANS[:1], "confirm": False, "throw": False}
-
-    def closed():
-        crushing = ((0.56, 0.3e6), (0.6, 0.3e6), (0.62, 0.5e6))
-        joints = [lb.OrdunaLourenco(mu, compressive_strength=f) for mu, f in crushing]
-        corners = [lb.structures.corner(joint, **size) for joint in joints]
-        return sum(lb.nonassociated(one, **settings).converged for one in corners)
-
-    assert closed() >= 2
+    assert lb.nonassociated(corner, **settings).converged
     monkeypatch.setattr(ways, "pivoted", lambda flow, state: state)
-    assert closed() <= 1
+    assert not lb.nonassociated(corner, **settings).converged

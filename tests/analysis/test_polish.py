@@ -48,8 +48,8 @@ def test_where_it_is_plain_which_planes_yield_one_step_ends_at_rounding(joint, m
     problem = lb.structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=15).problem
     flow, made = Flow(problem), []
     solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
-    factors = polishing.diagonal_factors
-    monkeypatch.setattr(polishing, "diagonal_factors", lambda *given: (made.append(1), factors(*given))[1])
+    factors = polishing.factors_in_order
+    monkeypatch.setattr(polishing, "factors_in_order", lambda *given: (made.append(1), factors(*given))[1])
     assert defect(flow, polish(flow, noisy(solution, 1e-6), until=1e-13)) <= 1e-13
     assert len(made) == 1
 

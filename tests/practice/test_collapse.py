@@ -289,6 +289,24 @@ def test_it_ends_where_it_is_told_to():
     assert str(curve).endswith("the settlement 0.03 m is reached")
 
 
+def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure():
+    """What slides lifts, so that it never comes to rest, nor falls: five metres are its longest side."""
+    stones = [
+        lb.Block.box("left", (1, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("right", (1, 1, 1), (4, 0, -0.5)),
+        lb.Block.box("beam", (5, 1, 0.5), (2, 0, 0.25), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.5))
+    push = lb.mass_proportional((1, 0, 0))
+    model = lb.Model(stones, ["left", "right"], interfaces, lb.self_weight(), push)
+    curve = settlement_to_collapse(
+        model, "right", (1, 0, -1), step=5.0, accuracy=0.5, without_dilatancy=False
+    )
+    assert curve.ended == "the settlement 5 m, the size of the structure, is reached"
+    assert curve.points[-1].displacement == pytest.approx(5.0)
+    assert curve.falls is None
+
+
 @pytest.mark.parametrize(
     ("settings", "words"),
     [

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
+from limitblocks.analysis.nonassociated.path import RETURNED, Base, Lost, Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner, moved
 from limitblocks.analysis.nonassociated.path_newton import REFINED
 from limitblocks.analysis.nonassociated.path_start import centred
@@ -133,7 +133,7 @@ class _Stretch(Walk):
             pass
         return "arrived" if self.arrived else "lost"
 
-    def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+    def _accept(self, sign: float, base: Base) -> None:
         if self.base is not None and self._forward(-1) and sign != self.points[0].sign:
             ahead = self.length * abs(self.base.tangent.theta) / self.base.point.theta
             if ahead > TURN:
@@ -143,7 +143,7 @@ class _Stretch(Walk):
         elif self.kept and sign == self.points[0].sign and self.z.theta <= self.fold:
             self.fold = np.inf
         self.kept.append(self.z)
-        super()._accept(sign, correction, tangent)
+        super()._accept(sign, base)
 
     def _predict(self) -> None:
         super()._predict()

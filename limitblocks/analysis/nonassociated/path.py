@@ -17,11 +17,11 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
+    Covector,
     Path,
     Point,
+    covector,
     distance,
-    inner,
-    inners,
     moved,
     moved_on,
     residuals,
@@ -52,12 +52,13 @@ class Lost(Exception):
     """The path cannot be followed any further."""
 
 
-class _Base(NamedTuple):
-    """Where predictors start: a point near the path, its last correction and its tangent."""
+class Base(NamedTuple):
+    """Where predictors start: a point near the path, its last correction, its tangent, products with it."""
 
     point: Point
     correction: Point
     tangent: Point
+    ahead: Covector
 
 
 def track(
@@ -121,7 +122,7 @@ class Walk:
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
         self.path, self.budget, self.progress = path, budget, progress
         self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
-        self.base: _Base | None = None
+        self.base: Base | None = None
         self.length, self.correctors, self.tried = FIRST, 0, TRIED
         self.factorisations = self.failures = 0
         self.points: list[Progress] = []
@@ -169,7 +170,8 @@ class Walk:
             self._retreat()
             return
         turn = replace(turn, theta=1.0)
-        square, along = inners(self.path.cones, self.z, turn, turn, step)
+        onto = covector(self.path.cones, self.z, turn)
+        square, along = onto.of(turn), onto.of(step)
         if not (np.isfinite(square) and square > 0.0):
             self._retreat()
             return
@@ -179,25 +181,25 @@ class Walk:
             self.z = moved(self.path, self.z, 1.0, correction)
             return
         sign = newton.sign
-        tangent = turn.scaled(self._heading(sign, turn) / np.sqrt(square))
-        if not sign or self._returns(tangent):
+        unit = self._heading(sign, turn) / float(np.sqrt(square))
+        base = Base(self.z, correction, turn.scaled(unit), onto.scaled(unit))
+        if not sign or self._returns(base):
             self._retreat()
         else:
-            self._accept(sign, correction, tangent)
+            self._accept(sign, base)
 
     def _heading(self, sign: float, turn: Point) -> float:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""
         return -sign * (self.points[0].sign if self.points else sign)
 
-    def _returns(self, tangent: Point) -> bool:
-        """Whether the corrector fell back behind the base: the step went across a fold."""
+    def _returns(self, base: Base) -> bool:
+        """Whether the corrector fell back behind the last base: the step went across a fold."""
         if self.base is None or self.length < FIRST * CUT**4:
             return False
-        step = self.z.moved(-1.0, self.base.point)
-        ahead = inner(self.path.cones, self.z, step, tangent)
-        return min(ahead, inner(self.path.cones, self.base.point, step, self.base.tangent)) < 0.0
+        step = base.point.moved(-1.0, self.base.point)
+        return min(base.ahead.of(step), self.base.ahead.of(step)) < 0.0
 
-    def _accept(self, sign: float, correction: Point, tangent: Point) -> None:
+    def _accept(self, sign: float, base: Base) -> None:
         """Go on from a point near the path."""
         self.points.append(Progress(self.z.theta, self.z.load_factor, sign, self.factorisations))
         if self.progress is not None:
@@ -207,7 +209,7 @@ class Walk:
         if self.base is not None:
             self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)
         self.path = moved_on(self.path, self.z)
-        self.base = _Base(self.z, correction, tangent)
+        self.base = base
         self._predict()
 
     def _retreat(self) -> None:
@@ -220,7 +222,7 @@ class Walk:
 
     def _predict(self) -> None:
         assert self.base is not None
-        z, correction, tangent = self.base
+        z, correction, tangent, _ = self.base
         z = moved(self.path, z, 1.0, correction)
         self.z = moved(self.path, z, self.length, tangent)
         self.correctors = 0

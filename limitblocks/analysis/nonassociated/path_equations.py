@@ -15,6 +15,7 @@ make and fades with theta.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -178,12 +179,32 @@ def moved_on(path: Path, z: Point) -> Path:
     return replace(path, x0=z.x, carried=path.carried - jump)
 
 
+class Covector(NamedTuple):
+    """What takes directions to their product with one: mean of the relative changes of s and y, and of theta.
+
+    `theta` is that of the direction, `at` that of the point.
+    """
+
+    s: Array
+    y: Array
+    theta: float
+    at: float
+    degree: int
+
+    def of(self, b: Point) -> float:
+        """Return the product with a direction."""
+        return float(self.s @ b.s + self.y @ b.y) / self.degree + self.theta * b.theta / self.at**2
+
+    def scaled(self, t: float) -> Covector:
+        """Return that of the direction t times as long."""
+        return self._replace(s=t * self.s, y=t * self.y, theta=t * self.theta)
+
+
+def covector(cones: Cones, z: Point, a: Point) -> Covector:
+    """Return what takes directions at z to their product with one of them."""
+    return Covector(curvature(cones, z.s, a.s), curvature(cones, z.y, a.y), a.theta, z.theta, cones.degree)
+
+
 def inner(cones: Cones, z: Point, a: Point, b: Point) -> float:
-    """Return the product of two directions: mean of the relative changes of s and y, and that of theta."""
-    return inners(cones, z, a, b)[0]
-
-
-def inners(cones: Cones, z: Point, a: Point, *directions: Point) -> tuple[float, ...]:
-    """Return the products of one direction with others."""
-    s, y = curvature(cones, z.s, a.s), curvature(cones, z.y, a.y)
-    return tuple(float(s @ b.s + y @ b.y) / cones.degree + a.theta * b.theta / z.theta**2 for b in directions)
+    """Return the product of two directions."""
+    return covector(cones, z, a).of(b)

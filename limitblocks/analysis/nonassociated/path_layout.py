@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
+from limitblocks.analysis.elimination import Factors, rates_in_order
 from limitblocks.arrays import Array, Indices, owned
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
@@ -163,49 +164,39 @@ class Layout:
     def _pattern(self) -> tuple[Any, sparse.csr_array, Indices]:
         """[[0, live], [live^T, 0]] in the order of elimination, what takes parts of K to its data, the order.
 
-        Rates that move nothing, out of the plane of a planar problem, have -1 on the diagonal.
+        Rates that move nothing, out of the plane of a planar problem, are left out.
         """
         live, n, d = self.problem.live, self.problem.C.shape[1], self.rates.shape[1]
-        shape = (self.interfaces, d, d)
-        i = np.broadcast_to(self.rates[:, :, None], shape).ravel()
-        j = np.broadcast_to(self.rates[:, None, :], shape).ravel()
-        inside = np.flatnonzero((i < n) & (j < n))
-        loaded, still = np.flatnonzero(live), np.ones(n, dtype=bool)
-        still[self.problem.C.indices[self.problem.C.data != 0.0]] = False
-        end = np.full(len(loaded), n)
-        row = np.concatenate([np.arange(n + 1), loaded, end, i[inside]])
-        column = np.concatenate([np.arange(n + 1), end, loaded, j[inside]])
-        order = self._ordering(row, column)
-        places, at = np.unique(order[column] * (n + 1) + order[row], return_inverse=True)
-        constant = np.concatenate([np.append(-1.0 * still, 0.0), live[loaded], live[loaded]])
+        moving = np.zeros(n + 1, dtype=bool)
+        moving[self.problem.C.indices[self.problem.C.data != 0.0]] = moving[n] = True
+        order = rates_in_order(self.problem)
+        order = order[moving[order]]
+        number, size = np.full(n + 1, -1), len(order)
+        number[order] = np.arange(size)
+        loaded, end = np.flatnonzero(moving[:n] & (live != 0.0)), number[n]
+        number[n] = -1  # of what is no rate of an interface
+        shape, rates = (self.interfaces, d, d), number[self.rates]
+        i = np.broadcast_to(rates[:, :, None], shape).ravel()
+        j = np.broadcast_to(rates[:, None, :], shape).ravel()
+        inside, end = np.flatnonzero((i >= 0) & (j >= 0)), np.full(len(loaded), end)
+        row = np.concatenate([np.arange(size), number[loaded], end, i[inside]])
+        column = np.concatenate([np.arange(size), end, number[loaded], j[inside]])
+        places, at = np.unique(column * size + row, return_inverse=True)
+        constant = np.concatenate([np.zeros(size), live[loaded], live[loaded]])
         data, at = np.bincount(at[: len(constant)], constant, len(places)), at[len(constant) :]
-        pattern = sparse.csc_array((data, (places % (n + 1), places // (n + 1))), shape=(n + 1, n + 1))
+        pattern = sparse.csc_array((data, (places % size, places // size)), shape=(size, size))
         assembly = sparse.csr_array((np.ones(len(at)), (at, inside)), shape=(len(places), i.size))
         return pattern, assembly, order
 
-    def _ordering(self, row: Indices, column: Indices) -> Indices:
-        """Where each unknown goes so that factors stay sparse, found once for all points of a path."""
-        n = int(row.max()) + 1
-        matrix = sparse.coo_array((np.ones(len(row)), (row, column)), shape=(n, n)).tocsc()
-        dominant = sparse.csc_array(matrix + abs(matrix).sum() * sparse.eye_array(n))
-        return np.asarray(diagonal_factors(dominant).perm_c)
-
-    def factors(self, parts: Array) -> Any:
+    def factors(self, parts: Array) -> Factors:
         """Return the factors of [[-K, live], [live^T, 0]] of the stiffness parts (m, d, d)."""
-        pattern, assembly, _ = self._pattern
+        pattern, assembly, order = self._pattern
         data = pattern.data - assembly @ parts.ravel()
         if not np.isfinite(data).all():  # BLAS would print that it is illegal
             raise np.linalg.LinAlgError("the stiffness of a point that ran away is not finite")
         matrix = copy(pattern)  # which is checked once
         matrix.data = data
-        return diagonal_factors(matrix, "NATURAL")
-
-    def solved(self, lu: Any, right: Array) -> Array:
-        """Return the solution of those factors for a right-hand side (6 n + 1,), or several (6 n + 1, c)."""
-        order = self._pattern[-1]
-        ordered = np.empty_like(right)
-        ordered[order] = right
-        return np.asarray(lu.solve(ordered).take(order, axis=0))
+        return Factors(diagonal_factors(matrix, "NATURAL"), order)
 
     @cached_property
     def _stress_at(self) -> Indices:

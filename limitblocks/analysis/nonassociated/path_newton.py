@@ -46,14 +46,15 @@ class Newton:
     @property
     def sign(self) -> float:
         """Sign of det J, but for a factor that is the same all along the path."""
-        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu)
+        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu.factors)
 
     def solve(self, *sides: Equations) -> list[Point]:
         """Return the direction d with J d = q for each q, refined far down the path.
 
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
-        q = _Columns(*(np.stack(parts, axis=-1) for parts in zip(*map(_parts, sides), strict=True)))
+        columns = zip(*map(_parts, sides), strict=True)
+        q = _Columns(*(np.ascontiguousarray(np.array(parts).T) for parts in columns))
         multiplier = q.multiplier + self.fall(q.slack)
         loads = np.concatenate([q.balance, q.work[None]])
         d = self._eliminated(np.concatenate([q.flow + self.GT @ multiplier, loads]))
@@ -101,7 +102,7 @@ class Newton:
         n = len(self.elastic)
         free, loads = self._flexed(right[:n]), right[n:].copy()
         loads[:-1] += layout.balance @ free
-        w = layout.solved(self.lu, loads)
+        w = self.lu.solve(loads)
         x = free + self._flexed(p.C @ w[:-1])
         return np.concatenate([x, w, -self.fall(p.F @ x)])
 

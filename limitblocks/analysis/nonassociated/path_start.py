@@ -55,7 +55,7 @@ def path_from(
     C = layout.compatibility
     lu = layout.factors(np.swapaxes(C, 1, 2) @ (layout.per_interface(1.0 / weights)[:, :, None] * C))
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
-    rho0 = float(layout.solved(lu, np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
+    rho0 = float(lu.solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
     logarithms = np.zeros(p.cones.degree)
     if seed:
         logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
