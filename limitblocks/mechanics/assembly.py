@@ -132,7 +132,9 @@ def _grouped(interfaces: Sequence[Interface], units: Units) -> tuple[list[_Group
     asked = []
     for (joint, _, force, length), places in _members(interfaces, units).items():
         polygons = _stacked([interfaces[k].polygon for k in places]) / length
-        asked.append((np.array(places), polygons, joint.yield_rows(polygons, force / length**2)))
+        rows = joint.yield_rows(polygons, force / length**2)
+        _refuse_rows(joint, rows)
+        asked.append((np.array(places), polygons, rows))
     linear = sum(rows.linear * len(own) for own, _, rows in asked)
     sizes = sorted({size for _, _, rows in asked for size in rows.cones})
     counts = {size: sum(rows.cones.count(size) * len(own) for own, _, rows in asked) for size in sizes}
@@ -150,6 +152,23 @@ def _grouped(interfaces: Sequence[Interface], units: Units) -> tuple[list[_Group
         next_column += m * stresses
         groups.append(_Group(own, polygons, rows, np.concatenate(index, axis=1), column_index))
     return groups, cones
+
+
+def _refuse_rows(joint: Joint, rows: YieldRows) -> None:
+    """ModelError where the rows of a joint, of one's own, are none of its cones or leave a stress free."""
+    own = {name: getattr(rows, name).shape[1] for name in ("F", "g", "G", "pivot")}
+    expected = rows.linear + sum(rows.cones)
+    for name, count in (own | {"modes": len(rows.modes)}).items():
+        if count != expected:
+            raise ModelError(
+                f"{joint}: yield_rows has {name} of {count} rows, expected {expected} by linear and cones"
+            )
+    free = np.flatnonzero(~rows.F.any(axis=(0, 1)))
+    if len(free):
+        raise ModelError(
+            f"{joint}: yield_rows has no row of F that limits the generalised stress {free[0]}, counted"
+            " from 0; give it a limit, or leave it out of F, G and resultants: it is zero then"
+        )
 
 
 def _stacked(arrays: Sequence[Array]) -> Array:
