@@ -11,6 +11,7 @@ from limitblocks.errors import ModelError
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
 from limitblocks.joints import Tie
+from limitblocks.mechanics.loads import Fill
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
 from limitblocks.practice.spectra import Place, Spectrum
@@ -102,6 +103,11 @@ def remarks(model: Model, rates: Array, confidence: float) -> tuple[str, ...]:
         said.append(
             "there are ties: the capacity curve holds them to the end; C8.7.1.2.1.6 counts only what is sure"
             " to be there until collapse, and a tie that breaks before ends SLV"
+        )
+    if any(isinstance(term, Fill) for _, term in model.dead.terms):
+        said.append(
+            "there is fill among the dead loads, whose mass is not pushed; masses added to both loads are"
+            " (limitblocks.loads.added_mass)"
         )
     if not _plane(model, rates):
         said.append(

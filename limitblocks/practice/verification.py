@@ -207,6 +207,13 @@ def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple
         raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
     if curve.digest != model.digest:
         raise ModelError("the capacity curve belongs to another model")
+    last = curve.displacements[-2:]
+    low, high = last.min(), last.max()
+    if not low <= curve.zero <= high:
+        raise ModelError(
+            f"the capacity curve says that it is zero at {curve.zero:g} m; expected between its last two"
+            f" points, at {low:g} and {high:g} m"
+        )
     k = [block.name for block in model.blocks].index(curve.control.block)
     arm = curve.control.point - model.blocks[k].centroid
     delta = float((rates[k, :3] + np.cross(rates[k, 3:], arm)) @ curve.control.direction)

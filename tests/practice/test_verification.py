@@ -211,6 +211,26 @@ def test_what_a_file_says_is_checked_before_it_is_verified(facade, answer, curve
     assert said == "the capacity curve is as a file says, not computed here"
 
 
+def test_a_zero_that_the_points_of_a_curve_do_not_have_is_refused(facade, answer, curve):
+    """It is between the last two; beyond them, as a file may say, d0* would be too large."""
+    for zero in (3.0 * curve.zero, 1.01 * curve.zero, 0.5 * curve.zero, float("nan")):
+        with pytest.raises(lb.ModelError, match="expected between its last two points, at"):
+            verification(facade, answer, SITE, q=2.0, curve=replace(curve, zero=zero))
+
+
+def test_fill_that_is_not_pushed_is_said(facade, answer):
+    """Fill over the wall weighs in alpha0 and is none of the masses; the same as an added mass is one."""
+    filled = replace(facade, dead=facade.dead + lb.loads.fill(15e3, H + 1.0))
+    found = verification(filled, lb.nonassociated(filled), SITE, q=2.0)
+    own = WEIGHT * T * H
+    arms = own * T / 2 + FLOOR * ARM + 15e3 * T * T / 2
+    assert found["alpha0"] == pytest.approx(arms / (own * H / 2 + FLOOR * H), rel=1e-6)
+    assert found["sum P"] == pytest.approx(own + FLOOR)
+    (said,) = found.remarks
+    assert said.startswith("there is fill among the dead loads, whose mass is not pushed")
+    assert verification(facade, answer, SITE, q=2.0).remarks == ()
+
+
 def test_an_associated_load_factor_is_said_to_be_one(facade, answer):
     words = [q.formula for q in verification(facade, answer, SITE, q=2.0).quantities if q.symbol == "alpha0"]
     assert words == ["without dilatancy, this report"]
