@@ -23,7 +23,7 @@ from limitblocks.practice.advance import (
     velocity,
 )
 from limitblocks.practice.answered import answered
-from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control
+from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered
 from limitblocks.practice.snapped import held
@@ -91,16 +91,8 @@ def capacity_curve(
     point = _control(model, first, control)
     points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)
     points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
-    zero = None if ended else _zero(points)
+    zero = None if ended else zero_of(points)
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
-
-
-def _zero(points: Sequence[CapacityPoint]) -> float:
-    """Displacement of the zero, m: the last one, before a snap, or the secant's where that lies behind it."""
-    last = points[-1]
-    if last.snapped:
-        return points[-2].displacement
-    return last.displacement + (_to_zero(points[-2], last) if last.load_factor < 0.0 else 0.0)
 
 
 def _curve(
@@ -130,8 +122,8 @@ def _curve(
         # no block moves farther than that, however slow the control point is
         next_step = min(_next_step(assembly, before, point, steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
-        found = _ahead(assembly, control, point, step, scale, _to_zero(before, point))
-        small = point.load_factor <= SMALL * scale and _to_zero(before, point) <= EVENT * assembly.size
+        found = _ahead(assembly, control, point, step, scale, to_zero(before, point))
+        small = point.load_factor <= SMALL * scale and to_zero(before, point) <= EVENT * assembly.size
         if isinstance(found, str) and small:
             return  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
@@ -161,7 +153,7 @@ def _ahead(
         if found is None:
             return stopped(point.displacement)
         way, left = found[2].displacement - point.displacement, found[2].load_factor
-        beyond = -_to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
+        beyond = -to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
         if left >= -ZERO * scale or min(abs(way), beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
         step, most = (
@@ -175,19 +167,11 @@ def _next_step(assembly: Assembly, before: CapacityPoint | None, point: Capacity
     """A step of the curve, or the secant step to its zero once that is near; m, of the control point."""
     if before is None or point.snapped:
         return FIRST * assembly.size
-    last_step, ahead = abs(point.displacement - before.displacement), _to_zero(before, point)
+    last_step, ahead = abs(point.displacement - before.displacement), to_zero(before, point)
     if ahead == np.inf:  # it may rise at first
         return GROWTH * last_step
     whole = (point.displacement + ahead) / steps
     return ahead if ahead <= 1.5 * whole or ahead <= last_step else whole
-
-
-def _to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
-    """How far ahead the secant of two points is zero, m; infinite where they do not fall to it."""
-    if before is None or point.snapped:
-        return np.inf
-    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
-    return point.load_factor / slope if slope > 0.0 else np.inf
 
 
 def _advanced(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import takewhile
 from typing import Any
@@ -161,3 +162,20 @@ class CapacityCurve(Result):
             f"{self.ended}{beyond}"
             f"{self._as_read}"
         )
+
+
+def zero_of(points: Sequence[CapacityPoint]) -> float:
+    """Return the displacement of the zero, m: where it is met, before a snap, or the secant's behind it."""
+    last = points[-1]
+    if last.snapped:
+        return points[-2].displacement
+    ahead = to_zero(points[-2], last) if last.load_factor < 0.0 else 0.0
+    return last.displacement + (ahead if np.isfinite(ahead) else 0.0)  # it may fall on the way back
+
+
+def to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
+    """Return how far ahead the secant of two points is zero, m; infinite where they do not fall to it."""
+    if before is None or point.snapped:
+        return np.inf
+    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
+    return point.load_factor / slope if slope > 0.0 else np.inf

@@ -6,6 +6,8 @@ the official text. No verdict of a code beyond the inequalities named.
 
 from __future__ import annotations
 
+from math import isclose
+
 import numpy as np
 
 from limitblocks.analysis.magnitudes import of_ground
@@ -14,7 +16,7 @@ from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
-from limitblocks.practice.capacity_result import CapacityCurve
+from limitblocks.practice.capacity_result import CapacityCurve, zero_of
 from limitblocks.practice.displacement_check import displacement_check
 from limitblocks.practice.inputs import (
     GIVEN,
@@ -207,12 +209,9 @@ def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple
         raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
     if curve.digest != model.digest:
         raise ModelError("the capacity curve belongs to another model")
-    last = curve.displacements[-2:]
-    low, high = last.min(), last.max()
-    if not low <= curve.zero <= high:
+    if not isclose(curve.zero, zero := zero_of(curve.points)):
         raise ModelError(
-            f"the capacity curve says that it is zero at {curve.zero:g} m; expected between its last two"
-            f" points, at {low:g} and {high:g} m"
+            f"the capacity curve says that it is zero at {curve.zero:g} m; by its last points, at {zero:g} m"
         )
     k = [block.name for block in model.blocks].index(curve.control.block)
     arm = curve.control.point - model.blocks[k].centroid

@@ -233,7 +233,7 @@ def test_result_of_another_model_is_refused(tmp_path):
     other = lb.structures.block(lb.PointContact(0.4), width=0.5, height=1.0)
     for kind, saved in SAVED.items():
         file = saved.save(tmp_path / f"{kind}.json")
-        with pytest.raises(lb.ModelError, match=f"belongs to model .* saved by .* {lb.__version__}$"):
+        with pytest.raises(lb.ModelError, match=r"belongs to model \w+, not to this model \w+$"):
             lb.read_result(file, other)
         with pytest.raises(lb.ModelError, match=r"limitblocks 0\.0\.9, this .*: analyse it again$"):
             lb.read_result(changed(file, versions={"limitblocks": "0.0.9"}), other)

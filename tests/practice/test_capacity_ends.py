@@ -20,6 +20,7 @@ from limitblocks.practice import (
     reinforced,
     settlement_to_collapse,
 )
+from limitblocks.practice.capacity_result import zero_of
 from limitblocks.practice.displaced import assembly_of
 
 JOINT = lb.PointContact(0.6)
@@ -170,7 +171,7 @@ def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(mo
     control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
     _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
     assert tried == [0.8]
-    assert capacity._zero([point, found]) == pytest.approx(1.0, abs=1e-12)
+    assert zero_of([point, found]) == pytest.approx(1.0, abs=1e-12)
     assert found.displacement > 1.0 + 5e-7
 
 
@@ -233,3 +234,11 @@ def test_curve_ends_where_the_control_point_turns_back():
         assert turned < 1e-12  # never back
     turns = [one.model.blocks[1].centroid[0] for one in curve.points]
     assert np.all(np.diff(turns) > 0)
+
+
+def test_a_load_factor_that_falls_below_zero_on_the_way_back_is_zero_there():
+    """Its secant does not fall along the way; the lesser displacement is the safe one."""
+    model = sliding_block()
+    before = CapacityPoint(0.2, 0.1, 0.0, model, lb.nonassociated(model), ())
+    last = replace(before, displacement=0.2 - 1e-7, load_factor=-0.1)
+    assert zero_of([before, last]) == last.displacement

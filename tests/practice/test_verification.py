@@ -212,9 +212,9 @@ def test_what_a_file_says_is_checked_before_it_is_verified(facade, answer, curve
 
 
 def test_a_zero_that_the_points_of_a_curve_do_not_have_is_refused(facade, answer, curve):
-    """It is between the last two; beyond them, as a file may say, d0* would be too large."""
-    for zero in (3.0 * curve.zero, 1.01 * curve.zero, 0.5 * curve.zero, float("nan")):
-        with pytest.raises(lb.ModelError, match="expected between its last two points, at"):
+    """Where they are not zero, as a file may say, d0* would be wrong."""
+    for zero in (3.0 * curve.zero, 1.01 * curve.zero, 0.999 * curve.zero, float("inf"), float("nan")):
+        with pytest.raises(lb.ModelError, match="m; by its last points, at "):
             verification(facade, answer, SITE, q=2.0, curve=replace(curve, zero=zero))
 
 
