@@ -121,6 +121,24 @@ def test_pointing_at_a_block_opens_its_card(page, model):
     assert met == [None, FORMULA, None, "right", None]
 
 
+def test_a_click_before_the_next_frame_meets_what_will_be_seen(page):
+    """A slow renderer has not drawn the front yet; the legs stand a quarter of its width from the middle."""
+    page.evaluate(
+        """() => {
+          [held, frame] = [[], requestAnimationFrame];
+          requestAnimationFrame = (then) => held.push(then);
+        }"""
+    )
+    page.locator("[data-view=front]").click()
+    area = page.locator("canvas").bounding_box()
+    met = []
+    for share in (0.5, 0.7):
+        page.mouse.click(area["x"] + share * area["width"], area["y"] + 0.5 * area["height"])
+        met.append(card(page)[0])
+    page.evaluate("() => { requestAnimationFrame = frame; held.forEach((then) => frame(then)); }")
+    assert met == [None, "right"]
+
+
 def test_interface_card_says_what_the_result_says(page, model, results):
     show(page, "states")
     page.locator("[name=find]").fill(f"{FORMULA}|{HOSTILE}")

@@ -121,6 +121,7 @@ class Stage {
     const area = this.canvas.getBoundingClientRect();
     const x = ((event.clientX - area.left) / area.width) * 2 - 1;
     const y = 1 - ((event.clientY - area.top) / area.height) * 2;
+    this.camera.updateMatrixWorld(); // it may have moved since the last frame
     const raycaster = new THREE.Raycaster();
     raycaster.setFromCamera(new THREE.Vector2(x, y), this.camera);
     return raycaster;
