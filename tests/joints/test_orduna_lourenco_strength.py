@@ -25,6 +25,7 @@ from rectangles import (
 from scipy.optimize import brentq
 
 import limitblocks as lb
+from limitblocks.evidence import crushing
 from limitblocks.joints.interaction import effective_strength
 from limitblocks.joints.stress_block import over_stress_block
 from limitblocks.reports.sections import section
@@ -284,3 +285,24 @@ def test_results_say_how_far_crushing_is_beyond_the_stress_block(joint, tmp_path
         assert kept.remarks == lb.check_mcp(corner, kept).remarks == result.remarks
     flat = pushed(prism([(0, 0), (1, 0), (1, 0.7), (0, 0.7)], height), own, (1.0, 0.0))
     assert said not in " ".join([str(lb.bounds(flat)), *section(flat, lb.bounds(flat)).warnings])
+
+
+@pytest.mark.parametrize("many", [1, 500])
+def test_all_joints_beyond_the_stress_block_are_counted(many, monkeypatch):
+    """N at (1 - n) times the corner of each triangle: 1 + sqrt(n); a square under its centre has nothing."""
+    monkeypatch.setattr(crushing, "MANY", many)
+    ground, _ = prism([(0, 0), (1, 0), (0, 1)], 1.0)
+    outlines = [[(x, 0), (x + 1, 0), (x, 1)] for x in (0, 2, 4)] + [[(6, 0), (7, 0), (7, 1), (6, 1)]]
+    feet = [replace(prism(outline, 1.0)[1], name=f"foot {k}") for k, outline in enumerate(outlines)]
+    interfaces = lb.find_interfaces([ground, *feet], lb.OrdunaLourenco(0.6, compressive_strength=1e6))
+    model = lb.Model(
+        [ground, *feet], ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    )
+    Q = np.zeros((4, 6))
+    for k, (own, share) in enumerate(zip(interfaces, (0.04, 0.09, 0.25, 0.25), strict=True)):
+        force = share * shapely.Polygon(own.polygon).area * 1e6
+        e = (1.0 - share) * own.polygon[0] * (len(own.polygon) == 3)
+        Q[k] = force * np.array([0, 0, -1, -e[1], e[0], 0])
+    (said,) = crushing.beyond_stress_block(model, Q)
+    assert "ground|foot 2 carries 1.50 times" in said
+    assert "the most of 3 joints with too large a moment" in said
