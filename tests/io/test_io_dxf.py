@@ -79,6 +79,11 @@ def test_units(tmp_path):
         "says that its unit is mm: taken in cm, as asked, the structure is 0.01 m large, not 0.001 m"
     )
     assert lb.files.read_blocks(path, units="mm").guesses == ()
+    yards = drawn(tmp_path / "yards.dxf", lambda space: cube().render_mesh(space), units=10)
+    (said,) = lb.files.read_blocks(yards, units="m").guesses
+    assert said.endswith(
+        "its unit is 0.9144 m: taken in m, as asked, the structure is 1 m large, not 0.9144 m"
+    )
     path = drawn(tmp_path / "none.dxf", lambda space: cube().render_mesh(space), units=0)
     imported = lb.files.read_blocks(path)
     assert imported.blocks[0].size == pytest.approx(1.0, rel=1e-12)
@@ -86,7 +91,7 @@ def test_units(tmp_path):
     drawing = ezdxf.readfile(path)
     drawing.header["$INSUNITS"] = 99
     drawing.saveas(path)
-    assert "$INSUNITS is 99" in fault(path)
+    assert "$INSUNITS is 99; expected a code from 0 to 7 or 10 to 20" in fault(path)
 
 
 def test_block_references_take_scale_rotation_mirror_and_layer(tmp_path):

@@ -98,7 +98,9 @@ def metres_per_unit(drawing: Any) -> float | None:
     try:
         return float(conversion_factor(InsertUnits(code), InsertUnits.Meters))
     except (ValueError, TypeError, KeyError):
-        raise ModelError(f"unit of length $INSUNITS is {code!r}; expected a code from 0 to 24") from None
+        raise ModelError(
+            f"unit of length $INSUNITS is {code!r}; expected a code from 0 to 7 or 10 to 20"
+        ) from None
 
 
 def unit_notes(drawing: Any) -> list[str]:
