@@ -228,7 +228,7 @@ def test_worst_position_over_two_spans():
 
 @pytest.mark.parametrize(("spans", "voussoirs", "rise"), [(1, 11, 0.9), (2, 11, 0.75)])
 def test_the_worst_position_is_not_a_local_one(spans, voussoirs, rise):
-    """On one face a force moves linearly: 1 / load factor is convex, and the worst place is an end of a face."""
+    """On one face a force moves linearly, 1 / load factor is convex: the worst place is an end of a face."""
     shape = {"rise": rise, "spans": spans, "voussoirs": voussoirs}
     own, ends = Bridge(**shape), []
     for k in range(spans):

@@ -243,7 +243,7 @@ def test_a_printed_envelope_says_what_stands_beside_the_blocks():
 
 
 def test_an_interrupted_search_keeps_the_positions_tried():
-    """The overhang tips about x = 3: P (x - 3) = W (3 - 2); two of four positions are done, the first and the third."""
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2); of four positions two are done, 1 and 3."""
     places = []
 
     def second(x, _factor):

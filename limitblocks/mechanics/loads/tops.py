@@ -129,7 +129,7 @@ def covered(start: Array, end: Array, blocks: Sequence[Block]) -> Array:
 
 
 def stretches(start: Array, end: Array, blocks: Sequence[Block]) -> tuple[Array, Indices]:
-    """Return where a line in plan, from `start` to `end` (2,), is cut by edges, and the block below each part.
+    """Return where edges cut a line in plan, from `start` to `end` (2,), and the block below each part.
 
     Places from 0 to 1, shape (k + 1,), and positions in `blocks`, -1 where there is none, shape (k,).
     """
