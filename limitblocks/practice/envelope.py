@@ -62,7 +62,7 @@ class Envelope:
         return float(self.factors[max(first - 1, 0) : last + 1].min())
 
     def attain(self, share: float) -> None:
-        """Try the place where the mechanisms found carry least, until it carries as little, but for a share."""
+        """Try the place where the mechanisms found carry least until it does, but for a share of that."""
         while self.factors.min() < (1.0 - share) * self.least:
             x = float(self.x[self.factors.argmin()])
             if x in self.found:
