@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array, Indices, owned
-from limitblocks.problem.plane.alike import EXACT, pseudo_inverses, without_rounding
 from limitblocks.problem.plane.places import Place
+from limitblocks.problem.plane.rounding import EXACT, pseudo_inverses, without_rounding
 
 
 def images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:

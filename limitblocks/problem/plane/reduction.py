@@ -17,9 +17,9 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read_only
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
-from limitblocks.problem.plane.alike import EXACT
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
 from limitblocks.problem.plane.planar import Planar
+from limitblocks.problem.plane.rounding import EXACT
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
