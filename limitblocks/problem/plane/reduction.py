@@ -158,6 +158,8 @@ def symmetric(turn: Array) -> Array:
         sizes = np.linalg.norm(left, axis=1)
         largest = sizes.round(ALIKE).argmax(axis=1)
         size = sizes[np.arange(K), largest][:, None]
+        if (size <= SMALLEST).all():
+            break
         column = np.where(
             size > SMALLEST, left[np.arange(K), :, largest] / np.where(size > SMALLEST, size, 1.0), 0.0
         )
