@@ -80,7 +80,7 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
         one, sort = same_rows(np.concatenate([values / size, np.log2(size)], axis=1), AGREE)
         few = its_rows[one].ravel()
         first, unit = np.arange(len(few)) * c, problem.units.row[its_rows[one]]
-        at = strain[own].transpose(0, 2, 1, 3)
+        at = strain[own[:, None], [[0], [1]]]
         yield Place(
             columns=own,
             rows=its_rows,
