@@ -102,7 +102,7 @@ def test_torque_twists(joint):
 
 
 def test_a_bond_that_a_moment_alone_breaks_is_used_up():
-    """Without a force: c c_T of a unit square in torsion, ft A / 6 x 3 in bending by Eq. (36)."""
+    """Without a force, on a unit square: c A c_T in torsion, ft A l1 in bending by Eq. (36)."""
     joint = lb.OrdunaLourenco(0.6, cohesion=1e5, tensile_strength=5e4)
     light = lb.Block.box("stone", size=(1, 1, 1), at=(0, 0, 0.5), unit_weight=0.0)
     contacts = lb.find_interfaces([GROUND, light], joint)
