@@ -82,7 +82,9 @@ def test_a_block_without_weight_has_a_derivative_by_it():
     light = tuple(own.labelled(unit_weight=0.0) if own.name == name else own for own in model.blocks)
     volume, at = model.free_blocks[0].volume, model.free_blocks[0].centroid
     dead = lb.self_weight() + lb.loads.force(name, (0.0, 0.0, -laid), at)
-    model = replace(model, blocks=light, dead=dead, live=lb.loads.force(name, (push, 0.0, 0.0), (0.0, 0.0, z)))
+    model = replace(
+        model, blocks=light, dead=dead, live=lb.loads.force(name, (push, 0.0, 0.0), (0.0, 0.0, z))
+    )
     found = of(model)
     assert found.load_factor == pytest.approx(laid * WIDTH / (2.0 * push * z), rel=1e-6)
     assert found.unit_weight.sum() == pytest.approx(volume * WIDTH / (2.0 * push * z), rel=1e-6)
