@@ -57,8 +57,8 @@ class InterfaceStates(Tabular):
     names : tuple of str
         Names of the interfaces.
     state : tuple of str
-        "stick", "open" (moves apart all over, without a force or moment), or what it does, joined by "-" in this
-        order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
+        "stick", "open" (moves apart all over, without a force or moment), or what it does, joined by "-" in
+        this order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
         pressed together), "slide", "twist". A twist about the centre of pressure does not slide. Of a tie
         or dowel: "yield" (it gives), "slack" (the ends of a tie approach), else "stick".
     active_modes : tuple of tuple of Mode

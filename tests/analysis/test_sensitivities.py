@@ -75,7 +75,7 @@ def test_a_push_at_a_point_of_a_rocking_block():
 
 
 def test_a_block_without_weight_has_a_derivative_by_it():
-    """A stone of volume V under a dead force D, not weighed yet: a P z = (D + w V) b / 2, da/dw = V b / (2 P z)."""
+    """A stone of volume V under a dead force D: a P z = (D + w V) b / 2, so that da/dw = V b / (2 P z)."""
     z, push, laid = 1.5, 1000.0, 40e3
     model = block(lb.PointContact(2.0))
     (name,) = (own.name for own in model.free_blocks)

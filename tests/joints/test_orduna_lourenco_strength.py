@@ -186,9 +186,9 @@ def twisted(blocks, supports, joint, name):
     return lb.Model(blocks, supports, lb.find_interfaces(blocks, joint), lb.self_weight(), live)
 
 
-@pytest.mark.parametrize("joint, least", [(lb.OrdunaLourenco, 0.3), (lb.joints.ExactTorsion, 0.0)])
+@pytest.mark.parametrize(("joint", "least"), [(lb.OrdunaLourenco, 0.3), (lb.joints.ExactTorsion, 0.0)])
 def test_torsion_of_a_beam_on_three_pads_gathers_on_the_outer_two(joint, least):
-    """Outer pads slide at a: a + 0.3 c_T by Eqs (27)-(29), at least a exactly; evenly shared (2 a + c_T) / 3."""
+    """Outer pads slide at a: a + 0.3 c_T by Eqs (27)-(29), a exactly; evenly shared it is (2 a + c_T) / 3."""
     side, a = 0.4, 2.0
     pads = [lb.Block.box(f"pad {x}", (side, side, 0.2), (x, 0.0, -0.1)) for x in (-a, 0.0, a)]
     beam = lb.Block.box("beam", (2 * a + side, side, 0.5), (0.0, 0.0, 0.25), 20e3)
@@ -204,18 +204,42 @@ def test_torsion_of_a_beam_on_three_pads_gathers_on_the_outer_two(joint, least):
 
 
 @pytest.mark.parametrize(
-    "outline, least, most",
+    ("outline", "least", "most"),
     [
         ([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)], -0.05, 0.05),
         (
-            [(-1, -1.5), (1, -1.5), (1, -1.2), (0.15, -1.2), (0.15, 1.2), (1, 1.2), (1, 1.5), (-1, 1.5)]
-            + [(-1, 1.2), (-0.15, 1.2), (-0.15, -1.2), (-1, -1.2)],
+            [
+                (-1, -1.5),
+                (1, -1.5),
+                (1, -1.2),
+                (0.15, -1.2),
+                (0.15, 1.2),
+                (1, 1.2),
+                (1, 1.5),
+                (-1, 1.5),
+                (-1, 1.2),
+                (-0.15, 1.2),
+                (-0.15, -1.2),
+                (-1, -1.2),
+            ],
             0.25,
             0.35,
         ),
         (
-            [(-2, -0.05), (-0.5, -0.05), (-0.5, -0.5), (0.5, -0.5), (0.5, -0.05), (2, -0.05), (2, 0.05)]
-            + [(0.5, 0.05), (0.5, 0.5), (-0.5, 0.5), (-0.5, 0.05), (-2, 0.05)],
+            [
+                (-2, -0.05),
+                (-0.5, -0.05),
+                (-0.5, -0.5),
+                (0.5, -0.5),
+                (0.5, -0.05),
+                (2, -0.05),
+                (2, 0.05),
+                (0.5, 0.05),
+                (0.5, 0.5),
+                (-0.5, 0.5),
+                (-0.5, 0.05),
+                (-2, 0.05),
+            ],
             1.0,
             1.5,
         ),

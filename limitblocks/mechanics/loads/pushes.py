@@ -54,8 +54,8 @@ def turned(load: Load, direction: Sequence[float]) -> Load:
     if len(given) > 1:
         said = " and ".join(map(coordinates, sorted(given)))
         raise ModelError(
-            f"the live load acts along {said}, expected one direction to turn, or give the loads as a function "
-            "of the direction"
+            f"the live load acts along {said}, expected one direction to turn, or give the loads as a "
+            "function of the direction"
         )
     return Load(tuple(terms))
 
