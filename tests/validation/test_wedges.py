@@ -10,8 +10,8 @@ Associated: it moves (1, v) along the groove and up. On either plane that is v s
 sqrt(1 + v^2 cos^2 w) along; normality to Coulomb's cone, v sin w = mu sqrt(1 + v^2 cos^2 w), dissipates
 nothing, so that alpha W = W v and alpha = mu / sqrt(sin^2 w - mu^2 cos^2 w). Where tan w <= mu it is stuck.
 
-In between, with dilatancy psi, it moves (1, v) with v sin w = psi sqrt(1 + v^2 cos^2 w) =: psi s, and friction
-mu N points against that motion along either plane: 2 N (sin w - mu v cos^2 w / s) = W and alpha W = 2 mu N / s.
+In between, with dilatancy psi, it moves (1, v) with v sin w = psi sqrt(1 + v^2 cos^2 w) =: psi s, and mu N
+points against that along either plane: 2 N (sin w - mu v cos^2 w / s) = W and alpha W = 2 mu N / s.
 
 With an octagon whose side faces the slip, V may also have up to mu N tan(pi/8) across the slip, up or down
 the plane: 2 N (sin w +- mu tan(pi/8) cos w) = W gives the ends of an interval of load factors.
