@@ -58,8 +58,8 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     still = left_still(model.dead, model.live)
     if still:
         raise ModelError(
-            f"the live load lacks the mass added to {', '.join(still)} in the dead load, or a part of it; give "
-            "it to both"
+            f"the live load lacks the mass added to {', '.join(still)} in the dead load, or a part of it; "
+            "give it to both"
         )
     largest = max((abs(one.horizontal) for one in found), default=0.0)
     if not largest > 0.0:
