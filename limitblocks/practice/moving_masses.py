@@ -47,7 +47,7 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     ------
     ModelError
         If the live load is not made of weights and added masses along one horizontal direction, or takes
-        another share of the weights than all, or lacks a mass of the dead load.
+        another share of the weights than all, or lacks a mass of the dead load or a part of one.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
     found = []
