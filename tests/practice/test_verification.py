@@ -8,6 +8,7 @@ from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
+from limitblocks.mechanics import Load
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
 from limitblocks.practice.displacement_check import _least_at
 from limitblocks.practice.spectra import Place
@@ -356,6 +357,13 @@ def test_a_mass_that_weighs_is_pushed_too(facade):
         verification(still, lb.bounds(still), SITE, q=2.0)
     direction = facade.live.terms[0][1].direction
     pushed = replace(still, live=lb.mass_proportional(direction, [floor]))
+    blocks, mass = pushed.live.terms
+    partly = replace(still, live=Load((blocks, (0.3, mass[1]))))
+    with pytest.raises(lb.ModelError, match=f"the mass added to {block.name} in the dead load, or a part"):
+        verification(partly, lb.bounds(partly), SITE, q=2.0)
+    alone = replace(still, live=Load((mass,)))
+    with pytest.raises(lb.ModelError, match="the weights times 0; expected 1"):
+        verification(alone, lb.bounds(alone), SITE, q=2.0)
     assert any(floor.block in one.name for one in verification(pushed, lb.bounds(pushed), SITE, q=2.0).masses)
 
 
