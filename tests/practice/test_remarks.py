@@ -5,13 +5,15 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.practice import (
+    CapacityCurve,
+    CapacityPoint,
+    Control,
     Deck,
     PartialFactors,
     Spectrum,
     Vehicle,
     Verification,
     adequacy,
-    capacity_curve,
     least_ties,
     tie,
     verification,
@@ -32,11 +34,19 @@ def pier():
     return lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional(DIAGONAL))
 
 
+def begun(pier):
+    """A capacity curve of one point."""
+    answer = lb.nonassociated(pier)
+    point = CapacityPoint(0.0, answer.load_factor, 0.0, pier, answer, ())
+    control = Control("pier", np.array([0.5, 0.5, 4.0]), np.array(DIAGONAL))
+    return CapacityCurve((point,), control, None, "stopped")
+
+
 @pytest.mark.parametrize(
     "made",
     [
         lambda pier: adequacy(pier, PartialFactors(1.0, 1.5, 1.0)),
-        lambda pier: capacity_curve(pier, steps=2, largest=1e-4),
+        begun,
         lambda pier: least_ties(
             pier, [tie("pier", (0, 0, 3.9), "ground", (-9, -9, 3.9), area=1e-3, strength=1e8)], 0.3
         ),
