@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, positions
 from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import TOLERANCE
@@ -30,6 +30,21 @@ class Given:
     def G(self) -> sparse.csr_array:
         """The flow at the state."""
         return self.flow.matrix(self.state.x)
+
+    @cached_property
+    def _entries(self) -> tuple[Indices, Indices, tuple[int, int]]:
+        """Row of each entry of G, its place in a table by linear row or cone and stress, and its shape."""
+        p, position = self.flow.problem, positions(self.flow.problem.stress_interface)
+        row, shape = (
+            np.repeat(np.arange(len(p.g)), np.diff(self.G.indptr)),
+            (p.cones.degree, position.max() + 1),
+        )
+        return row, p.cones.member[row] * shape[1] + position[self.G.indices], shape
+
+    def by_member(self, y: Array) -> Array:
+        """Return the strain rates -G^T y of each linear row and cone by itself, shape (degree, k)."""
+        row, place, shape = self._entries
+        return np.bincount(place, -y[row] * self.G.data, shape[0] * shape[1]).reshape(shape)
 
     @cached_property
     def sought(self) -> Sought:
