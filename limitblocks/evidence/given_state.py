@@ -35,16 +35,14 @@ class Given:
     def _entries(self) -> tuple[Indices, Indices, tuple[int, int]]:
         """Row of each entry of G, its place in a table by linear row or cone and stress, and its shape."""
         p, position = self.flow.problem, positions(self.flow.problem.stress_interface)
-        row, shape = (
-            np.repeat(np.arange(len(p.g)), np.diff(self.G.indptr)),
-            (p.cones.degree, position.max() + 1),
-        )
-        return row, p.cones.member[row] * shape[1] + position[self.G.indices], shape
+        row, most = np.repeat(np.arange(len(p.g)), np.diff(self.G.indptr)), int(position.max()) + 1
+        return row, p.cones.member[row] * most + position[self.G.indices], (p.cones.degree, most)
 
     def by_member(self, y: Array) -> Array:
         """Return the strain rates -G^T y of each linear row and cone by itself, shape (degree, k)."""
         row, place, shape = self._entries
-        return np.bincount(place, -y[row] * self.G.data, shape[0] * shape[1]).reshape(shape)
+        sums = np.bincount(place, -y[row] * self.G.data, shape[0] * shape[1])
+        return np.asarray(sums.reshape(shape), dtype=float)
 
     @cached_property
     def sought(self) -> Sought:
