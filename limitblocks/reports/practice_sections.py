@@ -117,8 +117,9 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         own=True,
         meaning=(
             "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
-            "the model's own live load; the fill disperses the axles. The least one is found by a search "
-            "between the worst positions, a local minimum, with the place to a thousandth of the way."
+            "the model's own live load; the fill disperses the axles. Every mechanism found bounds the load "
+            "factor at all positions; tried is where they carry least, until that is attained. That no other "
+            "position is worse is searched for, not proven."
         ),
         headline=cut(found.bounds.lower),
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
