@@ -81,9 +81,10 @@ class WorstPosition(Result):
         total = sum(self.vehicle.axles)
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
+        said = "".join(f"; {one}" for one in self.bounds.remarks)
         return (
             f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{beyond}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
+            f"{self.bounds.lower:.6g}{beyond}{said}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
         )
 
 

@@ -59,6 +59,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
         values=tuple(values),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
+        warnings=found.remarks,
         parts=(Figure(drawn, SETTLED.format(picture.magnification), LEGEND),),
     )
 
@@ -84,7 +85,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
         ),
         checks=checks_of(found.result.residuals, found.result.tolerance),
         tolerance=found.result.tolerance,
-        warnings=_short_of(found),
+        warnings=_short_of(found) + found.remarks,
         parts=(Table.of("Reinforcement", ("Candidate", "Least"), rows, right=(1,)),),
     )
 
@@ -134,7 +135,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,
-        warnings=() if found.complete else (STOPPED,),
+        warnings=found.bounds.remarks + (() if found.complete else (STOPPED,)),
         curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,
     )

@@ -212,6 +212,12 @@ def test_the_number_of_blocks_says_which_means_are_followed(blocks, in_space, re
         assert ways.own_means(blocks, in_space, False, reduced) == (PATIENT if reduced else MEANS)
 
 
+def test_in_the_whole_a_large_barrier_that_winds_is_given_up_before_its_budget_ends_and_in_one_half_later():
+    whole, half = LARGE_MEANS[1], LARGE_HALF_MEANS[1]
+    assert (whole.barrier, whole.seed) == (half.barrier, half.seed)
+    assert 0 < whole.patience < min(whole.budget, half.patience)
+
+
 @pytest.mark.parametrize("largest", [True, False])
 def test_beyond_three_hundred_blocks_one_barrier_goes_on(largest, monkeypatch):
     """With a thirtieth of the budgets: of this corner 20 factorisations are too few, and 133 are enough."""

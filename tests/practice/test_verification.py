@@ -217,6 +217,17 @@ def test_an_associated_load_factor_is_said_to_be_one(facade, answer):
     )
 
 
+def test_a_curve_whose_joints_press_across_their_gaps_is_said_to(facade, answer, curve):
+    gap = "ground|wall presses across a gap of 1 mm"
+    first, second, *rest = curve.points
+    filled = replace(curve, points=(first, second, *(replace(one, across=(gap,)) for one in rest)))
+    found = verification(facade, answer, SITE, q=2.0, curve=filled)
+    said = f"beyond {second.displacement:.4g} m of the capacity curve joints press across their gaps"
+    assert [said in one for one in found.remarks].count(True) == 1
+    without = verification(facade, answer, SITE, q=2.0, curve=curve)
+    assert not any("gaps" in one for one in without.remarks)
+
+
 def test_a_ground_acceleration_that_may_be_in_g_is_asked_about(facade, answer):
     """.25 g = 2.45 m/s2; .5 m/s2 is a calm site."""
     (said,) = verification(facade, answer, Spectrum(0.25, 1.2, 2.5, 0.5), q=2.0).remarks
