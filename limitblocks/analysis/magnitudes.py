@@ -173,8 +173,9 @@ def _of_forces(model: Model, size: float) -> Iterator[str]:
             force = np.multiply(term.direction, term.weight) if isinstance(term, AddedMass) else term.force
             most = float(np.linalg.norm(force))
             acts = abs(factor) * most
-            if word == "dead" and 0.0 < acts < min(_FAINT, _FAINT_SHARE * block.weight):
-                yield f"{on}: {acts:.3g} N on a block of {block.weight:.3g} N; kN? see units"
+            weight = block.weight if block.unit_weight else 0.0
+            if word == "dead" and 0.0 < acts < min(_FAINT, _FAINT_SHARE * weight):
+                yield f"{on}: {acts:.3g} N on a block of {weight:.3g} N; kN? see units"
             arm = np.subtract(term.at, block.centroid)
             if isinstance(term, PointForce) and most:  # where on its line it acts makes no difference
                 arm = np.cross(arm, force) / most

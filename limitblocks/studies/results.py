@@ -56,9 +56,11 @@ class Rows(Saved):
 
 
 def unanswered(load_factors: Array, errors: Sequence[str]) -> str:
-    """Return in words how many load factors are unlimited and how many missing, with why the first is."""
-    lost, unlimited = np.isnan(load_factors), int(np.isinf(load_factors).sum())
+    """Return in words how many load factors are unlimited, fall or are missing, with why the first is."""
+    fallen = np.array([error.startswith("NoEquilibrium") for error in errors])
+    lost, unlimited = np.isnan(load_factors) & ~fallen, int(np.isinf(load_factors).sum())
     words = [f"{unlimited} unlimited"] if unlimited else []
+    words += [f"{fallen.sum()} that fall ({errors[int(fallen.argmax())]})"] if fallen.any() else []
     words += [f"{lost.sum()} without an answer ({errors[int(lost.argmax())]})"] if lost.any() else []
     return "".join(f"; {word}" for word in words)
 
@@ -87,7 +89,7 @@ class Study(Rows):
 
     @property
     def least(self) -> int:
-        """Number of the row of least load factor.
+        """Number of the row of least load factor; rows that fall under the dead loads alone have none.
 
         Raises
         ------

@@ -287,3 +287,18 @@ def test_tables_say_units():
     assert found.table().startswith("angle, rad")
     assert " rad, x " in str(found)
     assert "angle" in found.rows()[0]
+
+
+def test_rows_that_fall_are_told_apart():
+    """A force of 1 at 0.6 beside a base of half side 0.5: it falls."""
+
+    def leaning(x):
+        if x > 0.8:
+            raise lb.ModelError("too far")
+        blocks = [lb.Block.box("g", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("c", (1, 1, 1), (0, 0, 0.5))]
+        dead, live = lb.loads.force("c", (0, 0, -1.0), (x, 0, 1)), lb.loads.force("c", (1.0, 0, 0), (0, 0, 1))
+        return lb.Model(blocks, ["g"], lb.find_interfaces(blocks, lb.PointContact(2.0)), dead, live)
+
+    said = str(studies.sweep(leaning, (0.9, 0.6, 0.0)))
+    assert "least load factor 0.5 at value 0; 1 that fall (NoEquilibrium" in said
+    assert "1 without an answer (ModelError: too far" in said
