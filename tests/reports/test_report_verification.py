@@ -129,7 +129,9 @@ def test_a_verification_that_lacks_a_check_has_no_ratio_at_its_head(answers):
     said = lb.report(model, solved, lacking)
     head = chapter(said, TITLE).parts[0]
     assert head.number == "not complete"
-    assert head.quantity.startswith("verification: no non-linear check: the capacity curve does not end at zero")
+    assert head.quantity.startswith(
+        "verification: no non-linear check: the capacity curve does not end at zero"
+    )
     assert head.quantity.endswith("least ratio of capacity to demand: linear, SLV, satisfied")
     assert "not complete" in said.text.split("Side by side")[0]  # what is said about safety
     checks = rows(said, TITLE, "Checks")
