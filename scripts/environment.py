@@ -46,6 +46,17 @@ def prepare(extra=""):
     install(extra, started)
 
 
+def enter():
+    """Run this command by the Python of the environment, unless the running one has limitblocks."""
+    try:
+        from importlib.metadata import version
+
+        version("limitblocks")
+    except ImportError:
+        prepare("dev")
+        sys.exit(subprocess.call([PYTHON, *sys.argv]))
+
+
 def accepted_stamps(extra):
     """Stamps of environments that serve: a developer's serves everybody."""
     with open(os.path.join(ROOT, "pyproject.toml"), "rb") as file:

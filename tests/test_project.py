@@ -97,6 +97,29 @@ def test_every_command_of_the_folder_scripts_knows_help():
     assert [name for name, text in texts.items() if "ArgumentParser(" not in text] == []
 
 
+def test_commands_of_the_folder_scripts_go_on_in_the_environment(tmp_path):
+    """`scripts/random_suite`, run by a Python without limitblocks, said that there is no module joblib."""
+    scripts = ROOT / "scripts"
+    bare = {file for file in scripts.iterdir() if file.is_file() and not file.suffix} - {
+        scripts / name for name in ("demo", "docs", "lowest", "package", "test")
+    }
+    for file in bare:
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        first = next(node for node in tree.body if isinstance(node, (ast.Import, ast.ImportFrom)))
+        assert ast.unparse(first) == "import in_environment", file.name
+    command = tmp_path / "command.py"
+    command.write_text("import sys; print('run', sys.argv[1]); sys.exit(3)")
+    code = (
+        f"import sys; sys.path.insert(0, {str(scripts)!r}); import environment; "
+        "environment.prepare = lambda extra: print('prepared', extra, flush=True); "
+        f"environment.PYTHON = sys.executable; sys.argv = [{str(command)!r}, 'it']; environment.enter()"
+    )
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", code], check=False, capture_output=True, text=True
+    )
+    assert (done.stdout.split(), done.returncode) == (["prepared", "dev", "run", "it"], 3)
+
+
 def test_lowest_versions_are_the_lower_bounds():
     lowest = runpy.run_path(str(ROOT / "scripts" / "lowest"))["lowest"]()
     assert "numpy==" in " ".join(lowest)

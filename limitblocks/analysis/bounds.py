@@ -21,13 +21,7 @@ from limitblocks.analysis.interior import carried
 from limitblocks.analysis.limit_state import IN_HALF, limit_state, programs_of
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.programs import (
-    ROUNDS,
-    kinematic_program,
-    solved,
-    solvers,
-    static_program,
-)
+from limitblocks.analysis.programs import ROUNDS, kinematic_program, solved, solvers, static_program
 from limitblocks.analysis.scales import Scaled, repaired, scaled, unmoved
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.analysis.stability import dead_load_state
@@ -37,13 +31,7 @@ from limitblocks.errors import SolverFailure
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.proof import Proof
-from limitblocks.evidence.residuals import (
-    OF_BOUNDS,
-    Residual,
-    Residuals,
-    bounds_residuals,
-    nearest,
-)
+from limitblocks.evidence.residuals import OF_BOUNDS, Residual, Residuals, bounds_residuals, nearest
 from limitblocks.known import known
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model

@@ -40,6 +40,10 @@ class Entries(NamedTuple):
     def __neg__(self) -> Entries:
         return Entries(-self.data, self.row, self.column)
 
+    def square(self, size: int) -> sparse.csr_array:
+        """Return the square matrix of this size with these entries."""
+        return sparse.csr_array((self.data, (self.row, self.column)), (size, size))
+
     def times(self, matrix: sparse.csr_array) -> Entries:
         """Return those of the product with a matrix."""
         which, position = repeated(np.diff(matrix.indptr)[self.column])
@@ -60,10 +64,10 @@ class Factors(NamedTuple):
         return solution
 
 
-def factors_in_order(K: sparse.csr_array, order: Indices) -> Factors:
+def factors_in_order(entries: Entries, order: Indices) -> Factors:
     """Return the factors of a matrix, its unknowns eliminated in an order, without row exchanges."""
-    (data, row, column), place = Entries.of(K), numbered(order)
-    matrix = sparse.csc_array((data, (place[row], place[column])), K.shape)
+    (data, row, column), place = entries, numbered(order)
+    matrix = sparse.csc_array((data, (place[row], place[column])), (len(order), len(order)))
     return Factors(diagonal_factors(matrix, "NATURAL"), order)
 
 
@@ -74,12 +78,13 @@ def numbered(order: Indices) -> Indices:
     return number
 
 
-def placed(blocks: Sequence[tuple[Entries, int, int]], size: int) -> sparse.csr_array:
-    """Return the square matrix of blocks, each with the row and the column where it begins."""
-    data = np.concatenate([block.data for block, _, _ in blocks])
-    row = np.concatenate([first + block.row for block, first, _ in blocks])
-    column = np.concatenate([first + block.column for block, _, first in blocks])
-    return sparse.csr_array((data, (row, column)), (size, size))
+def placed(blocks: Sequence[tuple[Entries, int, int]]) -> Entries:
+    """Return the entries of blocks, each with the row and the column where it begins."""
+    return Entries(
+        np.concatenate([block.data for block, _, _ in blocks]),
+        np.concatenate([first + block.row for block, first, _ in blocks]),
+        np.concatenate([first + block.column for block, _, first in blocks]),
+    )
 
 
 def elimination(problem: LimitProblem, interface: Indices) -> Indices:

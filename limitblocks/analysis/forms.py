@@ -44,23 +44,31 @@ class Stresses:
             "iterative_refinement_enable": self.refined,
         }
 
+    @cached_property
+    def balanced(self) -> Indices:
+        """Equations of equilibrium with any number in them: rates out of a plane have none."""
+        p = self.problem
+        moved = np.bincount(p.C.indices, minlength=len(p.dead)) > 0
+        return np.flatnonzero(moved | (p.dead != 0.0) | (p.live != 0.0))
+
     def limit(self) -> Program:
         """Largest load factor in equilibrium within the yield set. Variable: load factor and x."""
-        p = self.problem
-        (s, n), F, pushed = p.C.shape, p.F, np.flatnonzero(p.live)
+        p, equations = self.problem, self.balanced
+        s, F, pushed = p.C.shape[0], p.F, np.flatnonzero(p.live)
         v, least = cp.Variable(1 + s), -np.eye(1, 1 + s)[0]
         data, equation = np.append(-p.live[pushed], p.C.data), np.append(pushed, p.C.indices)
         start = np.concatenate([[0], len(pushed) + p.C.indptr])  # columns of C^T are the rows of C
-        columns: Any = (data, equation, start)
-        balance = sparse.csc_array(columns, shape=(n, 1 + s)) @ v == p.dead
+        columns: Any = (data, np.searchsorted(equations, equation), start)
+        balance = sparse.csc_array(columns, shape=(len(equations), 1 + s)) @ v == p.dead[equations]
         rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
         inside = map_in_cone(rows, v, p.cones, p.g)
         return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:
         """The state of a solution of `limit` and its duals."""
-        n = len(self.problem.dead)
-        return State(float(v[0]), v[1:], -w[:n], w[n:])
+        u, count = np.zeros(len(self.problem.dead)), len(self.balanced)
+        u[self.balanced] = -w[:count]
+        return State(float(v[0]), v[1:], u, w[count:])
 
 
 @dataclass(frozen=True, eq=False)

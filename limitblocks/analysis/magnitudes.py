@@ -48,6 +48,8 @@ _THICK = 5e-2
 _DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
 _LARGE, _SMALL = 3e2, 5e-2
+#: Rounding of coordinates, of the size of a structure, beyond which load factors may be off by 1e-6.
+_ROUGH = 1e-7
 
 
 def questions(model: Model) -> list[str]:
@@ -58,7 +60,14 @@ def questions(model: Model) -> list[str]:
         asked += _of_weight(weight)
     corners = np.concatenate([block.vertices for block in model.blocks])
     size = float(np.ptp(corners, axis=0).max())
-    return [*asked, *_of_forces(model, size), *_of_ties(model), *_of_ties_twice(model), *of_size(size)]
+    return [
+        *asked,
+        *_of_forces(model, size),
+        *_of_ties(model),
+        *_of_ties_twice(model),
+        *of_size(size),
+        *_of_place(corners, size),
+    ]
 
 
 def weightless(model: Model) -> list[str]:
@@ -73,6 +82,18 @@ def of_size(size: float) -> list[str]:
     if size < _SMALL:
         return [f"the structure is {size:.4g} m large: is it in metres? see units"]
     return []
+
+
+def _of_place(corners: Array, size: float) -> list[str]:
+    """Return the question for a structure so far from the origin that rounding changes its shape."""
+    far = float(np.abs(corners).max())
+    rounded = float(np.spacing(far))
+    if rounded <= _ROUGH * size:
+        return []
+    return [
+        f"the structure is {far:.4g} m off the origin, where coordinates are rounded to {rounded:.1g} m: "
+        "move it to the origin"
+    ]
 
 
 def of_volumes(blocks: Sequence[Block]) -> list[str]:

@@ -195,8 +195,9 @@ class _Linearised:
         if self._turn is not None:
             blocks.append((Entries.of(self._turn), 0, 0))
         every = np.arange(a + 1 + height)
-        J = placed([*blocks, (Entries(np.full(len(every), self.delta), every, every), 0, 0)], len(every))
-        return J, factors_in_order(J, elimination(p, p.row_interface[held.indices[held.indptr[:-1]]]))
+        entries = placed([*blocks, (Entries(np.full(len(every), self.delta), every, every), 0, 0)])
+        order = elimination(p, p.row_interface[held.indices[held.indptr[:-1]]])
+        return entries.square(len(every)), factors_in_order(entries, order)
 
 
 def _exchanged(table: Array, was_tight: Mask) -> tuple[Array, Array]:

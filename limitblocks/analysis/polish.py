@@ -23,14 +23,12 @@ from dataclasses import dataclass, replace
 from enum import IntEnum
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
-from limitblocks.problem.limit_problem import in_units
 
 PROXIMAL = 1e-6  # delta
 REGULAR = 1e-11  # eps of the least solution
@@ -57,7 +55,7 @@ class Active:
     on_boundary: Indices
 
 
-Solution = Callable[[LimitProblem, Active, sparse.csr_array, Array], Array]
+Solution = Callable[[LimitProblem, Active, Entries, Array], Array]
 
 
 def defect(flow: Flow, state: State) -> float:
@@ -145,31 +143,33 @@ def _step(flow: Flow, now: State, active: Active, solution: Solution) -> State:
     y = np.zeros_like(now.y)
     y[active.rows] = now.y[active.rows]
     now = State(now.load_factor, now.x, now.u, y)
-    residual, J = _equations(flow, now, active)
+    residual, entries = _equations(flow, now, active)
     n, k = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
-    d = solution(p, active, J, -residual)
+    d = solution(p, active, entries, -residual)
     y = now.y.copy()
     y[active.rows] += d[k + 1 :]
     return State(now.load_factor + float(d[k]), now.x + d[:n], now.u + d[n:k], y)
 
 
-def _proximal_solution(p: LimitProblem, active: Active, J: sparse.csr_array, r: Array) -> Array:
+def _proximal_solution(p: LimitProblem, active: Active, entries: Entries, r: Array) -> Array:
     """Solution of J d = r from J + delta I with refinement; the first equations (s,) negated."""
-    sign = np.where(np.arange(len(r)) < p.C.shape[0], -1.0, 1.0)
-    signed = in_units(J, sign, np.ones(len(r))) + PROXIMAL * sparse.eye_array(len(r), format="csr")
-    factors = factors_in_order(signed, elimination(p, p.row_interface[active.rows]))
+    every, J = np.arange(len(r)), entries.square(len(r))
+    sign = np.where(every < p.C.shape[0], -1.0, 1.0)
+    signed = entries._replace(data=sign[entries.row] * entries.data)
+    added = placed([(signed, 0, 0), (Entries(np.full(len(r), PROXIMAL), every, every), 0, 0)])
+    factors = factors_in_order(added, elimination(p, p.row_interface[active.rows]))
     d = factors.solve(sign * r)
     for _ in range(REFINEMENTS):
         d = d + factors.solve(sign * (r - J @ d))
     return d
 
 
-def _least_solution(p: LimitProblem, active: Active, J: sparse.csr_array, r: Array) -> Array:
+def _least_solution(p: LimitProblem, active: Active, entries: Entries, r: Array) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other."""
-    return least_solution(J, r, REGULAR)
+    return least_solution(entries.square(len(r)), r, REGULAR)
 
 
-def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.csr_array]:
+def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
     """Residual of the equations of the yielding rows, and their derivative by (x, u, a, y of the rows)."""
     p = flow.problem
     s = p.F @ now.x + p.g
@@ -196,7 +196,7 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, sparse.cs
     ]  # fmt: skip
     if not flow.constant:
         blocks.append((Entries.of(-flow.derivative(now.x, now.y)), 0, 0))
-    return residual, placed(blocks, len(residual))
+    return residual, placed(blocks)
 
 
 def _complementarity(p: LimitProblem, s: Array, y: Array, active: Active) -> tuple[Array, Entries, Entries]:

@@ -198,20 +198,21 @@ def _number(joint: object, word: str) -> float:
 
 
 def _by_weights(model: Model, si: State) -> Array:
-    """Derivatives by the unit weights of all blocks (n,), zero for supports; a load is its block's own."""
-    weights = np.array([block.unit_weight or 0.0 for block in model.blocks])
-    powers = []
-    for t in (STEP, -STEP):
-        blocks = [
-            replace(block, unit_weight=(1.0 + t) * block.unit_weight) if block.unit_weight else block
-            for block in model.blocks
-        ]
-        powers.append(_loads_power(replace(model, blocks=blocks), si))
-    change = np.where(weights > 0.0, 2.0 * STEP * weights, 1.0)
-    ordered = np.zeros(len(weights))
-    free = [k for k, block in enumerate(model.blocks) if block.name not in set(model.supports)]
-    ordered[free] = -(powers[0] - powers[1])
-    return read_only(np.where(weights > 0.0, ordered / change, 0.0))
+    """Derivatives by the unit weights of all blocks (n,), zero for supports; a load is its block's own.
+
+    Loads are linear in them, so that any step is exact, also that of a block without weight.
+    """
+    step = max(block.unit_weight or 0.0 for block in model.blocks) or 1.0
+    heavier = [
+        block if block.unit_weight is None else block.labelled(unit_weight=block.unit_weight + step)
+        for block in model.blocks
+    ]
+    change = _loads_power(replace(model, blocks=heavier), si) - _loads_power(model, si)
+    ordered = np.zeros(len(model.blocks))
+    ordered[[k for k, block in enumerate(model.blocks) if block.name not in set(model.supports)]] = (
+        -change / step
+    )
+    return read_only(ordered)
 
 
 def _loads_power(model: Model, si: State) -> Array:

@@ -72,6 +72,7 @@ def run(name: Name) -> None:
     with clean_errors():
         file = find(name)
         sys.path.insert(0, str(file.parent))  # as `python FILE` does
+        words, sys.argv = sys.argv, [str(file)]
         try:
             runpy.run_path(str(file), run_name="__main__")
         except ModuleNotFoundError as error:
@@ -79,6 +80,7 @@ def run(name: Name) -> None:
 
             raise missing(str(error.name), file.stem) from None
         finally:
+            sys.argv = words
             sys.path.remove(str(file.parent))
 
 

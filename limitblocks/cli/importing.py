@@ -15,6 +15,7 @@ from limitblocks.cli.joints import DEFAULT, JointName, MaybeFriction, Slip, Stre
 from limitblocks.cli.options import (
     BlocksFile,
     Force,
+    Layers,
     Live,
     MaterialsFile,
     Supports,
@@ -68,6 +69,7 @@ def import_blocks(
     compressive_strength: Strength = None,
     units: Units = None,
     thickness: Thickness = None,
+    layers: Layers = [],  # noqa: B006 # as above
     up: Up = None,
     gap: Gap = None,
     angle: Angle = None,
@@ -91,10 +93,12 @@ def import_blocks(
         law, table = _joints(joint, friction, strength, materials)
         read: Any = {"units": units, "unit_weight": _unit_weight(unit_weight, table), "skip_bad": skip_bad}
         if thickness is None:
+            if layers:
+                raise ModelError("--layers is of DXF elevations: give --thickness, too")
             read |= {"up": up, "twisted": twisted}
             imported = read_blocks(file, **read)
         else:
-            imported = read_drawing(file, thickness=thickness, **read)
+            imported = read_drawing(file, thickness=thickness, layers=layers or None, **read)
         _refuse_no_supports(file, imported, supports)
         tolerances: Any = {"gap": gap, "angle": angle, "width": width}
         if heal:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import typer
 
 from limitblocks.cli.errors import clean_errors
-from limitblocks.cli.options import AsJson, BlocksFile, Thickness, TwistedFaces, Units, Up
+from limitblocks.cli.options import AsJson, BlocksFile, Layers, Thickness, TwistedFaces, Units, Up
 from limitblocks.errors import few
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ def look(
     file: BlocksFile,
     units: Units = None,
     thickness: Thickness = None,
+    layers: Layers = [],  # noqa: B006 # typer wants a list, and nothing changes it
     up: Up = None,
     twisted: TwistedFaces = None,
     as_json: AsJson = False,
@@ -33,7 +34,8 @@ def look(
         from limitblocks.reports.terminal import print_table, print_warnings
         from limitblocks.reports.words import together
 
-        seen = looked(file, units=units, up=up, twisted=cast("Twisted | None", twisted), thickness=thickness)
+        faces = cast("Twisted | None", twisted)
+        seen = looked(file, units=units, up=up, twisted=faces, thickness=thickness, layers=layers or None)
         if as_json:
             typer.echo(json.dumps(seen.to_dict()))
             return
@@ -47,7 +49,7 @@ def look(
         for note in together(seen.notes):
             typer.echo(f"note: {note}")
         print_warnings(seen.warnings)
-        typer.echo(f"\nNext: {_next(seen, units, up, twisted, thickness)}")
+        typer.echo(f"\nNext: {_next(seen, units, up, twisted, thickness, layers)}")
 
 
 def _rows(seen: Look) -> list[tuple[str, str]]:
@@ -91,7 +93,14 @@ def _row(seen: Look, block: SeenBlock) -> tuple[str, ...]:
     return block.name, *words, size, f"{block.volume:.3g}", coordinate(block.bottom), coordinate(block.top)
 
 
-def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, thickness: float | None) -> str:
+def _next(
+    seen: Look,
+    units: str | None,
+    up: str | None,
+    twisted: str | None,
+    thickness: float | None,
+    layers: list[str],
+) -> str:
     """Return the command that makes a model of the file, with numbers to be put right by the user."""
     if seen.format == "limitblocks model":
         return f"limitblocks info {shlex.quote(seen.file)}"
@@ -101,6 +110,7 @@ def _next(seen: Look, units: str | None, up: str | None, twisted: str | None, th
         words += [option, stated.lower()] if given or source.startswith("guessed") else []
     words += ["--twisted", twisted] if twisted else []
     words += ["--thickness", f"{thickness:g}"] if thickness else []
+    words += [part for layer in layers for part in ("--layers", layer)]
     words += ["--skip-bad"] if seen.faults else []
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)

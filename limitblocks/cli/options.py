@@ -112,6 +112,12 @@ Up = Annotated[
 Thickness = Annotated[
     float | None, typer.Option(help="FILE is a DXF elevation; depth of its blocks along Y, m.")
 ]
+Layers = Annotated[
+    list[str],
+    typer.Option(
+        metavar="LAYER", help="Layer of the elevation to take outlines from; repeat [default: all]."
+    ),
+]
 Count = Annotated[int, typer.Option(help="Number of directions or places.", min=1)]
 Workers = Annotated[
     int | None, typer.Option(help="Processes [default: one for each core].", min=1, show_default=False)

@@ -169,9 +169,9 @@ def _checked(
     problem = model.problem
     flow = Flow(problem, claim.dilatancy, turning_of(claim.turning))
     state, mechanism_found = _state(model, flow, claim)
-    bounds = claim.upper is not None and flow.associated
-    tolerance = least or (OF_BOUNDS if bounds else TOLERANCE)
-    judged = _of_bounds(flow, claim, state) if bounds else mcp_residuals(flow, state)
+    upper = claim.upper if flow.associated else None
+    tolerance = least or (TOLERANCE if upper is None else OF_BOUNDS)
+    judged = mcp_residuals(flow, state) if upper is None else _of_bounds(flow, claim, state, upper)
     entries = (*judged.entries, *steps, _standing(problem, claim))
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
@@ -179,10 +179,9 @@ def _checked(
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 
-def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:
+def _of_bounds(flow: Flow, claim: Claim, state: State, upper: float) -> Residuals:
     """Residuals of both theorems; and whether the states prove the bounds, if that is claimed."""
-    problem, upper = flow.problem, claim.upper
-    assert upper is not None  # the caller saw to it
+    problem = flow.problem
     judged = bounds_residuals(flow, state, upper * problem.units.live)
     if not claim.proven:
         return judged
@@ -196,16 +195,10 @@ def _of_bounds(flow: Flow, claim: Claim, state: State) -> Residuals:
 
 def _state(model: Model, flow: Flow, claim: Claim) -> tuple[State, bool]:
     """The claim as a dimensionless state, and whether its mechanism had to be searched for."""
-    problem = model.problem
-    u = _rates(model, claim)
-    y = claim.flow_multipliers
-    known = State(
-        claim.load_factor,
-        _stresses(problem, claim),
-        np.zeros(problem.C.shape[1]) if u is None else u,
-        np.zeros(len(problem.g)) if y is None else y,
-    )
-    state = problem.dimensionless(known)
+    problem, u, y = model.problem, _rates(model, claim), claim.flow_multipliers
+    rates = np.zeros(problem.C.shape[1]) if u is None else u
+    multipliers = np.zeros(len(problem.g)) if y is None else y
+    state = problem.dimensionless(State(claim.load_factor, _stresses(problem, claim), rates, multipliers))
     if u is not None and y is not None:
         return state, False
     rates, multipliers = find_mechanism(flow, state.x, None if u is None else state.u)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, positions
 from limitblocks.evidence.limits import Flags, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import TOLERANCE
@@ -30,6 +30,19 @@ class Given:
     def G(self) -> sparse.csr_array:
         """The flow at the state."""
         return self.flow.matrix(self.state.x)
+
+    @cached_property
+    def _entries(self) -> tuple[Indices, Indices, tuple[int, int]]:
+        """Row of each entry of G, its place in a table by linear row or cone and stress, and its shape."""
+        p, position = self.flow.problem, positions(self.flow.problem.stress_interface)
+        row, most = np.repeat(np.arange(len(p.g)), np.diff(self.G.indptr)), int(position.max()) + 1
+        return row, p.cones.member[row] * most + position[self.G.indices], (p.cones.degree, most)
+
+    def by_member(self, y: Array) -> Array:
+        """Return the strain rates -G^T y of each linear row and cone by itself, shape (degree, k)."""
+        row, place, shape = self._entries
+        sums = np.bincount(place, -y[row] * self.G.data, shape[0] * shape[1])
+        return np.asarray(sums.reshape(shape), dtype=float)
 
     @cached_property
     def sought(self) -> Sought:

@@ -21,7 +21,7 @@ from limitblocks.model import Model, checked_model
 from limitblocks.problem import LimitProblem, Mode
 from limitblocks.shown import Tabular, many
 
-LOADED = 1e-6  # of the unit of force of an interface: a contact force below it counts as none
+LOADED = 1e-6  # of the units of an interface: forces and moments below it count as none
 
 
 class Collapse(Protocol):
@@ -57,8 +57,8 @@ class InterfaceStates(Tabular):
     names : tuple of str
         Names of the interfaces.
     state : tuple of str
-        "stick", "open" (moves apart all over, without a force), or what it does, joined by "-" in this
-        order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
+        "stick", "open" (moves apart all over, without a force or moment), or what it does, joined by "-" in
+        this order: "hinge" or "crush" (a hinge about a line within the interface, so that a part of it is
         pressed together), "slide", "twist". A twist about the centre of pressure does not slide. Of a tie
         or dowel: "yield" (it gives), "slack" (the ends of a tie approach), else "stick".
     active_modes : tuple of tuple of Mode
@@ -77,7 +77,7 @@ class InterfaceStates(Tabular):
         Force that block i exerts on block j, global axes, N; block i feels the opposite.
     utilisation : Array, shape (m,)
         How much of the strength is used, N held, from 0 to 1 on the yield surface; see
-        :func:`limitblocks.evidence.utilisation.utilisation`. 0 without a force.
+        :func:`limitblocks.evidence.utilisation.utilisation`. 0 without a force or moment.
     """
 
     names: tuple[str, ...]
@@ -138,7 +138,7 @@ def interface_states(model: Model, result: Collapse | LoadPath) -> InterfaceStat
     centroid = np.stack([interface.centroid for interface in model.interfaces])
     Q = collapse.stress_resultants
     least_force = LOADED * problem.units.interface_force
-    loaded = np.linalg.norm(Q[:, :3], axis=1) > least_force
+    loaded = np.linalg.norm(Q / problem.units.resultants.reshape(-1, 6), axis=1) > LOADED
     N = np.where(-Q[:, 2] > least_force, Q[:, 2], np.nan)
     e = np.stack([-Q[:, 4], Q[:, 3]], axis=1) / N[:, None]
     dq = relative_rates(model, collapse.displacement_rates)

@@ -15,7 +15,7 @@ from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.moved_forces import moved_forces
 from limitblocks.evidence.multipliers import near_yield
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
-from limitblocks.problem import Flow, LimitProblem, State, Turning
+from limitblocks.problem import Flow, State, Turning
 
 NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
@@ -49,7 +49,7 @@ class _Choice(NamedTuple):
 
     u: Array
     y: Array
-    each: sparse.csr_array
+    each: Array
     flows: Flags
 
 
@@ -87,12 +87,10 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     """The problem of which stresses and mechanism are exact, where the flow of `y` is that of u."""
     flow, state = given.flow, given.state
     p = flow.problem
-    each = by_member(p, given.G, y)
-    rates = np.sqrt(each.power(2).sum(axis=1))
+    each = given.by_member(y)
+    rates = np.sqrt((each * each).sum(axis=1))
     flows = (rates > NOISE * np.abs(p.C @ u).max(initial=0.0)) & ~given.still(u)[given.places[0]]
-    choice = _Choice(
-        u, np.where(flows[p.cones.member], y, 0.0), sparse.diags_array(1.0 * flows) @ each, flows
-    )
+    choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), each * flows[:, None], flows)
     x = _cheapest(given, choice)
     at = _flowing(given, x, choice)
     dead = p.balance @ x - state.load_factor * p.live
@@ -151,13 +149,6 @@ def _finite(change: Array) -> Array:
     return np.where(np.isfinite(change), change, 0.0)
 
 
-def by_member(p: LimitProblem, G: sparse.csr_array, y: Array) -> sparse.csr_array:
-    """Strain rates -G^T y of each linear row and cone by itself, shape (degree, s)."""
-    rows = np.arange(p.cones.height)
-    each = sparse.coo_array((-y, (p.cones.member, rows)), shape=(p.cones.degree, p.cones.height))
-    return sparse.csr_array(each.tocsr() @ G)
-
-
 def _aligned(given: Given, s: Array, choice: _Choice) -> Array:
     """The multipliers of cones on the ray opposite to s = F x + g, nearest in flow to those given."""
     p, y = given.flow.problem, choice.y
@@ -172,8 +163,8 @@ def _aligned(given: Given, s: Array, choice: _Choice) -> Array:
         w[on] = np.column_stack([np.ones(on.sum()), -z[on] / size[on, None]])
         ray[rows] = w
         fixed.append(on)
-    along = by_member(p, given.G, ray)
-    both, square = choice.each.multiply(along).sum(axis=1), along.power(2).sum(axis=1)
+    along = given.by_member(ray)
+    both, square = (choice.each * along).sum(axis=1), (along * along).sum(axis=1)
     part = np.maximum(both, 0.0) / np.where(square > 0.0, square, 1.0)
     return np.asarray(np.where(np.concatenate(fixed), part, 1.0)[p.cones.member] * ray)
 

@@ -52,7 +52,9 @@ def write_forces(
     path = Path(file)
     if path.suffix.lower() not in formats.FORCES:
         known = ", ".join(formats.FORCES)
-        raise ModelError(f"{path}: suffix {path.suffix!r} takes no forces; expected one of {known}")
+        raise ModelError(
+            f"{path}: suffix {path.suffix!r} takes no forces; expected one of {known}, or .vtu of write_vtu"
+        )
     shown = picture(model, result, scale)
     shown = replace(
         shown,

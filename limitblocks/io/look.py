@@ -132,6 +132,7 @@ def look(
     up: str | None = None,
     twisted: Twisted | None = None,
     thickness: float | None = None,
+    layers: str | Sequence[str] | None = None,
 ) -> Look:
     """Return what is in `file`, of any format in docs/files.md, before anything else is known.
 
@@ -143,6 +144,8 @@ def look(
         As for :func:`limitblocks.read`.
     thickness : float, optional
         As for :func:`limitblocks.files.read_drawing`, of a DXF elevation, m.
+    layers : str or sequence of str, optional
+        As there, of a DXF elevation.
 
     Raises
     ------
@@ -152,6 +155,8 @@ def look(
         The format needs a package that is not installed.
     """
     path = Path(file)
+    if layers and thickness is None:
+        raise ModelError(f"{path}: layers are of DXF elevations: give thickness (--thickness), too")
     if is_model_file(path):
         if units or up or twisted or thickness:
             raise ModelError(f"{path}: a model file says units, axes and faces itself; leave these out")
@@ -159,7 +164,7 @@ def look(
         own = "m, as limitblocks reads model files", "Z, as in every model file"
         return _look(path, "limitblocks model", model.blocks, *own, marked=tuple(model.supports))
     with faults.named(path):
-        contents = contents_of(path) if thickness is None else elevation(path, thickness, units)
+        contents = contents_of(path) if thickness is None else elevation(path, thickness, units, layers)
         where = frame(contents, units, up)
         made = blocks_of(contents, where, twisted)
         if not made.blocks and made.wrong:

@@ -62,6 +62,8 @@ class ExactTorsion(Queries):
       24 % below torsion alone on a triangle; outer, Eq. (30) on the bounding rectangles along the sides;
     - shear and bending reduce torsion independently, as in the paper. With eccentricity e the shear force of
       pure sliding acts at e, so this errs on either side by up to mu |N| |e| in T;
+    - areas in several convex pieces: each piece is bracketed, not how they share the pressure. Associated
+      flow gathers it where its lever is longest: the torsion of the whole is too strong with either side;
     - no cohesion: it would act on an effective area that depends on the state.
 
     Parameters

@@ -16,7 +16,7 @@ from limitblocks.plots.capacities import capacity, settlement
 from limitblocks.plots.contacts import forces, interface_states, thrust_line
 from limitblocks.plots.curves import convergence, load_path, polar
 from limitblocks.plots.findings import findings
-from limitblocks.plots.sensitivities import sensitivity
+from limitblocks.plots.sensitivity import sensitivity
 from limitblocks.plots.structures import mechanism, structure
 from limitblocks.plots.surfaces import interaction
 

@@ -119,6 +119,8 @@ class Canvas:
             self.ax.update_datalim(self.flat(np.concatenate([points, *self.beyond])))
             self.ax.margins(0.04)
             self.ax.autoscale_view()
+            # one tick will do on a thin wall: matplotlib wants two, whose labels touch
+            self.ax.xaxis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 2.5, 5, 10], min_n_ticks=1))
             plain(self.ax)
             return
         low, high = points.min(axis=0), points.max(axis=0)

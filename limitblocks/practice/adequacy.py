@@ -80,6 +80,11 @@ class Adequacy(Result):
         """Whether it is at least one: E_d <= R_d, EN 1990 Eq. (6.8), for the loads and factors given."""
         return self.factor >= 1.0
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of the answer that the factor is of."""
+        return (self.result or self.bounds).remarks
+
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each value that was factored."""
         return [dict(vars(value)) for value in self.values]
@@ -104,7 +109,8 @@ class Adequacy(Result):
         flow = "without dilatancy" if self.result else "associated"
         least = "at least one" if self.satisfied else "LESS than one"
         given = f"characteristic load factor {self.characteristic.lower:.6g}, associated"
-        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}{self._as_read}"
+        said = "".join(f"; {one}" for one in self.remarks)
+        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}{said}{self._as_read}"
 
 
 def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool = True) -> Adequacy:

@@ -113,6 +113,11 @@ class CapacityCurve(Result):
         return sound[-1]
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of the first point."""
+        return self.points[0].result.remarks
+
+    @property
     def digest(self) -> str:
         """SHA-256 of the model, the structure as it is."""
         return self.points[0].result.digest
@@ -159,7 +164,7 @@ class CapacityCurve(Result):
         beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
         return (
             f"capacity curve of {many(len(self.points), 'point')} from load factor {first:.6g}: "
-            f"{self.ended}{beyond}"
+            f"{self.ended}{beyond}{''.join(f'; {one}' for one in self.remarks)}"
             f"{self._as_read}"
         )
 

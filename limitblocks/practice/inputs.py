@@ -78,7 +78,7 @@ def flow_words(dilatancy: float) -> str:
 
 
 def unproven(collapse: Any, curve: CapacityCurve | None) -> tuple[str, ...]:
-    """Return where the load factor is of joints that lift as they slide, and a curve not computed here."""
+    """Return where joints lift as they slide or press across gaps, and a curve not computed here."""
     said = []
     if collapse.dilatancy > 0.0:
         said.append(
@@ -87,6 +87,11 @@ def unproven(collapse: Any, curve: CapacityCurve | None) -> tuple[str, ...]:
         )
     if curve and curve.from_file:
         said.append("the capacity curve is as a file says, not computed here")
+    if curve and any(point.across for point in curve.points):
+        said.append(
+            f"beyond {curve.proven_to:.4g} m of the capacity curve joints press across their gaps: from "
+            "there it is that of a structure whose gaps are filled"
+        )
     return tuple(said)
 
 

@@ -47,7 +47,7 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     ------
     ModelError
         If the live load is not made of weights and added masses along one horizontal direction, or takes
-        another share of the weights than all, or lacks a mass of the dead load.
+        another share of the weights than all, or lacks a mass of the dead load or a part of one.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
     found = []
@@ -58,7 +58,8 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     still = left_still(model.dead, model.live)
     if still:
         raise ModelError(
-            f"the live load lacks the mass added to {', '.join(still)} in the dead load; give it to both"
+            f"the live load lacks the mass added to {', '.join(still)} in the dead load, or a part of it; "
+            "give it to both"
         )
     largest = max((abs(one.horizontal) for one in found), default=0.0)
     if not largest > 0.0:
@@ -75,12 +76,6 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
 def _masses(model: Model) -> Iterator[tuple[str, str, float, Array, Array]]:
     """Name, block, weight, place and direction of each mass of the live load."""
     direction: Array | None = None
-    pushed = [factor for factor, term in model.live.terms if isinstance(term, MassProportional)]
-    if pushed and (min(pushed) <= 0.0 or abs(sum(pushed) - 1.0) > 1e-9):
-        raise ModelError(
-            f"the live load has the weights times {sum(pushed):g}; expected 1: its load factor is the"
-            " acceleration over g"
-        )
     for factor, term in model.live.terms:
         if not isinstance(term, MassProportional | AddedMass):
             raise ModelError(f"the live load has a {type(term).__name__}; expected weights and added masses")
@@ -93,3 +88,9 @@ def _masses(model: Model) -> Iterator[tuple[str, str, float, Array, Array]]:
         else:
             for block in model.free_blocks:
                 yield block.name, block.name, factor * block.weight, block.centroid, own
+    pushed = [factor for factor, term in model.live.terms if isinstance(term, MassProportional)]
+    if abs(sum(pushed) - 1.0) > 1e-9 or min(pushed) <= 0.0:
+        raise ModelError(
+            f"the live load has the weights times {sum(pushed):g}; expected 1: its load factor is the"
+            " acceleration over g"
+        )

@@ -61,6 +61,11 @@ class Repair(Result):
     required: float
     digest: str
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of both answers of the structure with the reinforcement."""
+        return tuple(dict.fromkeys(self.bounds.remarks + self.result.remarks))
+
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each candidate."""
         pairs = zip(self.candidates, self.amounts.tolist(), strict=True)
@@ -83,7 +88,8 @@ class Repair(Result):
     def __str__(self) -> str:
         return (
             f"least reinforcement {self.total:.6g} N: load factor {self.bounds.lower:.6g} associated, "
-            f"{self.result.load_factor:.6g} without dilatancy{self._as_read}"
+            f"{self.result.load_factor:.6g} without dilatancy{''.join(f'; {one}' for one in self.remarks)}"
+            f"{self._as_read}"
         )
 
 

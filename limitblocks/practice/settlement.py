@@ -103,6 +103,11 @@ class Settlement(Result):
     result: Nonassociated | None
     digest: str
 
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of the answers that the reactions are of."""
+        return tuple(dict.fromkeys(self.bounds.remarks + (self.result.remarks if self.result else ())))
+
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each reaction."""
         found = {"associated, mechanism": self.lower, "associated, stress state": self.upper}
@@ -125,7 +130,8 @@ class Settlement(Result):
     def __str__(self) -> str:
         least = f"least reaction of {self.settling.support!r}: {self.lower:.6g} to {self.upper:.6g} N"
         real = "" if self.nonassociated is None else f", {self.nonassociated:.6g} N without dilatancy"
-        return least + " (associated)" + real + self._as_read
+        said = "".join(f"; {one}" for one in self.remarks)
+        return least + " (associated)" + real + said + self._as_read
 
 
 def settlement(

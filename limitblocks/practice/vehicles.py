@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.geometry import Block
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
@@ -116,19 +119,29 @@ def vehicle_load(model: Model, vehicle: Vehicle, deck: Deck, position: float) ->
     return total
 
 
+def half_lengths(free: Sequence[Block], contact: float, deck: Deck, x: Array) -> Array:
+    """Return half the length, m, on which an axle at each X (k,) acts; see :class:`Deck`.
+
+    Raises
+    ------
+    ModelError
+        If the road is below the blocks there.
+    """
+    x_of = np.concatenate([block.vertices[:, 0] for block in free])
+    nearest = np.clip(x, x_of.min(), x_of.max())  # beyond its end the fill is as deep as there
+    owner, top = tops(free, np.column_stack([nearest, np.full(len(x), deck.y)]))
+    depth = np.where(owner >= 0, deck.level - top, 0.0)
+    for k in np.flatnonzero(depth < -SUNK * np.array([block.size for block in free])[owner])[:1].tolist():
+        raise ModelError(
+            f"the road at {coordinate(deck.level)} m is below the structure, {coordinate(top[k])} m high "
+            f"at x = {coordinate(nearest[k])} m"
+        )
+    return np.asarray(contact / 2.0 + deck.spread * np.maximum(depth, 0.0))
+
+
 def _axle(model: Model, load: float, contact: float, deck: Deck, x: float) -> Load:
     """One axle; the parts of its length that lie beyond the structure go to the approaches."""
-    free = model.free_blocks
-    x_of = np.concatenate([block.vertices[:, 0] for block in free])
-    nearest = float(np.clip(x, x_of.min(), x_of.max()))  # beyond its end the fill is as deep as there
-    owner, top = tops(free, np.array([(nearest, deck.y)]))
-    if owner[0] >= 0 and deck.level < float(top[0]) - SUNK * free[owner[0]].size:
-        raise ModelError(
-            f"the road at {coordinate(deck.level)} m is below the structure, {coordinate(top[0])} m high "
-            f"at x = {coordinate(nearest)} m"
-        )
-    depth = max(deck.level - float(top[0]), 0.0) if owner[0] >= 0 else 0.0
-    half = contact / 2.0 + deck.spread * depth
+    half = float(half_lengths(model.free_blocks, contact, deck, np.array([x]))[0])
     per_length = (0.0, 0.0, -load / (2.0 * half))
-    parts = covered(np.array([x - half, deck.y]), np.array([x + half, deck.y]), free)
+    parts = covered(np.array([x - half, deck.y]), np.array([x + half, deck.y]), model.free_blocks)
     return sum((line_load(per_length, a, b) for a, b in parts.tolist()), Load())

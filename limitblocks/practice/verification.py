@@ -133,6 +133,7 @@ def verification(
     said = (
         *of_ground(demand.a_g),
         *unproven(collapse, curve),
+        *collapse.remarks,  # type: ignore[attr-defined] # of every state
         *remarks(model, collapse.displacement_rates, confidence),
     )
     return Verification(tuple(found), tuple(checks), masses, model.digest, said)

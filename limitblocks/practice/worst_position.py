@@ -7,7 +7,6 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.arrays import Array, read_only
@@ -16,6 +15,8 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
+from limitblocks.practice.envelope import Found, search
+from limitblocks.practice.influence import line_of
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
 from limitblocks.shown import Result, coordinate
 
@@ -80,9 +81,10 @@ class WorstPosition(Result):
         total = sum(self.vehicle.axles)
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
+        said = "".join(f"; {one}" for one in self.bounds.remarks)
         return (
             f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{beyond}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
+            f"{self.bounds.lower:.6g}{beyond}{said}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
         )
 
 
@@ -97,9 +99,12 @@ def worst_position(
 ) -> WorstPosition:
     """Return the position of a vehicle at which the load factor is least, and the envelope on the way.
 
-    Evenly spaced positions first, then a bounded search (Brent) between the neighbours of the worst. The load
-    factor has kinks where an axle leaves a block: the search finds a local minimum, to a thousandth of the
-    way. Give more `positions` where several spans are about as bad. After Ctrl-C: the worst of those tried.
+    Evenly spaced positions first. A mechanism found at one position is a bound on the load factor at all
+    others, so that the next one tried is where the mechanisms found carry least, until it carries as little.
+    Between two positions a mechanism that was not met may carry less still: a part of the way is halved as
+    long as it would have the worst, if that brought as much as halving what it is a part of; by less than a
+    thousandth is not looked for. That no position is worse is not proven, and where the load is unlimited at
+    two neighbours nothing is looked for between them. After Ctrl-C: the worst of those tried.
 
     Parameters
     ----------
@@ -112,7 +117,7 @@ def worst_position(
     between : (float, float), optional
         m; unless given, wherever some axle stands on the free blocks.
     positions : int
-        Evenly spaced positions, at least 3.
+        Evenly spaced positions to begin with, at least 3.
     progress : callable, optional
         Called with each position and its load factor.
 
@@ -126,31 +131,27 @@ def worst_position(
     checked_count("positions", positions, 3)
     deck = deck.on(model)
     low, high = _ends(model, vehicle, between, positions)
-    tried: dict[float, tuple[Bounds, Model] | None] = {}
+    tried: Found = {}
 
-    def at(x: float) -> float:
-        if x not in tried:
-            tried[x] = _loaded(model, vehicle, deck, x)
-        found = tried[x]
-        factor = found[0].lower if found else np.inf
+    def at(x: float) -> tuple[Bounds, Model] | None:
+        tried[x] = found = _loaded(model, vehicle, deck, x)
         if progress:
-            progress(x, factor)
-        return float(factor)
+            progress(x, float(found[0].lower) if found else np.inf)
+        return found
 
-    places, complete = np.linspace(low, high, positions), True
+    complete = True
     try:
-        factors = np.array([at(float(x)) for x in places])
-        if not np.isfinite(factors).any():
-            where = f"with the first axle between {coordinate(low)} and {coordinate(high)} m"
-            raise ModelError(
-                f"{where} the vehicle stands off the structure, or any multiple of it only jams the blocks; "
-                "check its place and the level of the road"
-            )
-        _search(at, places, factors)
+        search(line_of(model, vehicle, deck), at, tried, (low, high), positions)
     except KeyboardInterrupt:
         if not any(tried.values()):
             raise
         complete = False
+    if not any(tried.values()):
+        where = f"with the first axle between {coordinate(low)} and {coordinate(high)} m"
+        raise ModelError(
+            f"{where} the vehicle stands off the structure, or any multiple of it only jams the blocks; "
+            "check its place and the level of the road"
+        )
     order = read_only(np.array(list(tried)))
     values = read_only(np.array([own[0].lower if own else np.inf for own in tried.values()]))
     worst = float(order[values.argmin()])
@@ -171,19 +172,6 @@ def _ends(
             f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"
         )
     return low, high
-
-
-def _search(at: Callable[[float], float], places: Array, factors: Array) -> None:
-    """Try places about the one of least load factor, to a thousandth of the way."""
-    k = int(factors.argmin())
-    about = float(places[max(k - 1, 0)]), float(places[min(k + 1, len(places) - 1)])
-    beyond = 2.0 * float(factors[np.isfinite(factors)].max())  # parabolas of the search need finite values
-    minimize_scalar(
-        lambda x: min(at(float(x)), beyond),
-        bounds=about,
-        method="bounded",
-        options={"xatol": float(places[-1] - places[0]) * 1e-3},
-    )
 
 
 def _whole(model: Model, vehicle: Vehicle) -> tuple[float, float]:

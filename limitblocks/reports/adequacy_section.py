@@ -47,5 +47,6 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
         ),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
+        warnings=found.remarks,
         parts=(Table.of("Characteristic and design values", heads, rows, right=(2, 4, 5)),),
     )

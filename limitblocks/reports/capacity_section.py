@@ -43,7 +43,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
         ),
         checks=checks_of(last.result.residuals, last.result.tolerance),
         tolerance=last.result.tolerance,
-        warnings=beyond,
+        warnings=beyond + curve.remarks,
         curve=_capacity_curve(curve),
         parts=(_points(curve),),
     )

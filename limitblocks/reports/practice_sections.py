@@ -59,6 +59,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
         values=tuple(values),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
+        warnings=found.remarks,
         parts=(Figure(drawn, SETTLED.format(picture.magnification), LEGEND),),
     )
 
@@ -84,7 +85,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
         ),
         checks=checks_of(found.result.residuals, found.result.tolerance),
         tolerance=found.result.tolerance,
-        warnings=_short_of(found),
+        warnings=_short_of(found) + found.remarks,
         parts=(Table.of("Reinforcement", ("Candidate", "Least"), rows, right=(1,)),),
     )
 
@@ -116,8 +117,9 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         own=True,
         meaning=(
             "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
-            "the model's own live load; the fill disperses the axles. The least one is found by a search "
-            "between the worst positions, a local minimum, with the place to a thousandth of the way."
+            "the model's own live load; the fill disperses the axles. Every mechanism found bounds the load "
+            "factor at all positions; tried is where they carry least, until that is attained. That no other "
+            "position is worse is searched for, not proven."
         ),
         headline=cut(found.bounds.lower),
         quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
@@ -133,7 +135,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
         ),
         checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
         tolerance=found.bounds.tolerance,
-        warnings=() if found.complete else (STOPPED,),
+        warnings=found.bounds.remarks + (() if found.complete else (STOPPED,)),
         curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,
     )

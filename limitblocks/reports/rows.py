@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite, isnan
+from math import isfinite, isinf, isnan
 
 from limitblocks.errors import few
 from limitblocks.evidence.backward_error import BackwardError
@@ -40,6 +40,8 @@ def number(load_factor: float) -> str:
 
 def backward(error: BackwardError) -> Row:
     """Return name, value and meaning of a backward error."""
+    if isinf(error.value):
+        return "Backward error", "inf", "no changed model was found of which this state is exact"
     parts = ", ".join(f"{part.name} {part.value:.1e}" for part in error.parts)
     where = few([f"{name} ({change:.1e})" for name, change in error.places], SHOWN)
     said = f"exact for a model changed by as much: {parts}" + (f"; most at {where}" if where else "")

@@ -114,9 +114,10 @@ class Study(Rows):
         units = {name: f" {unit}" for name, unit in self.units.items()}
         here = self._key(self.least).items()
         where = ", ".join(f"{name} {in_short(value)}{units.get(name, '')}" for name, value in here)
-        least = self.load_factors[self.least]
+        least, result = self.load_factors[self.least], self.results[self.least]
         made = many(len(self.errors), "analysis", "analyses")
-        return f"{made}, least load factor {least:.6g} at {where}{lost}"
+        said = "".join(f"; {one}" for one in result.remarks) if result else ""
+        return f"{made}, least load factor {least:.6g} at {where}{lost}{said}"
 
     def _key(self, k: int) -> dict[str, Any]:
         return {"row": k}

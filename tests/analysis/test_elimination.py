@@ -15,7 +15,9 @@ def random(rows, columns, seed=0):
 
 def test_blocks_stand_where_they_begin_and_add_up():
     a, b = random(3, 4), random(4, 3, 1)
-    made = placed([(Entries.of(a), 0, 3), (-Entries.of(a).T, 3, 0), (Entries.of(b), 3, 0)], 7).toarray()
+    made = (
+        placed([(Entries.of(a), 0, 3), (-Entries.of(a).T, 3, 0), (Entries.of(b), 3, 0)]).square(7).toarray()
+    )
     expected = np.zeros((7, 7))
     expected[:3, 3:], expected[3:, :3] = a.toarray(), b.toarray() - a.toarray().T
     np.testing.assert_array_equal(made, expected)
@@ -33,7 +35,7 @@ def test_factors_solve_in_whatever_order(columns):
     K = sparse.csr_array(random(8, 8) + 8.0 * sparse.eye_array(8))
     x = np.random.default_rng(2).normal(size=(8, *columns))
     order = np.random.default_rng(3).permutation(8)
-    np.testing.assert_allclose(factors_in_order(K, order).solve(K @ x), x, atol=1e-14)
+    np.testing.assert_allclose(factors_in_order(Entries.of(K), order).solve(K @ x), x, atol=1e-14)
     assert (numbered(order)[order] == np.arange(8)).all()
 
 
@@ -51,14 +53,14 @@ def test_factors_are_as_sparse_as_in_an_order_that_is_searched_for(joint):
     C, live = Entries.of(p.C), Entries.of(sparse.csr_array(p.live[:, None]))
     size, F = a + 1 + len(p.g), Entries.of(p.F)
     blocks = [(C, 0, n), (C.T, n, 0), (live, n, a), (live.T, a, n), (F, a + 1, 0), (F.T, 0, a + 1)]
-    K = sparse.csr_array(placed(blocks, size) + 1e3 * sparse.eye_array(size))
+    K = sparse.csr_array(placed(blocks).square(size) + 1e3 * sparse.eye_array(size))
     order = elimination(p, p.row_interface)
     rates_first = np.concatenate([order[-(a + 1 - n) :], order[: -(a + 1 - n)]])
     searched, own, other = (
         factors.nnz
         for factors in (
             diagonal_factors(K),
-            *(factors_in_order(K, one).factors for one in (order, rates_first)),
+            *(factors_in_order(Entries.of(K), one).factors for one in (order, rates_first)),
         )
     )
     assert own <= 1.1 * searched

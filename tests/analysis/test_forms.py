@@ -1,5 +1,7 @@
 """Forms without multipliers: the same answers as the static program, only where the joints allow it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,8 +10,9 @@ from limitblocks import structures
 from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import Rates, Stresses, form_of, without_multipliers
+from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.programs import DIRECT
+from limitblocks.analysis.programs import DIRECT, PLANAR
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.evidence.residuals import Residuals, static_residuals
@@ -64,6 +67,21 @@ def test_multipliers_follow_any_rates_and_share_the_room():
     assert p.C @ u == pytest.approx(-p.F.T @ y, abs=1e-12)
     rates, _ = Splitting(p).mechanism(p.cones.identity)
     assert p.cones.margin(form.multipliers(rates)).min() > 0.0  # linear rows, too
+
+
+def test_equations_without_a_number_are_not_given_to_the_solver():
+    """In the plane three of six; loads that no stress balances stay: nothing carries them."""
+    p = in_plane(structures.wall(lb.OrdunaLourenco(0.6), length=1.2, courses=4).problem).problem
+    program = compiled(Stresses(scaled(p)).limit().problem)
+    assert len(program.b) - program.cones.height == 3 * len(p.blocks)
+    beside = np.zeros(len(p.dead))
+    beside[np.flatnonzero(np.bincount(p.C.indices, minlength=len(beside)) == 0)[0]] = 1.0
+    answers = {
+        load: Programs(Stresses(scaled(replace(p, **{load: getattr(p, load) + beside})))).limit_state(PLANAR)
+        for load in ("dead", "live")
+    }
+    assert np.isnan(answers["dead"].load_factor)
+    assert answers["live"].load_factor == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("joint", [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)])

@@ -101,6 +101,22 @@ def test_torque_twists(joint):
     assert np.isclose(abs(found.strain_rates[0, 5]), 1.0, rtol=1e-5)  # unit work of a unit moment
 
 
+def test_a_bond_that_a_moment_alone_breaks_is_used_up():
+    """Without a force, on a unit square: c A c_T in torsion, ft A l1 in bending by Eq. (36)."""
+    joint = lb.OrdunaLourenco(0.6, cohesion=1e5, tensile_strength=5e4)
+    light = lb.Block.box("stone", size=(1, 1, 1), at=(0, 0, 0.5), unit_weight=0.0)
+    contacts = lb.find_interfaces([GROUND, light], joint)
+    c_T = (np.sqrt(2.0) + np.arcsinh(1.0)) / 6
+    for about, strength, does in (((0, 0, 1), 1e5 * c_T, "twist"), ((1, 0, 0), 5e4 / 2, "hinge")):
+        live = lb.loads.moment("stone", about)
+        model = lb.Model([GROUND, light], ["ground"], contacts, lb.self_weight(), live)
+        found = lb.bounds(model)
+        assert found.lower == pytest.approx(strength, rel=1e-6)
+        states = interface_states(model, found)
+        assert states.state == (does,)
+        assert states.utilisation[0] == pytest.approx(1.0, rel=1e-6)
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 def test_force_off_the_middle_slides_and_twists(joint):
     live = lb.loads.force("stone", (0, 20e3, 0), at=(0.15, 0, 0))

@@ -260,3 +260,16 @@ def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
     fill = passive_fill(model, 2.0, unit_weight=18e3, coefficient=3.0)
     assert len(fill) == 2
     assert questions(reinforced(model, *fill)) == []
+
+
+@pytest.mark.parametrize(("off", "asked"), [(5e6, 0), (5e12, 1)])  # m: a northing of a map; 1 mm apart
+def test_coordinates_that_rounding_changes_are_asked_about(off, asked):
+    stones = [
+        lb.Block.box("ground", (1.0, 1.0, 1.0), (off, 0.0, -0.5)),
+        lb.Block.box("block", (0.5, 1.0, 1.0), (off, 0.0, 0.5), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.6))
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    said = questions(lb.Model(stones, ["ground"], interfaces, lb.self_weight(), push))
+    assert len(said) == asked
+    assert all("5e+12 m off the origin, where coordinates are rounded to 0.001 m" in one for one in said)

@@ -74,6 +74,22 @@ def test_a_push_at_a_point_of_a_rocking_block():
     assert found.of_blocks.sum() == pytest.approx(alpha, rel=1e-6)
 
 
+def test_a_block_without_weight_has_a_derivative_by_it():
+    """A stone of volume V under a dead force D: a P z = (D + w V) b / 2, so that da/dw = V b / (2 P z)."""
+    z, push, laid = 1.5, 1000.0, 40e3
+    model = block(lb.PointContact(2.0))
+    (name,) = (own.name for own in model.free_blocks)
+    light = tuple(own.labelled(unit_weight=0.0) if own.name == name else own for own in model.blocks)
+    volume, at = model.free_blocks[0].volume, model.free_blocks[0].centroid
+    dead = lb.self_weight() + lb.loads.force(name, (0.0, 0.0, -laid), at)
+    model = replace(
+        model, blocks=light, dead=dead, live=lb.loads.force(name, (push, 0.0, 0.0), (0.0, 0.0, z))
+    )
+    found = of(model)
+    assert found.load_factor == pytest.approx(laid * WIDTH / (2.0 * push * z), rel=1e-6)
+    assert found.unit_weight.sum() == pytest.approx(volume * WIDTH / (2.0 * push * z), rel=1e-6)
+
+
 def test_a_block_that_slides_on_mortar():
     """a W = mu W + A c: da/dc = A / W, da/dmu = 1, da/d(unit weight) = -A c / (W unit weight)."""
     c = 3e3

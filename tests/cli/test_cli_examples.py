@@ -49,6 +49,15 @@ def test_an_unknown_example_is_code_2(name, said):
     assert said in done.stderr
 
 
+def test_an_example_that_takes_words_gets_none_of_ours(tmp_path, monkeypatch):
+    """`examples run 20` ended in a traceback: it took `examples run 20` for its folder and suffix."""
+    (tmp_path / "drawing.py").write_text("import sys\nif __name__ == '__main__':\n    print(sys.argv)\n")
+    monkeypatch.setattr(import_module("limitblocks.cli.examples"), "folder", lambda: tmp_path)
+    monkeypatch.setattr("sys.argv", ["limitblocks", "examples", "run", "drawing"])
+    done = run("examples", "run", "drawing")
+    assert (done.exit_code, done.stdout) == (0, f"{[str(tmp_path / 'drawing.py')]}\n")
+
+
 def test_a_missing_package_is_named(tmp_path, monkeypatch):
     (tmp_path / "drawing.py").write_text("import a_package_that_is_missing\n")
     monkeypatch.setattr(import_module("limitblocks.cli.examples"), "folder", lambda: tmp_path)

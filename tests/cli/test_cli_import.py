@@ -164,3 +164,30 @@ def test_unit_weights_by_layer(tmp_path):
     model = lb.read(tmp_path / "arch.json")
     assert {block.unit_weight for block in model.free_blocks} == {20e3}
     assert type(model.interfaces[0].joint).__name__ == "PointContact"
+
+
+def test_an_elevation_is_read_by_its_layers(tmp_path):
+    """The frame of a sheet is an outline, too: it would be a block that all others lie in."""
+    ezdxf = pytest.importorskip("ezdxf")
+    drawing, sheet = ezdxf.new(units=6), tmp_path / "sheet.dxf"
+    for layer, (x, z), (w, h) in (
+        ("STONES", (0, 0), (1, 0.2)),
+        ("STONES", (0.25, 0.2), (0.5, 1)),
+        ("FRAME", (-1, -1), (3, 3)),
+    ):
+        corners = [(x, z), (x + w, z), (x + w, z + h), (x, z + h)]
+        drawing.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+    drawing.saveas(sheet)
+    options = (*OPTIONS, "--thickness", "1", "--supports", "z<0.3")
+    assert "overlap" in run(sheet, *options).stderr
+    assert run(sheet, *options, "--layers", "STONES").exit_code == 0
+    assert lb.bounds(lb.read(tmp_path / "sheet.json")).upper == pytest.approx(0.5, abs=1e-6)  # b / h
+    wrong = run(sheet, *OPTIONS, "--supports", "z<0.3", "--layers", "STONES", "--force")
+    assert (wrong.exit_code, wrong.stderr) == (
+        2,
+        "error: --layers is of DXF elevations: give --thickness, too\n",
+    )
+    looked = CliRunner().invoke(app, ["look", str(sheet), "--thickness", "1", "--layers", "STONES"])
+    assert "--thickness 1 --layers STONES" in looked.stdout
+    with pytest.raises(lb.ModelError, match="give thickness"):
+        lb.files.look(sheet, layers="STONES")

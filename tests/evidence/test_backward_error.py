@@ -8,6 +8,7 @@ from attacks import ATTACKS
 from true_claims import DEPTH, MU, TRUE, B, H, changed, moving, shaken, sliding, state_of, true
 
 import limitblocks as lb
+from limitblocks.arrays import positions
 from limitblocks.evidence import backward_error as module
 from limitblocks.evidence.backward_error import backward_error
 from limitblocks.evidence.given_state import Given
@@ -334,3 +335,21 @@ def test_strength_that_a_centric_force_needs_to_crush_and_to_crack():
     change = Limits(problem).changes(x)[crushing]
     assert len(change) == 4
     assert change == pytest.approx((area * ft + weight) / (area * (fc + ft)) - 1.0)
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
+def test_what_rows_and_cones_flow_by_themselves_adds_up_to_the_flow(joint):
+    model = lb.structures.corner(joint, length=1.2, return_length=1.2, courses=2)
+    p, rng = model.problem, np.random.default_rng(0)
+    given = Given(Flow(p), State(0.0, *(rng.normal(size=n) for n in (p.C.shape[0], p.C.shape[1], len(p.g)))))
+    y = given.state.y
+    each = given.by_member(y)
+    for k in (0, p.cones.degree // 2, p.cones.degree - 1):
+        own = p.G.T @ np.where(p.cones.member == k, -y, 0.0)
+        there = own[p.stress_interface == p.member_interface[k]]
+        np.testing.assert_allclose(each[k][: len(there)], there, atol=1e-15)
+    sums = np.zeros((len(p.interfaces), each.shape[1]))
+    np.add.at(sums, p.member_interface, each)
+    np.testing.assert_allclose(
+        sums[p.stress_interface, positions(p.stress_interface)], -p.G.T @ y, atol=1e-13
+    )

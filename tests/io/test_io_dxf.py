@@ -91,7 +91,22 @@ def test_units(tmp_path):
     drawing = ezdxf.readfile(path)
     drawing.header["$INSUNITS"] = 99
     drawing.saveas(path)
-    assert "$INSUNITS is 99; expected a code from 0 to 7 or 10 to 20" in fault(path)
+    assert "$INSUNITS is 99; expected 0 to 17 or 21 to 24" in fault(path)
+
+
+@pytest.mark.parametrize(
+    ("code", "metres"),  # NIST SP 811, Appendix B: 1 in = .0254 m, 1 US survey ft = 1200/3937 m, exactly
+    [
+        *[(1, 0.0254), (3, 5280 * 12 * 0.0254), (8, 0.0254e-6), (9, 0.0254e-3), (10, 36 * 0.0254), (17, 1e9)],
+        *[(21, 1200 / 3937), (22, 100 / 3937), (23, 3600 / 3937), (24, 5280 * 1200 / 3937)],
+    ],
+)
+def test_a_stone_of_half_a_metre_in_every_unit(tmp_path, code, metres):
+    stone = cube()
+    stone.scale_uniform(0.5 / metres)
+    path = drawn(tmp_path / "stone.dxf", stone.render_mesh, units=code)
+    (block,) = lb.files.read_blocks(path).blocks
+    assert block.size == pytest.approx(0.5, rel=1e-15)
 
 
 def test_block_references_take_scale_rotation_mirror_and_layer(tmp_path):

@@ -184,7 +184,7 @@ def test_results_that_cannot_be_written(tmp_path):
     stronger = replace(ARCH, dead=2.0 * ARCH.dead)  # the same blocks: the shapes fit
     for model, name, result, more, said in (
         (stronger, "a.3dm", BOUNDS, {}, "belongs to model"),
-        (ARCH, "a.obj", BOUNDS, {}, r"takes no forces; expected one of \.3dm, \.json, \.glb"),
+        (ARCH, "a.obj", BOUNDS, {}, r"takes no forces; expected one of \.3dm, \.json, \.glb, or \.vtu"),
         (ARCH, "a.glb", ARCH, {}, "no load_factor and no stress_resultants"),
         (ARCH, "a.json", BOUNDS, {"scale": 0.0}, "scale is 0 m/N"),
         (ARCH, "a.json", BOUNDS, {"scale": np.nan}, "scale"),

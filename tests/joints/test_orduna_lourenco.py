@@ -18,9 +18,10 @@ from rectangles import (
 )
 
 import limitblocks as lb
-from limitblocks.geometry.polygon import centroids
+from limitblocks.geometry.polygon import areas, centroids
 from limitblocks.joints.interaction import rectangle_torsion_bending
 from limitblocks.joints.orduna_lourenco import equivalent_half_sides
+from limitblocks.joints.torsion import torsion_constants
 
 HEXAGON = np.array([(np.cos(t), 0.6 * np.sin(t)) for t in np.arange(6) * np.pi / 3])
 TRAPEZIUM = np.array([(2.0, -1.0), (0.5, 1.0), (-0.7, 1.0), (-2.0, -1.0)])
@@ -111,6 +112,35 @@ def test_half_sides_of_other_polygons_are_those_of_the_same_radii_of_gyration():
     six = np.column_stack([np.cos(angles), np.sin(angles)])
     assert equivalent_half_sides(five[None])[0] == pytest.approx([0.3, 0.2])
     assert equivalent_half_sides(six[None])[0] == pytest.approx([np.sqrt(5 / 8)] * 2)
+
+
+def _torsion_over_even_pressure(corners):
+    """Torsion over that under uniform pressure of polygons x1 + 1j x2, (m, n), along their longest sides."""
+    sides = np.roll(corners, -1, axis=1) - corners
+    longest = np.take_along_axis(sides, np.abs(sides).argmax(axis=1)[:, None], axis=1)
+    corners = corners * longest.conj() / np.abs(longest)
+    polygons = np.stack([corners.real, corners.imag], axis=2)
+    polygons = polygons - centroids(polygons)[:, None]
+    strength = -1.0 / lb.OrdunaLourenco(1.0).yield_rows(polygons).F[:, 0, 5]
+    return strength / torsion_constants(polygons)
+
+
+def test_torsion_of_quadrilaterals_by_their_rectangle():
+    rng = np.random.default_rng(2)
+    angles = np.sort(rng.uniform(0, 2 * np.pi, (20000, 4)), axis=1)
+    ellipses = rng.uniform(0.02, 1, (20000, 1)) * np.cos(angles) + 1j * np.sin(angles)
+    area = areas(np.stack([ellipses.real, ellipses.imag], axis=2))
+    any_one = _torsion_over_even_pressure(ellipses[area > 1e-3])
+    assert 0.63 < any_one.min() < 0.7
+    assert 1.2 < any_one.max() < 1.27
+    height, top = (x.ravel() for x in np.meshgrid(1j * np.geomspace(0.2, 5, 25), np.linspace(1e-6, 1, 21)))
+    base = np.ones_like(top)
+    trapezoids = _torsion_over_even_pressure(np.stack([-base, base, top + height, -top + height], axis=1))
+    assert 0.76 < trapezoids.min() < 0.77
+    assert 1.16 < trapezoids.max() < 1.17
+    lean = 2 * top + height
+    leaning = _torsion_over_even_pressure(np.stack([-base, base, base + lean, -base + lean], axis=1))
+    assert leaning.max() < 1.0 + 1e-12
 
 
 @pytest.mark.parametrize("sides", [3, 5, 6, "trapezium"])

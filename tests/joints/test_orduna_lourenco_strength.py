@@ -28,6 +28,7 @@ import limitblocks as lb
 from limitblocks.evidence import crushing
 from limitblocks.joints.interaction import effective_strength
 from limitblocks.joints.stress_block import over_stress_block
+from limitblocks.joints.torsion import plastic_centre, torsion_constant
 from limitblocks.reports.sections import section
 
 DOCS = (Path(__file__).parents[2] / "docs/choosing-a-joint.md").read_text(encoding="utf-8")
@@ -176,6 +177,80 @@ def test_torsion_of_a_T_beside_the_piece_that_carries_it_is_safe():
     assert lb.bounds(pushed(blocks, lb.PointContact(0.8), (1.0, 0.0))).upper == pytest.approx(tips, rel=1e-6)
     assert round(1 - lb.bounds(pushed(blocks, joint, (1.0, 0.0))).upper / tips, 2) == 0.07
     assert "bar, by 7 %" in DOCS
+
+
+def twisted(blocks, supports, joint, name):
+    """The moment about the vertical through the centroid that it carries, over friction times its weight."""
+    weight = MU * next(block.weight for block in blocks if block.name == name)
+    live = lb.loads.moment(name, (0.0, 0.0, weight))
+    return lb.Model(blocks, supports, lb.find_interfaces(blocks, joint), lb.self_weight(), live)
+
+
+@pytest.mark.parametrize(("joint", "least"), [(lb.OrdunaLourenco, 0.3), (lb.joints.ExactTorsion, 0.0)])
+def test_torsion_of_a_beam_on_three_pads_gathers_on_the_outer_two(joint, least):
+    """Outer pads slide at a: a + 0.3 c_T by Eqs (27)-(29), a exactly; evenly shared it is (2 a + c_T) / 3."""
+    side, a = 0.4, 2.0
+    pads = [lb.Block.box(f"pad {x}", (side, side, 0.2), (x, 0.0, -0.1)) for x in (-a, 0.0, a)]
+    beam = lb.Block.box("beam", (2 * a + side, side, 0.5), (0.0, 0.0, 0.25), 20e3)
+    model = twisted([*pads, beam], [pad.name for pad in pads], joint(MU), "beam")
+    c_T = side / 6 * (np.sqrt(2.0) + np.arcsinh(1.0))
+    even = (2 * a + c_T) / 3
+    associated = lb.bounds(model).lower
+    assert associated == pytest.approx(a + least * c_T, rel=1e-6)
+    if least:
+        assert round(associated / even - 1, 2) == 0.48
+        assert round(lb.nonassociated(model).load_factor / even - 1, 2) == 0.02
+        assert "48 % stronger than under even pressure" in DOCS
+
+
+@pytest.mark.parametrize(
+    ("outline", "least", "most"),
+    [
+        ([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 2), (0, 2)], -0.05, 0.05),
+        (
+            [
+                (-1, -1.5),
+                (1, -1.5),
+                (1, -1.2),
+                (0.15, -1.2),
+                (0.15, 1.2),
+                (1, 1.2),
+                (1, 1.5),
+                (-1, 1.5),
+                (-1, 1.2),
+                (-0.15, 1.2),
+                (-0.15, -1.2),
+                (-1, -1.2),
+            ],
+            0.25,
+            0.35,
+        ),
+        (
+            [
+                (-2, -0.05),
+                (-0.5, -0.05),
+                (-0.5, -0.5),
+                (0.5, -0.5),
+                (0.5, -0.05),
+                (2, -0.05),
+                (2, 0.05),
+                (0.5, 0.05),
+                (0.5, 0.5),
+                (-0.5, 0.5),
+                (-0.5, 0.05),
+                (-2, 0.05),
+            ],
+            1.0,
+            1.5,
+        ),
+    ],
+)
+def test_torsion_of_areas_in_pieces_beside_even_pressure(outline, least, most):
+    """Under even pressure the strength is the least mean distance of the area from a point."""
+    even = torsion_constant(np.array(outline), plastic_centre(np.array(outline)))
+    for joint in (lb.joints.ExactTorsion(MU), lb.OrdunaLourenco(MU)):
+        found = lb.bounds(twisted(prism(outline, 0.2), ["ground"], joint, "foot"))
+        assert least < found.lower / even - 1 < most
 
 
 def test_column_too_heavy_for_its_joint_falls():

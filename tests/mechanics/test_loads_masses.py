@@ -140,6 +140,16 @@ def test_turned_load_keeps_factors_and_masses():
         turned(load + lb.loads.force("block", (1, 0, 0), (0, 0, 0)), (0, 1, 0))
 
 
+def test_a_turned_load_acts_along_the_new_direction_whatever_its_sign():
+    push = lb.mass_proportional((1, 0, 0))
+    assert turned(-0.3 * push + -0.1 * push, (0, 2, 0)).terms == tuple(
+        (factor, lb.mass_proportional((0, 1, 0)).terms[0][1]) for factor in (0.3, 0.1)
+    )
+    for other in (0.3 * lb.self_weight(), -0.3 * push):  # 1 - 0.3 along the new direction would be unsafe
+        with pytest.raises(lb.ModelError, match=r"acts along \(.*\) and \(1, 0, 0\), expected one direction"):
+            turned(push + other, (0, 1, 0))
+
+
 def test_load_on_a_block_turned_with_it():
     """Forces, moments and masses of a moved structure are those of the old one, moved."""
     turn = np.array([[0.0, -1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])

@@ -11,8 +11,15 @@ import limitblocks as lb
 plots = lb.plots
 SQUARE = lb.joints.interface([(0.25, -0.25), (0.25, 0.25), (-0.25, 0.25), (-0.25, -0.25)], None)
 ANGLES = np.linspace(0.0, 2 * np.pi, 16, endpoint=False)
+
+
+def thin():
+    return lb.structures.wall(lb.PointContact(0.6), length=2.0, courses=10, thickness=0.1)
+
+
 DRAWN = {
     "structure": lambda: plots.structure(arch()),
+    "thin wall": lambda: plots.structure(thin(), plane="yz"),
     "corner": lambda: plots.structure(corner()),
     "mechanism": lambda: plots.mechanism(arch(), bounds(arch)),
     "mechanism of a corner": lambda: plots.mechanism(corner(), bounds(corner)),

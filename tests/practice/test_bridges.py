@@ -1,6 +1,7 @@
 """Bridges of several spans and rings: an independent program in the plane, identities, weights, misuse."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from limitblocks.practice import (
     vehicle_load,
     worst_position,
 )
+from limitblocks.practice.influence import line_of
 from limitblocks.structures import Fill, arch_bridge
 
 JOINT = lb.PointContact(0.6)
@@ -222,6 +224,33 @@ def test_worst_position_over_two_spans():
     mirrored = replace(model, live=vehicle_load(model, vehicle, deck, 3.5 - found.position))
     assert lb.bounds(mirrored).upper == pytest.approx(found.bounds.upper, rel=1e-5)
     assert found.bounds.upper <= found.load_factors.min() * (1 + 1e-6)
+
+
+@pytest.mark.parametrize(("spans", "voussoirs", "rise"), [(1, 11, 0.9), (2, 11, 0.75)])
+def test_the_worst_position_is_not_a_local_one(spans, voussoirs, rise):
+    """On one face a force moves linearly, 1 / load factor is convex: the worst place is an end of a face."""
+    shape = {"rise": rise, "spans": spans, "voussoirs": voussoirs}
+    own, ends = Bridge(**shape), []
+    for k in range(spans):
+        x = [own.point(k, 1, j)[0] for j in range(voussoirs + 1)]
+        ends += [(k, at) for a, b in pairwise(x) for at in (a + 1e-6, b - 1e-6) if abs(at - 3.5 * k) < 1.2]
+    least = min(load_factor(own, at, k) for k, at in ends)
+    model = bridge(pier_width=0.5, pier_height=1.5, **shape)
+    found = worst_position(model, Vehicle((1e3,), contact=1e-6), Deck(3.0, spread=0.0), positions=9)
+    assert found.bounds.upper == pytest.approx(least, rel=1e-4)
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.5])
+def test_the_power_of_a_vehicle_is_that_of_its_load(spread):
+    """Over two spans and a pier, through rates of all kinds, and where axles are partly beyond the blocks."""
+    model, vehicle = bridge(spans=2, pier_width=0.5), Vehicle((60e3, 100e3), (0.0, 1.7))
+    deck, rng = Deck(3.4, spread).on(model), np.random.default_rng(1)
+    places, rates = np.linspace(-1.8, 3.6, 23), rng.normal(size=(len(model.blocks), 6))
+    moving = rates[[block.name not in model.supports for block in model.blocks]]
+    loads = [vehicle_load(model, vehicle, deck, x).on(model.free_blocks) for x in places.tolist()]
+    line = line_of(model, vehicle, deck)
+    wanted = [float(np.sum(load * moving)) for load in loads]
+    assert line.powers(rates, line.standing(places)) == pytest.approx(np.array(wanted), rel=1e-9, abs=1e-6)
 
 
 def test_fill_is_listed_as_fill_and_not_drawn(tmp_path):

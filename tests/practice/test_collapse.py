@@ -1,34 +1,18 @@
-"""A support that settles until the structure falls: closed forms of three-hinged arches, misuse."""
-
-import importlib
-from dataclasses import replace
+"""A support that settles until the structure falls: closed forms of arches and beams."""
 
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from settling_blocks import SPREAD, arch, beam_on
 from spreading_arch import beside_the_crown, first_hinge, fourth_hinge, half_ring, three_hinged
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
-from limitblocks.evidence.ending import Status
-from limitblocks.loads import pressure
 from limitblocks.practice import Control, settlement_to_collapse
 from limitblocks.practice.advance import Advanced, shut
 from limitblocks.practice.displaced import assembly_of, moved
 
-DEPTH, WEIGHT = 1.0, 20e3
-SPREAD = (1.0, 0.0, 0.0)
-
-
-def arch(voussoirs, thickness, joint=None):
-    ring = lb.structures.arch(
-        joint or lb.PointContact(0.8),
-        radius=1.0,
-        thickness=thickness,
-        voussoirs=voussoirs,
-        unit_weight=WEIGHT,
-    )
-    return ring, sum(block.weight for block in ring.free_blocks)
+DEPTH = 1.0
 
 
 @pytest.mark.parametrize(
@@ -222,15 +206,6 @@ def test_a_ladder_whose_head_slides_down_a_wall_and_whose_foot_then_slides(slope
     assert curve.falls - curve.stands_to <= 2e-2
 
 
-def beam_on(supports, ends, joint):
-    """A beam between two `ends`, m, on supports from x to x."""
-    stones = [lb.Block.box(name, (b - a, 1, 1), ((a + b) / 2, 0, -0.5)) for name, (a, b) in supports.items()]
-    a, b = ends
-    stones.append(lb.Block.box("beam", (b - a, 1, 0.5), ((a + b) / 2, 0, 0.25), WEIGHT))
-    joints = lb.find_interfaces(stones, joint)
-    return lb.Model(stones, list(supports), joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
-
-
 @pytest.mark.parametrize("joint", [lb.PointContact(0.5), lb.OrdunaLourenco(0.3)], ids=["points", "planes"])
 def test_a_beam_rests_on_a_support_that_slides_away_until_its_bearing_is_used_up(joint):
     """Bearing of .2 m; friction drags the support back by mu N, N from moments about where the beam bears."""
@@ -265,112 +240,3 @@ def test_slip_of_associated_flow_opens_the_joint_of_a_support_that_slides_away()
     assert "m is reached; beyond 0 m joints press across their gaps, as slip of associated flow" in str(curve)
     (section,) = (one for one in lb.report(model, curve).sections if one.title.startswith("Settlement"))
     assert section.quantity == "settlement up to which no joint presses across a gap"
-
-
-def test_nothing_rests_on_a_support_that_the_others_spare():
-    model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
-    curve = settlement_to_collapse(model, "b", (0, 0, -1))
-    assert curve.ended == "nothing rests on the support any more at 0 m"
-    assert curve.reactions == pytest.approx([0.0], abs=1e-3)
-
-
-def test_it_ends_where_it_is_told_to():
-    ring, _ = arch(2, 0.3)
-    told = []
-    curve = settlement_to_collapse(
-        ring, "right support", SPREAD, step=0.02, largest=0.03, progress=told.append
-    )
-    assert curve.displacements[-1] == pytest.approx(0.03, rel=1e-9)
-    assert curve.falls is None
-    assert curve.ended == "the settlement 0.03 m is reached"
-    assert tuple(told) == curve.points
-    assert curve.digest == ring.digest
-    assert [one["displacement"] for one in curve.to_dict()["points"]] == curve.displacements.tolist()
-    assert str(curve).endswith("the settlement 0.03 m is reached")
-
-
-def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure():
-    """What slides lifts, so that it never comes to rest, nor falls: five metres are its longest side."""
-    stones = [
-        lb.Block.box("left", (1, 1, 1), (0, 0, -0.5)),
-        lb.Block.box("right", (1, 1, 1), (4, 0, -0.5)),
-        lb.Block.box("beam", (5, 1, 0.5), (2, 0, 0.25), 20e3),
-    ]
-    interfaces = lb.find_interfaces(stones, lb.PointContact(0.5))
-    push = lb.mass_proportional((1, 0, 0))
-    model = lb.Model(stones, ["left", "right"], interfaces, lb.self_weight(), push)
-    curve = settlement_to_collapse(
-        model, "right", (1, 0, -1), step=5.0, accuracy=0.5, without_dilatancy=False
-    )
-    assert curve.ended == "the settlement 5 m, the size of the structure, is reached"
-    assert curve.points[-1].displacement == pytest.approx(5.0)
-    assert curve.falls is None
-
-
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"step": 0.0}, "step is 0.0, expected a finite number > 0"),
-        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite number > 0"),
-        ({"largest": 0.0}, "largest is 0.0, expected a settlement > 0"),
-    ],
-)
-def test_misuse(settings, words):
-    with pytest.raises(lb.ModelError, match=words):
-        settlement_to_collapse(arch(2, 0.3)[0], "right support", SPREAD, **settings)
-
-
-def test_support_that_is_a_free_block_and_load_that_stays_behind():
-    ring, _ = arch(2, 0.3)
-    with pytest.raises(lb.ModelError, match="'voussoir 1' is a free block"):
-        settlement_to_collapse(ring, "voussoir 1", SPREAD)
-    wind = ring.dead + pressure("voussoir 1", 100.0, facing=(-1, 0, 0))
-    loaded = lb.Model(ring.blocks, ring.supports, ring.interfaces, wind, ring.live)
-    with pytest.raises(lb.ModelError, match="does not move with the blocks; a settlement until collapse"):
-        settlement_to_collapse(loaded, "right support", SPREAD)
-
-
-@pytest.mark.parametrize("falls", [True, False])
-def test_the_end_says_what_is_known_where_no_answer_is_found(monkeypatch, falls):
-    """A beam with a bearing of .2 m, no answer from .08 m on; the step to .2 m falls."""
-    model = beam_on({"left": (-2.0, -1.9), "right": (1.4, 1.6)}, (-2.4, 1.6), lb.PointContact(0.5))
-    found = importlib.import_module("limitblocks.practice.collapse")
-    solve = found.settlement
-
-    def lost(there, *given, **options):
-        way = there.blocks[1].centroid[0] - model.blocks[1].centroid[0]
-        if way > 0.18 and falls:
-            raise lb.errors.NoEquilibrium(("beam",))
-        if way > 0.08:
-            raise lb.SolveError("lost")
-        return solve(there, *given, **options)
-
-    monkeypatch.setattr(found, "settlement", lost)
-    curve = settlement_to_collapse(model, "right", SPREAD, step=0.15, accuracy=1e-3)
-    assert 0.08 - 2e-3 < curve.stands_to <= 0.08
-    assert (curve.falls is not None) == falls
-    until = f" until it falls at {curve.falls:.9g} m" if falls else ""
-    assert curve.ended == f"no checked answer beyond {curve.stands_to:.6g} m{until}: lost"
-
-
-@pytest.mark.parametrize("within", [False, True])
-def test_an_interrupted_settlement_keeps_its_points(monkeypatch, within):
-    """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""
-    ring, _ = arch(8, 0.2)
-    found = importlib.import_module("limitblocks.practice.collapse")
-    solve, state, calls = found.settlement, lb.nonassociated(ring), []
-
-    def stopped(*given, **options):
-        calls.append(given)
-        if len(calls) < 3:
-            return solve(*given, **options)
-        if not within:
-            raise KeyboardInterrupt
-        raise lb.errors.NotConverged("interrupted", replace(state, status=Status.INTERRUPTED))
-
-    monkeypatch.setattr(found, "settlement", stopped)
-    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.1)
-    assert len(calls) == 3
-    assert len(curve.points) == 2
-    assert curve.falls is None
-    assert curve.ended == f"interrupted beyond {curve.points[1].displacement:.6g} m"

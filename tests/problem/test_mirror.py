@@ -20,7 +20,7 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.stability import standing_margin
 from limitblocks.problem import State
 from limitblocks.problem.plane import Choice, mirror_of, reduced
-from limitblocks.problem.plane.alike import pseudo_inverses
+from limitblocks.problem.plane.rounding import pseudo_inverses
 
 JOINTS = {
     "points": lb.PointContact(0.6),

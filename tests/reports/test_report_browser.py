@@ -1,6 +1,7 @@
 """The report in a browser, if there is one: Chromium with WebGL in software."""
 
 import re
+from dataclasses import replace
 from io import BytesIO
 from itertools import pairwise
 
@@ -278,6 +279,21 @@ def test_printed_pages_have_number_title_and_hash_and_no_head_alone(page, model,
     for sheet in sheets:  # rows never stand without their heads
         if re.search(r"(?<!-)hinge", sheet) and "Orduña" not in sheet:
             assert re.search("Utilisation|Begins to", sheet)
+
+
+def test_sentences_in_tables_stay_readable_on_a_phone_and_on_paper(open_page, model, tmp_path):
+    """Values of words wrap: they left the sentence beside them one letter a line."""
+    page = open_page.context.browser.new_page(viewport={"width": 390, "height": 844})
+    solved = lb.nonassociated(model)
+    long = replace(solved, how=f"{solved.how}, {'words that say the way, ' * 4}")
+    page.goto(lb.report(model, long).save(tmp_path / "long.html").as_uri())
+    cells = "[...document.querySelectorAll('table:not(.sortable) td:not([class])')]"
+    narrowest = f"Math.min(...{cells}.filter(cell => cell.offsetWidth).map(cell => cell.clientWidth))"
+    assert page.evaluate(narrowest) >= 8 * 0.9 * 16
+    page.emulate_media(media="print")
+    page.set_viewport_size({"width": 672, "height": 990})  # A4 less its margins, CSS pixels
+    assert page.evaluate(narrowest) >= 8 * 16
+    page.close()
 
 
 def test_model_without_results_is_shown(open_page, model, tmp_path):

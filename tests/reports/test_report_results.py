@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.evidence.backward_error import unknown
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.problem import Turning
 from limitblocks.reports import curve
 from limitblocks.reports.comparison import comparison
+from limitblocks.reports.rows import backward
 from limitblocks.reports.terminal import print_result
 from limitblocks.reports.words import at_most
 
@@ -215,3 +217,8 @@ def test_a_figure_says_once_what_is_dashed():
     """Its text and its caption said so both, which Markdown and the terminal print one after the other."""
     block = lb.structures.block(lb.PointContact(0.6), width=0.4, height=1.0)
     assert lb.report(block, lb.bounds(block)).text.count("Dashed") == 1
+
+
+def test_a_backward_error_that_was_not_found_claims_no_model():
+    """It said: inf, exact for a model changed by as much."""
+    assert backward(unknown())[1:] == ("inf", "no changed model was found of which this state is exact")

@@ -63,6 +63,18 @@ def test_directions_up_and_down():
     assert series.results[2] is None
 
 
+def test_the_line_says_what_the_least_answer_remarks():
+    """Pushed along the diagonal Eq. (39) has 1 - n, the triangle of the stress block 1 - 2/3 sqrt(2 n)."""
+    n, ground = 0.2, lb.Block.box("ground", (6, 6, 1), (0, 0, -0.5))
+    pier = lb.Block.box("pier", (1, 1, 4), (0, 0, 2), 20e3)
+    contacts = lb.find_interfaces([ground, pier], lb.OrdunaLourenco(0.9, compressive_strength=80e3 / n))
+    push = lb.mass_proportional((1, 0, 0))
+    model = lb.Model([ground, pier], ["ground"], contacts, lb.self_weight(), push)
+    over = (1 - n) / (1 - 2 / 3 * np.sqrt(2 * n))
+    assert f"carries {over:.2f} times the moment" in str(studies.directions(model, [(1, 1, 0)]))
+    assert "moment" not in str(studies.directions(model, [(1, 0, 0)]))
+
+
 def test_live_load_that_cannot_be_turned():
     model = block(live=lb.loads.force("block", (1e3, 0, 0), (0, 0, 1)))
     with pytest.raises(lb.ModelError, match="PointForce"):

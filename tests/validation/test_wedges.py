@@ -10,6 +10,9 @@ Associated: it moves (1, v) along the groove and up. On either plane that is v s
 sqrt(1 + v^2 cos^2 w) along; normality to Coulomb's cone, v sin w = mu sqrt(1 + v^2 cos^2 w), dissipates
 nothing, so that alpha W = W v and alpha = mu / sqrt(sin^2 w - mu^2 cos^2 w). Where tan w <= mu it is stuck.
 
+In between, with dilatancy psi, it moves (1, v) with v sin w = psi sqrt(1 + v^2 cos^2 w) =: psi s, and mu N
+points against that along either plane: 2 N (sin w - mu v cos^2 w / s) = W and alpha W = 2 mu N / s.
+
 With an octagon whose side faces the slip, V may also have up to mu N tan(pi/8) across the slip, up or down
 the plane: 2 N (sin w +- mu tan(pi/8) cos w) = W gives the ends of an interval of load factors.
 
@@ -56,6 +59,19 @@ def test_wedge_in_a_groove_associated(kind, friction, degrees):
     bounds = lb.bounds(groove(kind(friction), half_angle, expected))
     assert bounds.lower == pytest.approx(expected, rel=1e-6)
     assert bounds.upper == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("share", [0.3, 0.7])
+@pytest.mark.parametrize(("degrees", "friction"), [(30, 0.3), (30, 0.6), (50, 0.6), (70, 0.4)])
+def test_wedge_in_a_groove_with_some_dilatancy(kind, share, degrees, friction):
+    sin, cos = np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+    psi = share * friction
+    v = psi / np.sqrt(sin**2 - (psi * cos) ** 2)
+    s = np.sqrt(1 + (v * cos) ** 2)
+    expected = friction / (s * sin - friction * v * cos**2)
+    model = groove(kind(friction), np.radians(degrees), expected)
+    assert lb.nonassociated(model, dilatancy=psi).load_factor == pytest.approx(expected, rel=1e-7)
 
 
 @pytest.mark.parametrize(("degrees", "friction"), [(45, 0.4), (30, 0.6), (60, 0.2)])

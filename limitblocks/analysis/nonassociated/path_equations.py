@@ -168,9 +168,9 @@ def moved(path: Path, z: Point, t: float, d: Point) -> Point:
         t = min(t, change * z.theta / d.theta)
     ahead = z.moved(t, d)
     # balances the sizes of slacks and multipliers, which decides what counts as large
-    sigma = float(np.sqrt(np.linalg.norm(z.s) / np.linalg.norm(z.y)))
+    sigma = float(np.sqrt(np.sqrt(z.s @ z.s) / np.sqrt(z.y @ z.y)))
     s, y = central(path.cones, ahead.s / sigma - sigma * ahead.y, path.target(ahead.theta))
-    return replace(ahead, s=sigma * s, y=y / sigma)
+    return Point(ahead.x, ahead.u, ahead.load_factor, sigma * s, y / sigma, ahead.theta)
 
 
 def moved_on(path: Path, z: Point) -> Path:

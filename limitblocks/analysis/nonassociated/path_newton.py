@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from scipy.sparse import linalg
 
@@ -53,16 +51,22 @@ class Newton:
 
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
-        columns = zip(*map(_parts, sides), strict=True)
-        q = _Columns(*(np.ascontiguousarray(np.array(parts).T) for parts in columns))
-        multiplier = q.multiplier + self.fall(q.slack)
-        loads = np.concatenate([q.balance, q.work[None]])
-        d = self._eliminated(np.concatenate([q.flow + self.GT @ multiplier, loads]))
-        x, w, y = np.split(d, self._ends)  # which are views
-        y += multiplier
+        n, height, count = len(self.elastic), len(self.path.cones.member), len(sides)
+        right, rows = np.empty((self._ends[1], count)), np.empty((height, count))
+        y = np.empty_like(rows)
+        for k, q in enumerate(sides):
+            right[:n, k], right[n:-1, k], right[-1, k] = q.flow, q.balance, q.work
+            rows[:, k], y[:, k] = q.slack, q.multiplier
+        y += self.fall(rows)
+        loads = right.copy()
+        loads[:n] += self.GT @ y
+        d, s = self._eliminated(loads)
+        x, w, multipliers = np.split(d, self._ends)  # which are views
+        multipliers += y
         if self.z.theta < REFINED:
-            self._refine(d, np.concatenate([q.flow, loads]))
-        parts = x, w[:-1], w[-1], self.path.flow.problem.F @ x - q.slack, y
+            self._refine(d, right)
+            s = self.path.flow.problem.F @ x
+        parts = x, w[:-1], w[-1], s - rows, multipliers
         own = zip(*(np.ascontiguousarray(part.T) for part in parts), strict=True)
         return [Point(x, u, float(load_factor), s, y, 0.0) for x, u, load_factor, s, y in own]
 
@@ -77,7 +81,7 @@ class Newton:
         for _ in range(MOST):
             if (_largest(left[:n]) <= ACCURATE * _largest(y)).all():
                 return
-            step = self._eliminated(left)
+            step, _ = self._eliminated(left)
             takes = self._taken(step)
             for earlier, took in tried:
                 share = np.einsum("kc,kc->c", takes, took)
@@ -96,15 +100,16 @@ class Newton:
         n, rates = self.path.flow.problem.C.shape
         return [n, n + rates + 1]
 
-    def _eliminated(self, right: Array) -> Array:
-        """Directions (x, u, a, y) for right-hand sides of flow, balance and work."""
+    def _eliminated(self, right: Array) -> tuple[Array, Array]:
+        """Directions (x, u, a, y) for right-hand sides of flow, balance and work, and F x."""
         p, layout = self.path.flow.problem, self.path.layout
         n = len(self.elastic)
         free, loads = self._flexed(right[:n]), right[n:].copy()
         loads[:-1] += layout.balance @ free
         w = self.lu.solve(loads)
         x = free + self._flexed(p.C @ w[:-1])
-        return np.concatenate([x, w, -self.fall(p.F @ x)])
+        rows = p.F @ x
+        return np.concatenate([x, w, -self.fall(rows)]), rows
 
     def _taken(self, d: Array) -> Array:
         """What directions take of flow, balance and work; slacks and products are exact."""
@@ -119,16 +124,6 @@ class Newton:
     def _flexed(self, v: Array) -> Array:
         layout = self.path.layout
         return layout.per_stress(self.flexibility @ layout.per_interface(v))
-
-
-class _Columns(NamedTuple):
-    """The parts of :class:`Equations` with a column for each side."""
-
-    flow: Array
-    balance: Array
-    work: Array
-    slack: Array
-    multiplier: Array
 
 
 def inverses(matrices: Array) -> tuple[Array, Array]:
@@ -153,10 +148,6 @@ def inverses(matrices: Array) -> tuple[Array, Array]:
 def _largest(columns: Array) -> Array:
     """Largest size in each of a few long columns: one by one, as numpy takes 100 times as long for all."""
     return np.array([np.abs(column).max() for column in columns.T])
-
-
-def _parts(q: Equations) -> tuple[Array | float, ...]:
-    return q.flow, q.balance, q.work, q.slack, q.multiplier
 
 
 def _sign(lu: linalg.SuperLU) -> float:

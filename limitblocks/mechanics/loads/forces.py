@@ -185,12 +185,24 @@ def added_mass(
 
 
 def left_still(dead: Load, live: Load) -> tuple[str, ...]:
-    """Return the blocks whose added masses weigh in `dead` and are not pushed in `live`, by name."""
-    weighed, pushed = (
-        {replace(term, direction=DOWN) for _, term in load.terms if isinstance(term, AddedMass)}
-        for load in (dead, live)
-    )
-    return tuple(sorted({mass.block for mass in weighed - pushed}))
+    """Return the blocks whose added masses weigh a larger share in `dead` than is pushed in `live`, by name.
+
+    A share is the factor of a mass over that of the blocks' weights.
+    """
+    weighed, pushed = map(_shares, (dead, live))
+    less = (mass for mass, share in weighed.items() if pushed.get(mass, 0.0) < share * (1.0 - 1e-9))
+    return tuple(sorted({mass.block for mass in less}))
+
+
+def _shares(load: Load) -> dict[AddedMass, float]:
+    """Shares of the masses of a load, whatever their direction."""
+    whole = sum(factor for factor, term in load.terms if isinstance(term, MassProportional)) or 1.0
+    shares: dict[AddedMass, float] = {}
+    for factor, term in load.terms:
+        if isinstance(term, AddedMass):
+            mass = replace(term, direction=DOWN)
+            shares[mass] = shares.get(mass, 0.0) + factor / whole
+    return shares
 
 
 def force(block: str, force: Sequence[float], at: Sequence[float]) -> Load:

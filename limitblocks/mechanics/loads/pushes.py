@@ -12,6 +12,7 @@ from limitblocks.errors import ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, mass_proportional, self_weight
 from limitblocks.mechanics.loads.load import Load, unit_vector, vector
+from limitblocks.shown import coordinates
 
 
 def compass(count: int, *, vertical: bool = False) -> Array:
@@ -37,17 +38,25 @@ def turned(load: Load, direction: Sequence[float]) -> Load:
     Raises
     ------
     ModelError
-        If a term is not mass-proportional, or the direction is zero.
+        If a term is not mass-proportional, they act along several directions, or the new one is zero.
     """
-    along = unit_vector(direction, "direction")
-    terms = []
+    along, terms = unit_vector(direction, "direction"), []
+    given: set[tuple[float, ...]] = set()
     for factor, term in load.terms:
         if not isinstance(term, MassProportional | AddedMass):
             raise ModelError(
                 f"the live load has a {type(term).__name__}, which no direction turns; "
                 "expected mass_proportional(...), or give the loads as a function of the direction"
             )
-        terms.append((factor, replace(term, direction=along)))
+        if factor:
+            given.add(tuple(np.round(np.sign(factor) * np.array(term.direction), 9).tolist()))
+            terms.append((abs(factor), replace(term, direction=along)))
+    if len(given) > 1:
+        said = " and ".join(map(coordinates, sorted(given)))
+        raise ModelError(
+            f"the live load acts along {said}, expected one direction to turn, or give the loads as a "
+            "function of the direction"
+        )
     return Load(tuple(terms))
 
 

@@ -122,11 +122,20 @@ def tops(blocks: Sequence[Block], places: Array) -> tuple[Indices, Array]:
 
 def covered(start: Array, end: Array, blocks: Sequence[Block]) -> Array:
     """Return the parts of a line in plan, from `start` to `end` (2,), with a block below, m; (k, 2, 2)."""
-    s = _crossings(start, end - start, blocks)
-    owner, _ = tops(blocks, start + np.outer((s[1:] + s[:-1]) / 2.0, end - start))
+    s, owner = stretches(start, end, blocks)
     change = np.diff(np.concatenate([[False], owner >= 0, [False]]).astype(int))
     ends = np.stack([s[change == 1], s[change == -1]], axis=1)
     return np.asarray(start + ends[..., None] * (end - start))
+
+
+def stretches(start: Array, end: Array, blocks: Sequence[Block]) -> tuple[Array, Indices]:
+    """Return where edges cut a line in plan, from `start` to `end` (2,), and the block below each part.
+
+    Places from 0 to 1, shape (k + 1,), and positions in `blocks`, -1 where there is none, shape (k,).
+    """
+    s = _crossings(start, end - start, blocks)
+    owner, _ = tops(blocks, start + np.outer((s[1:] + s[:-1]) / 2.0, end - start))
+    return s, owner
 
 
 def _upward(blocks: Sequence[Block]) -> tuple[Array, Indices, Array]:

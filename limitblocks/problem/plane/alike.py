@@ -4,86 +4,39 @@ from __future__ import annotations
 
 import numpy as np
 
-from limitblocks.arrays import Array, Indices, same_rows
+from limitblocks.arrays import Array, Indices
+from limitblocks.problem.cones import Cones
 from limitblocks.problem.plane.places import Place
-
-EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
-AGREE = 0.01 * EXACT  # of numbers up to one: places that agree within it are judged once
+from limitblocks.problem.plane.rounding import close, size_of
 
 
-def classes(*numbers: Array) -> tuple[Indices, Indices]:
-    """The first place of each class of places with the same numbers (K, ...), and the class of each (K,).
-
-    Structures repeat a few joints over and over.
-    """
-    return same_rows(np.concatenate([used(part) for part in numbers], axis=1), AGREE)
-
-
-def used(values: Array) -> Array:
-    """The numbers (K, ...) of each place as a row, without those that are zero at all places."""
-    rows = values.reshape(len(values), -1)
-    return np.asarray(rows[:, rows.any(axis=0)])
-
-
-def close(a: Array, b: Array, scale: Array | float) -> bool:
-    """Whether two arrays agree up to EXACT times the scale."""
-    return bool((np.abs(a - b) <= EXACT * scale).all())
-
-
-def pseudo_inverses(matrices: Array) -> Array:
-    """Pseudo-inverses of symmetric matrices (K, c, c); inverses, seven times faster, where all have one."""
-    try:
-        inverses = np.linalg.inv(matrices)
-        exact = close(inverses @ matrices, np.eye(matrices.shape[1]), 1.0)
-    except np.linalg.LinAlgError:
-        exact = False
-    return np.asarray(inverses if exact else np.linalg.pinv(matrices, hermitian=True))
-
-
-def without_rounding(turn: Array) -> Array:
-    """The turn with 0, 1 and -1 where rounding is off them, lest a solver's last digits depend on it."""
-    whole = np.rint(turn)
-    return np.asarray(np.where(np.abs(turn - whole) <= AGREE, whole, turn))
-
-
-def alike(kind: Place, other: Place, turn: Array | None) -> Indices | None:
-    """Which linear row or cone (K, members) of `other` each one of `kind` is, its stresses turned.
+def alike(kind: Place, own: Indices, other: Indices, turn: Array | None) -> Indices | None:
+    """Which linear row or cone (K, members) of sorts `other` (K,) each one of `own` is, its stresses turned.
 
     None where one is like none. Cones are alike where their heads are, and the lengths of their other rows.
     """
-    turned, there = numbers(kind, turn), numbers(other, None)
+    turned, there = numbers(kind, own, turn), numbers(kind, other, None)
     scale = size_of(there)
     turned, there = turned / scale, there / scale
-    partners = []
-    for kinds in _same_size(kind):
-        a, b = (np.stack([length_of(v[:, at]) for at in kinds], axis=1) for v in (turned, there))
+    cones = Cones.of_sizes(kind.linear, kind.cones)
+    partners, first = [], 0
+    for rows in (np.arange(cones.linear)[:, None], *cones.groups):
+        a, b = length_of(turned[:, rows]), length_of(there[:, rows])
         here, there_too = in_order(a), in_order(b)
         pair = [np.take_along_axis(v, at[..., None], 1) for v, at in ((a, here), (b, there_too))]
         if not close(pair[0], pair[1], 1.0):
             return None
         partner = np.empty_like(here)
-        np.put_along_axis(partner, here, kind.members.index(kinds[0]) + there_too, axis=1)
+        np.put_along_axis(partner, here, first + there_too, axis=1)
         partners.append(partner)
-    return np.concatenate(partners, axis=1) if partners else np.zeros((len(kind.rows), 0), dtype=np.int64)
+        first += len(rows)
+    return np.concatenate(partners, axis=1)
 
 
-def size_of(values: Array) -> Array:
-    """Largest of the numbers (K, ...) of each place, one for nothing, to divide them by."""
-    size = np.abs(values).max(axis=tuple(range(1, values.ndim)), keepdims=True)
-    return np.asarray(np.where(size > 0.0, size, 1.0))
-
-
-def numbers(kind: Place, turn: Array | None) -> Array:
-    """Rows of F, g and G (K, r, 2 c + 1), of turned stresses."""
-    F, G = (kind.F, kind.G) if turn is None else (kind.F @ turn, kind.G @ turn)
-    return np.concatenate([F, kind.g[..., None], G], axis=2)
-
-
-def _same_size(kind: Place) -> list[list[slice]]:
-    """Linear rows, and cones of each size."""
-    sizes = sorted({at.stop - at.start for at in kind.members[kind.linear :]})
-    conic = [[at for at in kind.members[kind.linear :] if at.stop - at.start == size] for size in sizes]
-    return [part for part in (list(kind.members[: kind.linear]), *conic) if part]
+def numbers(kind: Place, sort: Indices, turn: Array | None) -> Array:
+    """Rows of F, g and G (K, r, 2 c + 1) of sorts (K,), of turned stresses."""
+    F, g, G = kind.F[sort], kind.g[sort][..., None], kind.G[sort]
+    return np.concatenate([F, g, G] if turn is None else [F @ turn, g, G @ turn], axis=2)
 
 
 def in_order(values: Array) -> Indices:
@@ -94,9 +47,9 @@ def in_order(values: Array) -> Indices:
 
 
 def length_of(rows: Array) -> Array:
-    """Head of a linear row or a cone (K, size, n) and products of its other rows: what no turn changes."""
-    rest = rows[:, 1:]
-    if not rest.shape[1]:
-        return np.asarray(rows[:, 0])
-    products = np.einsum("kri,krj->kij", rest, rest).reshape(len(rows), -1)
-    return np.concatenate([rows[:, 0], products], axis=1)
+    """Head of linear rows or cones (K, L, size, n) and products of their other rows: what no turn changes."""
+    rest = rows[:, :, 1:]
+    if not rest.shape[2]:
+        return np.asarray(rows[:, :, 0])
+    products = np.einsum("klri,klrj->klij", rest, rest).reshape(*rows.shape[:2], -1)
+    return np.concatenate([rows[:, :, 0], products], axis=2)

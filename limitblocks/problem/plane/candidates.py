@@ -9,7 +9,7 @@ from scipy.spatial import cKDTree
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.limit_problem import LimitProblem
-from limitblocks.problem.plane.alike import EXACT
+from limitblocks.problem.plane.rounding import EXACT
 
 UNIQUE = 1e-6  # of all normals and forces: less across two directions leaves the plane open
 

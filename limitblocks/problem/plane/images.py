@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array, Indices, owned
-from limitblocks.problem.plane.alike import EXACT, pseudo_inverses, without_rounding
 from limitblocks.problem.plane.places import Place
+from limitblocks.problem.plane.rounding import EXACT, pseudo_inverses, without_rounding
 
 
 def images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:
@@ -22,7 +22,7 @@ def images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:
     scale = np.abs(kind.strain).max(axis=(1, 2, 3))
     whole = kind.middle is kind.strain  # one place at each interface
     wide = kind.strain if whole else np.concatenate([kind.strain, kind.middle], axis=3)
-    mirrored = (wide.reshape(K, 2, c, -1, 6) @ rates).reshape(wide.shape)
+    mirrored = (wide.reshape(-1, 6) @ rates).reshape(wide.shape)
     free = np.where(goal[:, 0] >= 0, 0, 1)
     least, image, turn = np.full(K, np.inf), np.full(K, K), np.zeros((K, c, c))
     for k in range(table.shape[1]):

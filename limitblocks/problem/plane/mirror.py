@@ -12,20 +12,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, same_rows
+from limitblocks.arrays import Array, Indices
 from limitblocks.known import known
 from limitblocks.problem.limit_problem import LimitProblem, Units
-from limitblocks.problem.plane.alike import (
-    AGREE,
-    EXACT,
-    alike,
-    close,
-    size_of,
-    used,
-)
+from limitblocks.problem.plane.alike import alike
 from limitblocks.problem.plane.candidates import candidates
 from limitblocks.problem.plane.images import images
 from limitblocks.problem.plane.places import Place, kinds_of
+from limitblocks.problem.plane.rounding import EXACT, classes, close
 
 SNAP = 1e-10  # distance of a normal from an axis that is rounding
 
@@ -50,7 +44,7 @@ class Mirrored:
         The linear row or cone that the mirror makes of each: of the place itself where it has a plane of its
         own, else of its image.
     sort : Indices, shape (K,)
-        Equal for places with the same rows, up to their unit, and the same turn.
+        Equal for places with the same rows and the same turn.
     """
 
     places: Place
@@ -183,12 +177,11 @@ def _mirrored(kind: Place, blocks: Indices, rates: Array) -> Mirrored | None:
         return None
     still = (np.where(kind.ends >= 0, blocks[kind.ends], -1) == kind.ends).all(axis=1)
     own = still & (np.abs(back - turn).max(axis=(1, 2)) <= EXACT) & _plane_of_its_own(kind, turn, rates)
-    values = np.concatenate([used(part) for part in (kind.F, kind.g, kind.G)], axis=1)
-    first, sort = same_rows(np.concatenate([values / size_of(values), used(turn)], axis=1), AGREE)
-    partner = _partners(kind, image, turn, own, first, sort)
+    _, sort = classes(kind.sort[:, None].astype(float), turn)
+    partner = _partners(kind, image, turn, own, sort)
     if partner is None and own.any():
         own = np.zeros_like(own)  # not by planes of their own, but as pairs
-        partner = _partners(kind, image, turn, own, first, sort)
+        partner = _partners(kind, image, turn, own, sort)
     return None if partner is None else Mirrored(kind, image, turn, own, partner, sort)
 
 
@@ -199,26 +192,20 @@ def _plane_of_its_own(kind: Place, turn: Array, rates: Array) -> Flags:
     return np.asarray(off <= EXACT * np.abs(strain).max(axis=(1, 2, 3)))
 
 
-def _partners(
-    kind: Place, image: Indices, turn: Array, own: Flags, first: Indices, sort: Indices
-) -> Indices | None:
+def _partners(kind: Place, image: Indices, turn: Array, own: Flags, sort: Indices) -> Indices | None:
     """Partners of all members as in :class:`Mirrored`; None where the rows are not symmetric."""
-    few = kind.taken(first)
-    partner = np.zeros((len(own), len(kind.members)), dtype=np.int64)
+    first, of_place = classes(np.stack([sort, sort[image], own], axis=1))
+    a, b, across, own = kind.sort[first], kind.sort[image[first]], turn[first], own[first]
+    partner = np.zeros((len(first), len(kind.members)), dtype=np.int64)
     if own.any():
-        its = np.unique(sort[own], return_inverse=True)
-        one = few.taken(its[0])
-        within = alike(one, one, turn[first[its[0]]])
-        if within is None:
+        within = alike(kind, a[own], a[own], across[own])
+        moved = own & (a != b)
+        if within is None or (moved.any() and alike(kind, a[moved], b[moved], None) is None):
             return None
-        partner[own] = within[its[1]]
-        moved = np.flatnonzero(own & (image != np.arange(len(own))))
-        if len(moved) and alike(kind.taken(moved), kind.taken(image[moved]), None) is None:
-            return None
+        partner[own] = within
     if not own.all():
-        rest = np.flatnonzero(~own)
-        across = alike(kind.taken(rest), kind.taken(image[rest]), turn[rest].transpose(0, 2, 1))
-        if across is None:
+        its = alike(kind, a[~own], b[~own], across[~own].transpose(0, 2, 1))
+        if its is None:
             return None
-        partner[rest] = across
-    return partner
+        partner[~own] = its
+    return np.asarray(partner[of_place])

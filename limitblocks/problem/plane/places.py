@@ -9,9 +9,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from limitblocks.arrays import Array, Indices, in_blocks, owned
+from limitblocks.arrays import Array, Indices, in_blocks, owned, same_rows
 from limitblocks.problem.limit_problem import LimitProblem
 from limitblocks.problem.places import places
+from limitblocks.problem.plane.rounding import AGREE, size_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +35,11 @@ class Place:
         Strain rates per rate of the block at each end.
     middle : Array, shape (K, 2, c, 6)
         Their mean over the places of the interface.
-    F, G : Array, shape (K, r, c)
-        Yield rows and plastic potential, in the force of the interface.
-    g : Array, shape (K, r)
+    sort : Indices, shape (K,)
+        Equal for places with the same rows.
+    F, G : Array, shape (q, r, c)
+        Yield rows and plastic potential of each sort, in the force of the interface.
+    g : Array, shape (q, r)
         Constant terms, in the same.
     """
 
@@ -47,6 +50,7 @@ class Place:
     ends: Indices
     strain: Array
     middle: Array
+    sort: Indices
     F: Array
     G: Array
     g: Array
@@ -58,13 +62,6 @@ class Place:
         first = np.concatenate([[0], np.cumsum(sizes)]).tolist()
         return tuple(slice(a, b) for a, b in pairwise(first))
 
-    def taken(self, chosen: Indices) -> Place:
-        """Return some of the places."""
-        columns, rows, ends = (part[chosen] for part in (self.columns, self.rows, self.ends))
-        strain, middle = self.strain[chosen], self.middle[chosen]
-        F, G, g = (part[chosen] for part in (self.F, self.G, self.g))
-        return Place(columns, rows, self.linear, self.cones, ends, strain, middle, F, G, g)
-
 
 def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     """The places of a problem, those of one kind together; `strain` (s, 2, 6) as in :class:`Place`."""
@@ -72,15 +69,18 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
     of_row = of_member[problem.cones.member]
     count = int(max(of_member.max(initial=-1), of_stress.max(initial=-1))) + 1
     columns, column = owned(of_stress, count)
-    rows, row = owned(of_row, count)
+    rows, _ = owned(of_row, count)
+    mix = np.cos(column**2 + 1.0)  # numbers without a pattern: unlike rows differ
+    mixed = np.stack([problem.F @ mix, problem.G @ mix, problem.g]) * problem.units.row
     for its, linear, cones in _alike(problem, of_member, of_stress, count):
         c, r = int((of_stress == its[0]).sum()), linear + sum(cones)
         own, its_rows = columns[its, :c], rows[its, :r]
-        unit = problem.units.row[its_rows]
-        number = np.full(count, -1)
-        number[its] = np.arange(len(its))
-        first = np.where(number[of_row] >= 0, (number[of_row] * r + row) * c, -1)
-        at = strain[own].transpose(0, 2, 1, 3)
+        values = mixed[:, its_rows].swapaxes(0, 1).reshape(len(its), -1)
+        size = size_of(values)
+        one, sort = same_rows(np.concatenate([values / size, np.log2(size)], axis=1), AGREE)
+        few = its_rows[one].ravel()
+        first, unit = np.arange(len(few)) * c, problem.units.row[its_rows[one]]
+        at = strain[own[:, None], [[0], [1]]]
         yield Place(
             columns=own,
             rows=its_rows,
@@ -89,9 +89,10 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
             ends=problem.ends[problem.stress_interface[own[:, 0]]],
             strain=at,
             middle=_means(at, problem.stress_interface[own[:, 0]]),
-            F=in_blocks(problem.F, first, column, (len(its), r, c)) * unit[..., None],
-            G=in_blocks(problem.G, first, column, (len(its), r, c)) * unit[..., None],
-            g=problem.g[its_rows] * unit,
+            sort=sort,
+            F=in_blocks(problem.F[few], first, column, (len(one), r, c)) * unit[..., None],
+            G=in_blocks(problem.G[few], first, column, (len(one), r, c)) * unit[..., None],
+            g=problem.g[its_rows[one]] * unit,
         )
 
 

@@ -13,7 +13,7 @@ from scipy.sparse import linalg
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, State, Units, in_units
-from limitblocks.problem.plane.alike import EXACT
+from limitblocks.problem.plane.rounding import EXACT
 
 SYMMETRIC = 1e-9  # of the largest stress: stresses farther from their mirror image are not symmetric
 

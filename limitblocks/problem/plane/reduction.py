@@ -17,9 +17,9 @@ from scipy import sparse
 from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read_only
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
-from limitblocks.problem.plane.alike import EXACT
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
 from limitblocks.problem.plane.planar import Planar
+from limitblocks.problem.plane.rounding import EXACT
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
 SMALLEST = 0.1  # column of a projection that is left: the largest of six is above 0.4
@@ -158,6 +158,8 @@ def symmetric(turn: Array) -> Array:
         sizes = np.linalg.norm(left, axis=1)
         largest = sizes.round(ALIKE).argmax(axis=1)
         size = sizes[np.arange(K), largest][:, None]
+        if (size <= SMALLEST).all():
+            break
         column = np.where(
             size > SMALLEST, left[np.arange(K), :, largest] / np.where(size > SMALLEST, size, 1.0), 0.0
         )

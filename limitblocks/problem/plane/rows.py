@@ -17,9 +17,10 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, repeated
-from limitblocks.problem.plane.alike import EXACT, classes, in_order, length_of
+from limitblocks.problem.plane.alike import in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
+from limitblocks.problem.plane.rounding import EXACT, classes
 
 Flags = npt.NDArray[np.bool_]
 CHUNK = 1000  # classes of places at a time: keeps the arrays small
@@ -111,9 +112,9 @@ def _rows(sets: _Sets, choice: Choice, as_lines: bool) -> Iterator[_Rows]:
 
 def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
     p, there = kind.places, _pair(kind, own)
-    bases = [X, kind.turn[own] @ X]
+    sorts, bases = [p.sort[k] for k in there], [X, kind.turn[own] @ X]
     values = np.concatenate(
-        [np.concatenate([p.F[k] @ Y, p.g[k][..., None]], axis=2) for k, Y in zip(there, bases, strict=False)],
+        [np.concatenate([p.F[k] @ Y, p.g[k][..., None]], axis=2) for k, Y in zip(sorts, bases, strict=False)],
         axis=1,
     )
     size = np.abs(values).max(axis=(1, 2), keepdims=True)
@@ -122,7 +123,7 @@ def _sets(kind: Mirrored, own: Indices, X: Array) -> _Sets:
     return _Sets(
         places=len(there),
         values=values / size,
-        flow=np.concatenate([p.G[k] @ Y for k, Y in zip(there, bases, strict=False)], axis=1) / size,
+        flow=np.concatenate([p.G[k] @ Y for k, Y in zip(sorts, bases, strict=False)], axis=1) / size,
         members=tuple(slice(m.start + k * r, m.stop + k * r) for k in range(len(there)) for m in p.members),
         linear=tuple(k < p.linear for k in range(count)) * len(there),
         partner=np.concatenate(
@@ -159,7 +160,7 @@ def _cones(sets: _Sets, size: int) -> _Cones:
     which = [k for k, m in enumerate(sets.members) if m.stop - m.start == size]
     start = sets.start[which]
     E = sets.values[:, start[:, None] + np.arange(size)]
-    stands, share = _same(np.stack([length_of(E[:, k]) for k in range(len(which))], axis=1))
+    stands, share = _same(length_of(E))
     z = E[:, :, 1:]
     _, S, Vt = np.linalg.svd(z, full_matrices=False)
     kept = S > EXACT

@@ -62,19 +62,19 @@ def read_drawing(
     """
     path = Path(file)
     with faults.named(path):
-        contents = elevation(path, thickness, units, [layers] if isinstance(layers, str) else layers)
+        contents = elevation(path, thickness, units, layers)
         return imported(contents, units, unit_weight, "z", skip_bad=skip_bad)
 
 
 def elevation(
-    path: Path, thickness: float, units: str | None = None, layers: Sequence[str] | None = None
+    path: Path, thickness: float, units: str | None = None, layers: str | Sequence[str] | None = None
 ) -> Contents:
     """Return the prisms, `thickness` m deep, over the closed outlines of the drawing at `path`."""
     if not 0.0 < thickness < np.inf:
         raise ModelError(f"thickness is {thickness!r}; expected a number > 0 in m")
     drawing = dxf.opened(path)
     with foreign("DXF"):
-        found = _contents(drawing, layers)
+        found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
     notes = [*dxf.unit_notes(drawing), *found.notes]
     contents = found._replace(metres=dxf.metres_per_unit(drawing), notes=notes, up="z")
     depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])

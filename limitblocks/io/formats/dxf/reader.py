@@ -19,6 +19,12 @@ from limitblocks.io.placed import Contents
 from limitblocks.io.solid import Solid
 
 _DEEPEST = 32  # block references within block references
+#: Metres per unit by $INSUNITS, exact; ezdxf has ten digits, and no mils and US survey feet (1200/3937 m).
+_METRES = {
+    1: 0.0254, 2: 0.3048, 3: 1609.344, 4: 1e-3, 5: 1e-2, 6: 1.0, 7: 1e3, 8: 2.54e-8, 9: 2.54e-5, 10: 0.9144,
+    11: 1e-10, 12: 1e-9, 13: 1e-6, 14: 0.1, 15: 10.0, 16: 100.0, 17: 1e9,
+    21: 1200 / 3937, 22: 100 / 3937, 23: 3600 / 3937, 24: 6336000 / 3937,
+}  # fmt: skip
 _NO_UNIT = "states no unit of length ($INSUNITS is 0 or missing)"
 
 
@@ -89,18 +95,10 @@ def metres_per_unit(drawing: Any) -> float | None:
     ModelError
         The code of the unit is unknown.
     """
-    from ezdxf.enums import InsertUnits
-    from ezdxf.units import conversion_factor
-
     code = drawing.header.get("$INSUNITS", 0)
-    if code == 0:
-        return None
-    try:
-        return float(conversion_factor(InsertUnits(code), InsertUnits.Meters))
-    except (ValueError, TypeError, KeyError):
-        raise ModelError(
-            f"unit of length $INSUNITS is {code!r}; expected a code from 0 to 7 or 10 to 20"
-        ) from None
+    if code and code not in _METRES:
+        raise ModelError(f"unit of length $INSUNITS is {code!r}; expected 0 to 17 or 21 to 24")
+    return _METRES.get(code)
 
 
 def unit_notes(drawing: Any) -> list[str]:

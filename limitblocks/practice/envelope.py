@@ -1,0 +1,99 @@
+"""Where along a deck the load factor is least: the mechanisms found so far tell where to look."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+
+from limitblocks.arrays import Array
+from limitblocks.evidence.associated import Bounds
+from limitblocks.model import Model
+from limitblocks.practice.influence import Line
+
+PLACES = 1001  # at which mechanisms are compared, along the way and again about the worst
+NEGLIGIBLE = 1e-3  # of the least load factor: a place that may have less by no more is not tried
+ATTAINED = 1e-5  # the same about the worst place
+NARROW = 2e-3  # of the way: a shorter part is not halved
+
+Found = dict[float, tuple[Bounds, Model] | None]  # by place; None where the load is unlimited
+
+
+@dataclass(eq=False)
+class Envelope:
+    """The least load factor of the mechanisms found at places `x`, m: no place carries more than that."""
+
+    line: Line
+    at: Callable[[float], tuple[Bounds, Model] | None]
+    found: Found
+    x: Array
+    factors: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.standing = self.line.standing(self.x)
+        self.factors = np.full(len(self.x), np.inf)
+        for one in self.found.values():
+            self._lower(one)
+
+    def _lower(self, found: tuple[Bounds, Model] | None) -> None:
+        if found:
+            bounds = found[0]  # its mechanism is such that the vehicle that it is of has the power 1 W
+            power = self.line.powers(bounds.displacement_rates, self.standing)
+            own = bounds.upper / np.where(power > 0.0, power, np.nan)
+            self.factors = np.fmin(self.factors, own)
+
+    @property
+    def least(self) -> float:
+        """Least static load factor found."""
+        return min((float(one[0].lower) for one in self.found.values() if one), default=np.inf)
+
+    def tried(self, x: float) -> float:
+        """Try a place; the share by which it carries less than the mechanisms found before."""
+        before = self.between(x, x)
+        found = self.at(x)
+        self._lower(found)
+        return max(1.0 - float(found[0].lower) / before, 0.0) if found else 0.0
+
+    def between(self, low: float, high: float) -> float:
+        """Least load factor of the mechanisms between two places."""
+        first, last = np.searchsorted(self.x, [low, high])
+        return float(self.factors[max(first - 1, 0) : last + 1].min())
+
+    def attain(self, share: float) -> None:
+        """Try the place where the mechanisms found carry least until it does, but for a share of that."""
+        while self.factors.min() < (1.0 - share) * self.least:
+            x = float(self.x[self.factors.argmin()])
+            if x in self.found:
+                break
+            self.tried(x)
+
+
+def search(
+    line: Line,
+    at: Callable[[float], tuple[Bounds, Model] | None],
+    found: Found,
+    between: tuple[float, float],
+    positions: int,
+) -> None:
+    """Try evenly spaced places, then where the load factor may be less; `at` puts them into `found`."""
+    low, high = between
+    known = Envelope(line, at, found, np.linspace(low, high, PLACES))
+    places = np.linspace(low, high, positions).tolist()
+    drops = {x: known.tried(x) for x in (*places[::2], *places[1::2])}
+    parts = [(a, b, max(drops[a], drops[b])) for a, b in pairwise(places)]
+    while parts:
+        known.attain(NEGLIGIBLE)
+        # halving a part may bring as much as halving what it is a part of did
+        hopes = [(1.0 - drop) * known.between(a, b) if drop < 1.0 else 0.0 for a, b, drop in parts]
+        k = int(np.argmin(hopes))
+        if not hopes[k] < (1.0 - NEGLIGIBLE) * known.least:
+            break
+        a, b, _ = parts.pop(k)
+        if b - a > NARROW * (high - low):
+            drop = known.tried((a + b) / 2.0)
+            parts += [(a, (a + b) / 2.0, drop), ((a + b) / 2.0, b, drop)]
+    worst = int(known.factors.argmin())
+    about = known.x[[max(worst - 1, 0), min(worst + 1, PLACES - 1)]]
+    Envelope(line, at, found, np.linspace(about[0], about[1], PLACES)).attain(ATTAINED)

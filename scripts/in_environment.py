@@ -1,0 +1,5 @@
+"""Imported first, makes a command run in the environment of this repository."""
+
+import environment
+
+environment.enter()

@@ -1,0 +1,26 @@
+"""Arches and beams whose supports settle, for tests of settlements until collapse."""
+
+import limitblocks as lb
+
+WEIGHT = 20e3
+SPREAD = (1.0, 0.0, 0.0)
+
+
+def arch(voussoirs, thickness, joint=None):
+    ring = lb.structures.arch(
+        joint or lb.PointContact(0.8),
+        radius=1.0,
+        thickness=thickness,
+        voussoirs=voussoirs,
+        unit_weight=WEIGHT,
+    )
+    return ring, sum(block.weight for block in ring.free_blocks)
+
+
+def beam_on(supports, ends, joint):
+    """A beam between two `ends`, m, on supports from x to x."""
+    stones = [lb.Block.box(name, (b - a, 1, 1), ((a + b) / 2, 0, -0.5)) for name, (a, b) in supports.items()]
+    a, b = ends
+    stones.append(lb.Block.box("beam", (b - a, 1, 0.5), ((a + b) / 2, 0, 0.25), WEIGHT))
+    joints = lb.find_interfaces(stones, joint)
+    return lb.Model(stones, list(supports), joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))

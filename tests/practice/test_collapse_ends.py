@@ -1,0 +1,121 @@
+"""A support that settles: how the way ends where the structure does not fall, and misuse."""
+
+import importlib
+from dataclasses import replace
+
+import pytest
+from settling_blocks import SPREAD, arch, beam_on
+
+import limitblocks as lb
+from limitblocks.evidence.ending import Status
+from limitblocks.loads import pressure
+from limitblocks.practice import settlement_to_collapse
+
+
+def test_nothing_rests_on_a_support_that_the_others_spare():
+    model = beam_on({"a": (-2.0, -1.6), "b": (-0.2, 0.2), "c": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
+    curve = settlement_to_collapse(model, "b", (0, 0, -1))
+    assert curve.ended == "nothing rests on the support any more at 0 m"
+    assert curve.reactions == pytest.approx([0.0], abs=1e-3)
+
+
+def test_it_ends_where_it_is_told_to():
+    ring, _ = arch(2, 0.3)
+    told = []
+    curve = settlement_to_collapse(
+        ring, "right support", SPREAD, step=0.02, largest=0.03, progress=told.append
+    )
+    assert curve.displacements[-1] == pytest.approx(0.03, rel=1e-9)
+    assert curve.falls is None
+    assert curve.ended == "the settlement 0.03 m is reached"
+    assert tuple(told) == curve.points
+    assert curve.digest == ring.digest
+    assert [one["displacement"] for one in curve.to_dict()["points"]] == curve.displacements.tolist()
+    assert str(curve).endswith("the settlement 0.03 m is reached")
+
+
+def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure():
+    """What slides lifts, so that it never comes to rest, nor falls: five metres are its longest side."""
+    stones = [
+        lb.Block.box("left", (1, 1, 1), (0, 0, -0.5)),
+        lb.Block.box("right", (1, 1, 1), (4, 0, -0.5)),
+        lb.Block.box("beam", (5, 1, 0.5), (2, 0, 0.25), 20e3),
+    ]
+    interfaces = lb.find_interfaces(stones, lb.PointContact(0.5))
+    push = lb.mass_proportional((1, 0, 0))
+    model = lb.Model(stones, ["left", "right"], interfaces, lb.self_weight(), push)
+    curve = settlement_to_collapse(
+        model, "right", (1, 0, -1), step=5.0, accuracy=0.5, without_dilatancy=False
+    )
+    assert curve.ended == "the settlement 5 m, the size of the structure, is reached"
+    assert curve.points[-1].displacement == pytest.approx(5.0)
+    assert curve.falls is None
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"step": 0.0}, "step is 0.0, expected a finite number > 0"),
+        ({"accuracy": -1.0}, "accuracy is -1.0, expected a finite number > 0"),
+        ({"largest": 0.0}, "largest is 0.0, expected a settlement > 0"),
+    ],
+)
+def test_misuse(settings, words):
+    with pytest.raises(lb.ModelError, match=words):
+        settlement_to_collapse(arch(2, 0.3)[0], "right support", SPREAD, **settings)
+
+
+def test_support_that_is_a_free_block_and_load_that_stays_behind():
+    ring, _ = arch(2, 0.3)
+    with pytest.raises(lb.ModelError, match="'voussoir 1' is a free block"):
+        settlement_to_collapse(ring, "voussoir 1", SPREAD)
+    wind = ring.dead + pressure("voussoir 1", 100.0, facing=(-1, 0, 0))
+    loaded = lb.Model(ring.blocks, ring.supports, ring.interfaces, wind, ring.live)
+    with pytest.raises(lb.ModelError, match="does not move with the blocks; a settlement until collapse"):
+        settlement_to_collapse(loaded, "right support", SPREAD)
+
+
+@pytest.mark.parametrize("falls", [True, False])
+def test_the_end_says_what_is_known_where_no_answer_is_found(monkeypatch, falls):
+    """A beam with a bearing of .2 m, no answer from .08 m on; the step to .2 m falls."""
+    model = beam_on({"left": (-2.0, -1.9), "right": (1.4, 1.6)}, (-2.4, 1.6), lb.PointContact(0.5))
+    found = importlib.import_module("limitblocks.practice.collapse")
+    solve = found.settlement
+
+    def lost(there, *given, **options):
+        way = there.blocks[1].centroid[0] - model.blocks[1].centroid[0]
+        if way > 0.18 and falls:
+            raise lb.errors.NoEquilibrium(("beam",))
+        if way > 0.08:
+            raise lb.SolveError("lost")
+        return solve(there, *given, **options)
+
+    monkeypatch.setattr(found, "settlement", lost)
+    curve = settlement_to_collapse(model, "right", SPREAD, step=0.15, accuracy=1e-3)
+    assert 0.08 - 2e-3 < curve.stands_to <= 0.08
+    assert (curve.falls is not None) == falls
+    until = f" until it falls at {curve.falls:.9g} m" if falls else ""
+    assert curve.ended == f"no checked answer beyond {curve.stands_to:.6g} m{until}: lost"
+
+
+@pytest.mark.parametrize("within", [False, True])
+def test_an_interrupted_settlement_keeps_its_points(monkeypatch, within):
+    """Ctrl-C between two answers, or within one, which did not converge: no reason for a shorter step."""
+    ring, _ = arch(8, 0.2)
+    found = importlib.import_module("limitblocks.practice.collapse")
+    solve, state, calls = found.settlement, lb.nonassociated(ring), []
+
+    def stopped(*given, **options):
+        calls.append(given)
+        if len(calls) < 3:
+            return solve(*given, **options)
+        if not within:
+            raise KeyboardInterrupt
+        raise lb.errors.NotConverged("interrupted", replace(state, status=Status.INTERRUPTED))
+
+    monkeypatch.setattr(found, "settlement", stopped)
+    curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.1)
+    assert len(calls) == 3
+    assert len(curve.points) == 2
+    assert curve.falls is None
+    assert curve.ended == f"interrupted beyond {curve.points[1].displacement:.6g} m"

@@ -1,0 +1,91 @@
+"""Spectra of the ground and of floors: their branches, formulas of C7.2.3, misuse."""
+
+import numpy as np
+import pytest
+from facades import G
+
+import limitblocks as lb
+from limitblocks.practice import Floor, FloorMode, Spectrum
+from limitblocks.practice.spectra import Place
+
+SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
+
+
+def test_displacement_of_a_floor_does_not_fall_beyond_its_first_mode():
+    """[C8.7.1.12]: beyond b T_1 at least S_eZ(T_1) (b T_1 / 2 pi)^2."""
+    floor = Floor((FloorMode(period=0.5, participation=1.3, shape=1.0),))
+    least = floor.acceleration(SITE, 0.5) * (1.1 * 0.5 / (2 * np.pi)) ** 2
+    assert floor.displacement(SITE, 0.6) == pytest.approx(least)
+    assert floor.acceleration(SITE, 0.6) * (0.6 / (2 * np.pi)) ** 2 < least
+    assert floor.displacement(SITE, 0.5) == pytest.approx(
+        floor.acceleration(SITE, 0.5) * (0.5 / (2 * np.pi)) ** 2
+    )
+
+
+def test_two_modes_add_by_squares():
+    """[C7.2.8]: the root of the sum of the squares of [C7.2.7]."""
+    modes = FloorMode(0.4, 1.3, 0.8, 0.1), FloorMode(0.15, -0.4, 1.0)
+    shares = [
+        SITE.acceleration(mode.period, mode.damping)
+        * abs(mode.participation * mode.shape)
+        * np.sqrt(1 + 0.0004 * (100 * mode.damping) ** 2)
+        for mode in modes
+    ]
+    assert Floor(modes).peaks(SITE) == pytest.approx(shares)
+    assert Floor(modes).largest(SITE) == pytest.approx(np.hypot(*shares))
+
+
+def test_spectrum_is_continuous_and_has_its_branches():
+    for period in (SITE.T_B, SITE.T_C, SITE.T_D):
+        assert SITE.acceleration(period - 1e-9) == pytest.approx(SITE.acceleration(period + 1e-9), rel=1e-6)
+    assert SITE.acceleration(0.0) == pytest.approx(SITE.a_g * SITE.S)
+    assert SITE.acceleration(0.3) == pytest.approx(SITE.a_g * SITE.S * SITE.F0)
+    assert SITE.acceleration(1.0) == pytest.approx(SITE.a_g * SITE.S * SITE.F0 * SITE.T_C)
+    assert SITE.displacement(6.0) == pytest.approx(SITE.displacement(8.0))
+    assert pytest.approx(2.6) == SITE.T_D
+
+
+@pytest.mark.parametrize("damping", [0.02, 0.05, 0.20])
+def test_ground_itself_is_not_damped(damping):
+    """Eq. [3.2.2] is a_g S at T = 0 whatever eta, and straight from there to a_g S eta F0 at T_B."""
+    start, plateau = SITE.a_g * SITE.S, SITE.a_g * SITE.S * SITE.F0 * np.sqrt(10 / (5 + 100 * damping))
+    assert SITE.acceleration(0.0, damping) == pytest.approx(start)
+    assert SITE.acceleration(0.25 * SITE.T_B, damping) == pytest.approx(0.75 * start + 0.25 * plateau)
+
+
+def test_floor_spectrum():
+    """At T = 0 the largest acceleration of the floor, flat about the period, continuous, not below ground."""
+    mode = FloorMode(period=0.4, participation=1.3, shape=0.8)
+    floor = Floor((mode,))
+    largest = SITE.acceleration(0.4) * 1.3 * 0.8 * np.sqrt(1.01)
+    assert floor.largest(SITE) == pytest.approx(largest)
+    assert floor.acceleration(SITE, 0.0) == pytest.approx(largest)
+    assert floor.acceleration(SITE, 0.35) == pytest.approx(1.1 * 0.05**-0.5 * largest)
+    for period in (0.8 * 0.4, 1.1 * 0.4):
+        assert floor.acceleration(SITE, period - 1e-9) == pytest.approx(
+            floor.acceleration(SITE, period + 1e-9), rel=1e-5
+        )
+    excess = 1.1 * 0.05**-0.5 - 1.0
+    half = (1.0 + excess) / (1.0 + excess * 0.5**1.6)  # [C7.2.6] at half of a T_1
+    assert floor.acceleration(SITE, 0.5 * 0.8 * 0.4) == pytest.approx(half * largest)
+    for period in np.linspace(0.0, 4.0, 50):
+        assert floor.acceleration(SITE, period) >= SITE.acceleration(period)
+    # what stands on the floor is damped by its own share, eta = sqrt(10 / (5 + 2)) for 2 %
+    assert floor.acceleration(SITE, 0.35, 0.02) == pytest.approx(1.1 * 0.05**-0.5 * np.sqrt(10 / 7) * largest)
+    still = Floor((FloorMode(period=0.4, participation=1.3, shape=0.0),))
+    assert still.acceleration(SITE, 0.7) == pytest.approx(SITE.acceleration(0.7))
+    assert still.largest(SITE) == pytest.approx(SITE.a_g * SITE.S)
+
+
+def test_displacement_is_at_least_that_at_the_period_before_it_is_set_off():
+    assert Place(None, 2.0).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(2.0))
+    assert Place(None, 0.2).displacement(SITE, (0.1, 0.3), 0.05) == pytest.approx(SITE.displacement(0.3))
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [((-1.0, 1.2, 2.5, 0.5), "a_g is -1.0"), ((2.0, 1.2, 1.0, 0.5), "F0 is 1.0, expected a .* >= 2.2")],
+)  # fmt: skip
+def test_wrong_spectrum(values, words):
+    with pytest.raises(lb.ModelError, match=words):
+        Spectrum(*values)
