@@ -135,10 +135,10 @@ def _way(
             except SolveError as error:
                 until = "" if falls is None else f" until it falls at {falls:.9g} m"
                 why = f"no checked answer beyond {point.displacement:.6g} m{until}: {error}"
-            step = (at - point.displacement) / 2.0
-            if step < accuracy:
+            if at - point.displacement <= accuracy:
                 yield falls, why
                 return
+            step = (at - point.displacement) / 2.0
         there, point = _settled(there, at, answer, found)
         assembly, control = there.assembly, there.control
         if falls is not None and falls - at < accuracy:

@@ -32,7 +32,7 @@ def test_arch_spreads_until_its_thrust_leaves_the_springing(voussoirs, thickness
     expected = [three_hinged(voussoirs, thickness, d, hinge)[0] * weight for d in curve.displacements]
     assert curve.reactions == pytest.approx(expected, rel=1e-6)
     assert curve.stands_to <= fourth <= curve.falls
-    assert curve.falls - curve.stands_to <= 2e-2
+    assert curve.falls - curve.stands_to <= 1e-2
     assert curve.ended.startswith("the structure falls between")
     said = (
         f"reaction of {curve.reactions[0]:.6g} N to {curve.reactions[-1]:.6g} N: the structure falls between"
@@ -126,7 +126,7 @@ def test_two_stones_that_lean_on_one_another():
     curve = settlement_to_collapse(ring, "right support", SPREAD, step=0.3, accuracy=1e-2)
     assert curve.reactions == pytest.approx([thrust(d) for d in curve.displacements], rel=1e-6)
     assert curve.stands_to <= slides <= curve.falls
-    assert curve.falls - curve.stands_to <= 2e-2
+    assert curve.falls - curve.stands_to <= 1e-2
 
 
 def reaction_of_a_beam(friction, settlement, corner):
@@ -167,7 +167,7 @@ def test_a_beam_slides_off_the_edge_that_it_rests_on(friction):
     assert np.ptp(x[~kept]) < 1e-9  # then the edge slides: the end stays
     assert (np.diff(kept.astype(int)) <= 0).all()
     assert curve.stands_to <= np.sqrt(5.0**2 - x[-1] ** 2) <= curve.falls
-    assert curve.falls - curve.stands_to <= 2e-2
+    assert curve.falls - curve.stands_to <= 1e-2
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.15])
@@ -203,7 +203,7 @@ def test_a_ladder_whose_head_slides_down_a_wall_and_whose_foot_then_slides(slope
     expected = [ladder.weight * push(away) for away in curve.displacements[1:]]
     assert curve.reactions[1:] == pytest.approx(expected, rel=1e-8)
     assert curve.stands_to <= slides <= curve.falls
-    assert curve.falls - curve.stands_to <= 2e-2
+    assert curve.falls - curve.stands_to <= 1e-2
 
 
 @pytest.mark.parametrize("joint", [lb.PointContact(0.5), lb.OrdunaLourenco(0.3)], ids=["points", "planes"])
@@ -225,10 +225,11 @@ def test_a_fall_of_a_long_step_that_shorter_ones_survive_is_none():
     model = beam_on({"left": (-0.5, 0.5), "right": (3.5, 4.5)}, (-0.5, 4.5), lb.PointContact(0.5))
     longer, shorter = (
         settlement_to_collapse(model, "right", (1, 0, -1), step=step, accuracy=accuracy)
-        for step, accuracy in ((0.3, 0.1), (0.1, 0.05))
+        for step, accuracy in ((0.3, 0.1), (0.2, 0.1))
     )
     assert longer.stands_to < shorter.falls
     assert shorter.stands_to < longer.falls
+    assert max(one.falls - one.stands_to for one in (longer, shorter)) <= 0.1
 
 
 def test_slip_of_associated_flow_opens_the_joint_of_a_support_that_slides_away():
