@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.arrays import Array
-from limitblocks.geometry import Block, Interface, Tolerances
-from limitblocks.geometry.accuracy import block_length, millimetres
+from limitblocks.geometry import Block, Tolerances
+from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
-from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Backfill, Dowel, OrdunaLourenco, Tie
+from limitblocks.joints import OrdunaLourenco
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
@@ -40,10 +40,6 @@ _CALM = 0.49
 _FAINT, _FAINT_SHARE = 1e2, 1e-2
 #: Distance of a force's line from the centroid of its block, over the size of the block: a bracket has 1.
 _ASTRAY = 3.0
-#: Strength of a tie, Pa, below which it may be in MPa or its force in kN: oak has 5e7.
-_SOFT = 1e6
-#: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
-_THICK = 5e-2
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
@@ -63,8 +59,7 @@ def questions(model: Model) -> list[str]:
     return [
         *asked,
         *_of_forces(model, size),
-        *_of_ties(model),
-        *_of_ties_twice(model),
+        *of_ties(model),
         *of_size(size),
         *_of_place(corners, size),
     ]
@@ -199,42 +194,6 @@ def _other_block(term: AddedMass | PointForce, blocks: dict[str, Block], gap: fl
     if there(blocks[term.block]):
         return ""
     return next((name for name, block in blocks.items() if there(block)), "")
-
-
-def _of_ties(model: Model) -> Iterator[str]:
-    """What is asked about the sections of ties and what they carry."""
-    for tie in model.interfaces:
-        if isinstance(tie.joint, Tie) and tie.joint.length:
-            section, strength = float(areas(tie.polygon)), tie.joint.strength
-            if section > _THICK:
-                small = f"{section:.4g} mm2 = {section / 1e6:.4g} m2"
-                yield f"{tie.name}: its section is {section:.4g} m2: mm2? {small}"
-            if strength < _SOFT:
-                what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
-                yield f"{tie.name}: {what}: MPa, or kN?"
-
-
-def _of_ties_twice(model: Model) -> Iterator[str]:
-    """What is asked about ties, strips or dowels of the same blocks and anchors: they add up."""
-    gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
-    met: dict[tuple[str, tuple[str, ...]], list[Array]] = {}
-    for one in model.interfaces:
-        if not isinstance(one.joint, Tie | Dowel) or isinstance(one.joint, Backfill):
-            continue  # faces of a block that lean both ways have fill at one point
-        ends = sorted([one.block_i, one.block_j])
-        others, own = met.setdefault((one.joint.word, tuple(ends)), []), _anchors(one)
-        if any(np.linalg.norm(own - other, axis=1).max() <= gap for other in others):
-            where = " and ".join(coordinates(at) for at in np.unique(own, axis=0).tolist())
-            same = f"as another between the same blocks, within {millimetres(gap)}"
-            yield f"{one.name}: it is at {where} m, {same}: given twice? they add up"
-        others.append(own)
-
-
-def _anchors(one: Interface) -> Array:
-    """Anchors (2, 3) of a tie, or twice the centroid, in the order of the names of its blocks."""
-    half = getattr(one.joint, "length", 0.0) / 2.0 * one.axes[2]
-    ends = np.array([one.centroid - half, one.centroid + half])
-    return ends if one.block_i < one.block_j else ends[::-1]
 
 
 def _masses(load: Load) -> set[tuple[str, tuple[float, ...]]]:

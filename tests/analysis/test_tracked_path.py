@@ -194,6 +194,26 @@ def test_a_path_that_winds_is_given_up():
     assert track(*falling, seed=1, budget=300, patience=100)[1].closed
 
 
+def test_a_path_ends_at_the_first_point_that_is_a_solution_as_it_is(monkeypatch):
+    """The residual of a point falls with theta; that of the point before the end is above the tolerance."""
+    monkeypatch.setattr(tracking, "polished", lambda _flow, state, left, **_: (state, left))
+    monkeypatch.setattr(tracking, "pivoted", lambda _flow, state, **_: state)
+    model = structures.ferris_tin_loi_wall(3, lb.OrdunaLourenco(0.65))
+    _, path = track(*start(model), barrier=Barrier(3.0, 2.0, 1e-10), seed=1, budget=100)
+    before, last = path.points[-2:]
+    assert path.closed
+    assert path.residual <= 1e-8 < path.residual * before.theta / last.theta
+
+
+@pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6, compressive_strength=1e6), lb.PointContact(0.6)])
+def test_rows_that_flow_along_their_normal_have_their_own_share_of_the_barrier(joint):
+    flow, x0, weights = start(structures.ferris_tin_loi_wall(1, joint))
+    whole, shared = (path_from(flow, x0, weights, Barrier(opening=share), 1).weights for share in (1.0, 0.3))
+    opens = np.array([mode.opens for mode in flow.problem.row_mode])
+    assert 0 < opens.sum() < len(opens)
+    np.testing.assert_allclose(shared, np.where(opens, 0.3, 1.0) * whole, rtol=1e-12)
+
+
 def test_an_interrupted_path_leaves_its_best_state():
     model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
     seen = []

@@ -234,9 +234,9 @@ class Walk:
         z = self.base.point
         if z.theta < LAST:
             raise Lost("no solution at the end")
-        self.tried = AGAIN * z.theta
         flow, reached = self.path.flow, self.state
         left = defect(flow, reached)
+        self.tried = max(AGAIN, TOLERANCE / max(left, TOLERANCE)) * z.theta  # where it may solve all as it is
         self._keep(*polished(flow, reached, left, patience=1))  # a point costs less than more steps
         if self.left > TOLERANCE and left < DEGENERATE:
             self._keep(pivoted(flow, reached, largest=PIVOTS))

@@ -53,6 +53,13 @@ class Layout:
         return (self._constant if self.flow.constant else self._potentials(x))[1]
 
     @cached_property
+    def sliding(self) -> Indices:
+        """Whether each row or cone flows otherwise than along its normal, shape (degree,)."""
+        p = self.problem
+        across = abs(p.F - self.flow.matrix(np.zeros(len(self.stress_place)))).sum(axis=1) > 0.0
+        return np.asarray(np.bincount(p.cones.member, across) > 0)
+
+    @cached_property
     def interfaces(self) -> int:
         """Number of interfaces."""
         return len(self.problem.interfaces)

@@ -59,6 +59,7 @@ def path_from(
     logarithms = np.zeros(p.cones.degree)
     if seed:
         logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
+    logarithms[~layout.sliding] += np.log(barrier.opening)
     products = share * np.exp(logarithms)[p.cones.member] * p.cones.identity
     return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0), power)
 

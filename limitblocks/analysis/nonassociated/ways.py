@@ -11,7 +11,6 @@ import numpy as np
 from limitblocks.analysis.nonassociated.closing import NEAR, Closing
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
-    LARGE_HALF_MEANS,
     LARGE_MEANS,
     LARGE_PLANAR_MEANS,
     LARGEST_MEANS,
@@ -127,7 +126,7 @@ def first_to_solve(
     flow, met = given.flow, list[Way]()
     if means is MEANS:
         means = own_means(len(flow.problem.blocks), _in_space(flow), flow.dissipative, half is no_half)
-    large = means in (LARGE_MEANS, LARGE_HALF_MEANS, LARGEST_MEANS)
+    large = means in (LARGE_MEANS, LARGEST_MEANS)
     if large:
         ways = _large_ways(given, means)
     elif means is LARGE_PLANAR_MEANS:
@@ -153,7 +152,7 @@ def first_to_solve(
 def own_means(blocks: int, in_space: bool, dissipative: bool, reduced: bool) -> Sequence[Means]:
     """The paths to follow where none are given, by the number of blocks; reduced: to a plane or one half."""
     if in_space and dissipative and blocks > LARGE:
-        return LARGE_HALF_MEANS if reduced else LARGEST_MEANS if blocks > LARGEST else LARGE_MEANS
+        return LARGEST_MEANS if blocks > LARGEST and not reduced else LARGE_MEANS
     if not in_space and blocks > LARGE_IN_PLANE:
         return LARGE_PLANAR_MEANS
     return tuple(one._replace(patience=None) for one in MEANS) if reduced else MEANS  # points cost little
