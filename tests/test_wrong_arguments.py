@@ -189,7 +189,7 @@ def test_the_seed_of_a_study_may_be_of_numpy(tmp_path):
         (lambda wall: lb.nonassociated(wall, means=3), "means is 3, expected a sequence of Means"),
         (lambda wall: lb.nonassociated(wall, means=[MEANS(3, 1, 9)]), "barrier of means is a int, expected"),
         (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), -1, 9)]), "seed of means is -1"),
-        (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), 1, 0)]), "budget of means is 0"),
+        (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), 1, -1)]), "budget of means is -1"),
         (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), 1, 9, 0)]), "patience of means is 0"),
         (lambda wall: BARRIER(size=0.0), "size of the barrier is 0.0, expected a finite number > 0"),
         (lambda wall: BARRIER(power=-1.0), "power of the barrier is -1.0"),

@@ -32,7 +32,7 @@ def checked_means(given: Sequence[Means]) -> tuple[Means, ...]:
     for one in means:
         refuse_kind(one.barrier, Barrier, "barrier of means")
         checked_count("seed of means", one.seed, 0)
-        checked_count("budget of means", one.budget, 1)
+        checked_count("budget of means", one.budget, 0)
         if one.patience is not None:
             checked_count("patience of means", one.patience, 1)
     return means

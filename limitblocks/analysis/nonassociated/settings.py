@@ -37,4 +37,4 @@ class Settings:
         for word in ("first", "barrier", "left"):
             number(getattr(self, word), f"{word} of the settings", "", above=0.0)
         number(self.growth, "growth of the settings", "", above=1.0)
-        checked_count("budget of the settings", self.budget, 1)
+        checked_count("budget of the settings", self.budget, 0)
