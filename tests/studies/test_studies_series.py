@@ -142,8 +142,10 @@ def test_load_moving_over_a_cantilever():
     assert np.isnan(series.load_factors[4])
     assert "no free block" in series.errors[4]
     assert series.worst_position == (2.4, 0.0)
-    said = "least load factor 14.2857 at x 2.4 m, y 0 m; other places may have less; "
+    said = (
+        "least load factor 14.2857 at x 2.4 m, y 0 m; other places may have less; "
         "1 unlimited; 1 without an answer (ModelError: live load"
+    )
     assert said in str(series)
     middle = studies.moving_load(slab(), (0, 0, -1e3), [(0.0, 0.0), (0.5, 0.0)])
     assert str(middle) == "2 analyses, no load factor; 2 unlimited"
