@@ -7,12 +7,13 @@ from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.magnitudes_of_ties import of_ties
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block, Interface, Tolerances
-from limitblocks.geometry.accuracy import block_length, millimetres
+from limitblocks.geometry.accuracy import block_length
 from limitblocks.geometry.distance import distance
-from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Backfill, Dowel, OrdunaLourenco, Tie
+from limitblocks.geometry.polygon import cross, following
+from limitblocks.joints import OrdunaLourenco
 from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, PointForce
 from limitblocks.mechanics.loads.load import Load, some
 from limitblocks.mechanics.loads.surfaces import Fill, Pressure
@@ -40,16 +41,14 @@ _CALM = 0.49
 _FAINT, _FAINT_SHARE = 1e2, 1e-2
 #: Distance of a force's line from the centroid of its block, over the size of the block: a bracket has 1.
 _ASTRAY = 3.0
-#: Strength of a tie, Pa, below which it may be in MPa or its force in kN: oak has 5e7.
-_SOFT = 1e6
-#: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
-_THICK = 5e-2
 #: Share of the median volume below which a block may be debris.
 _DEBRIS = 1e-4
 #: Sizes of a structure, m, beyond which the unit of length may be another one.
 _LARGE, _SMALL = 3e2, 5e-2
 #: Rounding of coordinates, of the size of a structure, beyond which load factors may be off by 1e-6.
 _ROUGH = 1e-7
+#: Sine, below 1, of a right angle, and angle, rad, of axes that are off the sides of a rectangle.
+_SQUARE, _ASKEW = 1e-4, 1e-2
 
 
 def questions(model: Model) -> list[str]:
@@ -63,8 +62,8 @@ def questions(model: Model) -> list[str]:
     return [
         *asked,
         *_of_forces(model, size),
-        *_of_ties(model),
-        *_of_ties_twice(model),
+        *of_ties(model),
+        *_of_axes(model.interfaces),
         *of_size(size),
         *_of_place(corners, size),
     ]
@@ -94,6 +93,21 @@ def _of_place(corners: Array, size: float) -> list[str]:
         f"the structure is {far:.4g} m off the origin, where coordinates are rounded to {rounded:.1g} m: "
         "move it to the origin"
     ]
+
+
+def _of_axes(interfaces: Sequence[Interface]) -> Iterator[str]:
+    """Return the question for each rectangle, given by hand, whose axes are not along its sides."""
+    quads = [one for one in interfaces if isinstance(one.joint, OrdunaLourenco) and len(one.polygon) == 4]
+    polygons = np.array([one.polygon for one in quads]).reshape(-1, 4, 2)
+    side = following(polygons) - polygons
+    side /= np.linalg.norm(side, axis=2, keepdims=True)
+    square = cross(side, following(side)).min(axis=1) > 1.0 - _SQUARE
+    off = np.arccos(np.minimum(np.abs(side).max(axis=2).min(axis=1), 1.0))
+    for k in np.flatnonzero(square & (off > _ASKEW)).tolist():
+        yield (
+            f"interface {quads[k].name}: its axes are {off[k]:.2g} rad off the sides of its rectangle, along "
+            "which Eqs (31)-(32) take them: it has up to 29 % less torsion; turn them"
+        )
 
 
 def of_volumes(blocks: Sequence[Block]) -> list[str]:
@@ -173,8 +187,9 @@ def _of_forces(model: Model, size: float) -> Iterator[str]:
             force = np.multiply(term.direction, term.weight) if isinstance(term, AddedMass) else term.force
             most = float(np.linalg.norm(force))
             acts = abs(factor) * most
-            if word == "dead" and 0.0 < acts < min(_FAINT, _FAINT_SHARE * block.weight):
-                yield f"{on}: {acts:.3g} N on a block of {block.weight:.3g} N; kN? see units"
+            weight = block.weight if block.unit_weight else 0.0
+            if word == "dead" and 0.0 < acts < min(_FAINT, _FAINT_SHARE * weight):
+                yield f"{on}: {acts:.3g} N on a block of {weight:.3g} N; kN? see units"
             arm = np.subtract(term.at, block.centroid)
             if isinstance(term, PointForce) and most:  # where on its line it acts makes no difference
                 arm = np.cross(arm, force) / most
@@ -198,42 +213,6 @@ def _other_block(term: AddedMass | PointForce, blocks: dict[str, Block], gap: fl
     if there(blocks[term.block]):
         return ""
     return next((name for name, block in blocks.items() if there(block)), "")
-
-
-def _of_ties(model: Model) -> Iterator[str]:
-    """What is asked about the sections of ties and what they carry."""
-    for tie in model.interfaces:
-        if isinstance(tie.joint, Tie) and tie.joint.length:
-            section, strength = float(areas(tie.polygon)), tie.joint.strength
-            if section > _THICK:
-                small = f"{section:.4g} mm2 = {section / 1e6:.4g} m2"
-                yield f"{tie.name}: its section is {section:.4g} m2: mm2? {small}"
-            if strength < _SOFT:
-                what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
-                yield f"{tie.name}: {what}: MPa, or kN?"
-
-
-def _of_ties_twice(model: Model) -> Iterator[str]:
-    """What is asked about ties, strips or dowels of the same blocks and anchors: they add up."""
-    gap = (model.tolerances or Tolerances()).gap * block_length(model.blocks)
-    met: dict[tuple[str, tuple[str, ...]], list[Array]] = {}
-    for one in model.interfaces:
-        if not isinstance(one.joint, Tie | Dowel) or isinstance(one.joint, Backfill):
-            continue  # faces of a block that lean both ways have fill at one point
-        ends = sorted([one.block_i, one.block_j])
-        others, own = met.setdefault((one.joint.word, tuple(ends)), []), _anchors(one)
-        if any(np.linalg.norm(own - other, axis=1).max() <= gap for other in others):
-            where = " and ".join(coordinates(at) for at in np.unique(own, axis=0).tolist())
-            same = f"as another between the same blocks, within {millimetres(gap)}"
-            yield f"{one.name}: it is at {where} m, {same}: given twice? they add up"
-        others.append(own)
-
-
-def _anchors(one: Interface) -> Array:
-    """Anchors (2, 3) of a tie, or twice the centroid, in the order of the names of its blocks."""
-    half = getattr(one.joint, "length", 0.0) / 2.0 * one.axes[2]
-    ends = np.array([one.centroid - half, one.centroid + half])
-    return ends if one.block_i < one.block_j else ends[::-1]
 
 
 def _masses(load: Load) -> set[tuple[str, tuple[float, ...]]]:

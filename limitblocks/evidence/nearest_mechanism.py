@@ -15,7 +15,8 @@ from limitblocks.problem import LimitProblem
 
 REGULAR = 1e-13  # eps of the quasidefinite system
 LEAST_MULTIPLIER = 1e-3  # of the largest: multipliers below it are measured by it
-EXACT = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
+CLOSE = 0.01 * TOLERANCE  # of the largest rate, or multiplier: what may be left of the flow rule and of signs
+EXACT = 0.01 * CLOSE  # what is tried next: a slow heavy block is worth more than the largest rate tells
 ROUNDS = 8  # steps, each without the rows whose multipliers turned negative; fewer where they leave too much
 
 
@@ -33,6 +34,7 @@ def nearest_mechanism(
     blocks: list[list[Any]] = [[problem.C, strains], [live, None]]
     J = sparse.csr_array(sparse.block_array(blocks if len(w) else [row[:1] for row in blocks]))
     right, kept = np.append(np.zeros(len(J.indptr) - 2), 1.0), np.ones(len(w), dtype=bool)
+    found, aim = None, CLOSE
     for further in reversed(range(ROUNDS)):
         w = np.where(kept, w, 0.0)
         left = right - J @ np.append(u, w)
@@ -43,15 +45,18 @@ def nearest_mechanism(
             d = _least_change(J, left, np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0)))
             u, w = u + d[:n], w + d[n:]
             left = right - J @ np.append(u, w)
-        negative = may.along & (w < -EXACT * np.abs(w).max(initial=0.0))
+        below = np.where(may.along, -w, 0.0) / (np.abs(w).max(initial=0.0) or 1.0)
         share = _share(left, u)
-        if share <= EXACT and not negative.any():
-            return u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
+        if max(share, below.max(initial=0.0)) <= aim:
+            found = u, np.asarray(may.columns @ np.where(may.along, np.maximum(w, 0.0), w))
+            if aim == EXACT:
+                return found
+            aim = EXACT
         # not within the rounds that are left at this rate
-        if share > EXACT and share * (share / before) ** further > EXACT:
-            return None
-        kept &= ~negative[may.ray]
-    return None
+        if share > aim and share * (share / before) ** further > aim:
+            return found
+        kept &= ~(below > aim)[may.ray]
+    return found
 
 
 def _share(left: Array, u: Array) -> float:

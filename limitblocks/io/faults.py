@@ -82,7 +82,7 @@ def _tell(lines: list[str], place: str, fault: Any, data: Any, form: type[Docume
         return
     within = _place(fault["loc"], data)
     dot = "." * bool(place and within and not within.startswith("["))
-    lines.append(f"{place}{dot}{within or (place and ': ')}{_said(fault, form)}")
+    lines.append(f"{place}{dot}{within or (place and ': ')}{_said(fault, form, place)}")
 
 
 def _part_of(form: type[Document], key: str) -> Any:
@@ -140,14 +140,15 @@ def _place(steps: tuple[int | str, ...], data: Any) -> str:
     return f"{path.lstrip('.')}: " if path else ""
 
 
-def _said(fault: Any, form: type[Document]) -> str:
-    """What pydantic found, in a sentence for the user."""
+def _said(fault: Any, form: type[Document], within: str) -> str:
+    """What pydantic found `within` a part of a list, or the whole file, in a sentence for the user."""
     context = fault.get("ctx", {})
     match fault["type"]:
         case "missing":
             return "is missing"
         case "extra_forbidden":
-            return "unknown key" + near(key := str(fault["loc"][-1]), _keys(form) - {key})
+            key, top = str(fault["loc"][-1]), not within and len(fault["loc"]) == 1
+            return "unknown key" + near(key, form.model_fields if top else _keys(form) - {key})
         case "union_tag_not_found":
             return "type is missing"
         case "union_tag_invalid":

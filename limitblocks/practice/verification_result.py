@@ -131,6 +131,7 @@ class Verification(Result):
                  "vertical": one.vertical}
                 for one in self.masses
             ],
+            "left_out": self.left_out,
             "remarks": list(self.remarks),
             "model_digest": self.digest,
         }  # fmt: skip
@@ -140,10 +141,11 @@ class Verification(Result):
             f"{one.name}: {one.ratio:.3f} {'satisfied' if one.satisfied else 'not satisfied'}"
             for one in self.checks
         )
-        return "; ".join((f"a0* = {self['a0*']:.4g} m/s2", *checks)) + self._as_read
+        said = (f"a0* = {self['a0*']:.4g} m/s2", *checks, *(self.left_out,) * bool(self.left_out))
+        return "; ".join(said) + self._as_read
 
 
 def without_curve(found: Verification, ended: str) -> Verification:
     """Return a verification whose non-linear checks are left out, for a capacity curve that `ended` early."""
     said = f"no non-linear check: the capacity curve does not end at zero: {ended}"
-    return replace(found, remarks=(*found.remarks, said), left_out=said)
+    return replace(found, left_out=said)

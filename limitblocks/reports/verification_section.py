@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.errors import few
 from limitblocks.model import Model
-from limitblocks.practice.verification_result import CLAIMED, STEPS, Quantity, Verification
+from limitblocks.practice.verification_result import CLAIMED, STEPS, Inequality, Quantity, Verification
 from limitblocks.reports.document import Table, Text
 from limitblocks.reports.section import Section
 from limitblocks.reports.words import rounded_down
@@ -65,8 +65,8 @@ def verification_section(_model: Model, found: Verification) -> Section:
             f"A local mechanism as a motion of rigid bodies, {CODE} with NTC 2018; numbers of equations in "
             f"brackets are those of the Circolare. {CLAIMED}"
         ),
-        headline=rounded_down(worst.ratio),
-        quantity=f"least ratio of capacity to demand: {worst.name}, {_word(worst.satisfied)}",
+        headline="not complete" if found.left_out else rounded_down(worst.ratio),
+        quantity=_quantity(found, worst),
         values=(),
         checks=(),
         tolerance=0.0,
@@ -81,12 +81,21 @@ def verification_section(_model: Model, found: Verification) -> Section:
     )
 
 
+def _quantity(found: Verification, worst: Inequality) -> str:
+    """What the headline is, or what was not done for there to be one."""
+    said = f"least ratio of capacity to demand: {worst.name}, {_word(worst.satisfied)}"
+    if not found.left_out:
+        return said
+    return f"verification: {found.left_out}; of the checks made {rounded_down(worst.ratio)} is the {said}"
+
+
 def _checks(found: Verification) -> Table:
     rows = [
         (one.name, _shown(one.capacity, one.unit), _shown(one.demand, one.unit), rounded_down(one.ratio),
          _word(one.satisfied), one.source)
         for one in found.checks
     ]  # fmt: skip
+    rows += [("non-linear", "", "", "", "NOT made", "C8.7.1.2.1.8")] if found.left_out else []
     said = f"Checks, {CODE}: satisfied where capacity over demand is at least one"
     return Table.of(
         said, ("Check", "Capacity", "Demand", "Ratio", "Result", "Section"), rows, right=(1, 2, 3)

@@ -40,3 +40,19 @@ def test_a_mechanism_that_takes_many_rounds_is_found(solves):
     assert len(solves) > 2
     assert np.abs(p.C @ u + p.G.T @ y).max() <= 1e-9 * np.abs(u).max()
     assert p.live @ u == pytest.approx(1.0, rel=1e-9)
+
+
+def test_a_multiplier_that_is_negative_by_rounding_leaves_no_flow():
+    """By 5e-11 of the largest, with the rates that belong to it: set to zero alone it left them."""
+    model, claim = true("sliding, circle")
+    p, state = model.problem, state_of(model, claim)
+    near = np.ones(p.cones.degree, dtype=bool)
+    may = near_yield(p.cones, p.F @ state.x + p.g, near, np.zeros(p.cones.degree), 1.0)
+    w = may.parts(p.cones, state.y)
+    idle = np.flatnonzero(may.along & (w == 0.0))[0]
+    y = state.y - 5e-11 * w.max() * may.columns[:, [idle]].toarray().ravel()
+    u = np.linalg.solve(p.C.toarray(), -(p.G.T @ y))
+    found = module.nearest_mechanism(p, p.G, u / (p.live @ u), y / (p.live @ u), may)
+    rates, multipliers = found
+    assert np.abs(p.C @ rates + p.G.T @ multipliers).max() <= 1e-14 * np.abs(rates).max()
+    assert (multipliers[p.cones.heads] >= 0.0).all()

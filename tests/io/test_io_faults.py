@@ -212,6 +212,16 @@ def test_all_faults_come_at_once(file):
     assert len(caught.value.problems) == 4
 
 
+def test_an_unknown_key_at_the_top_is_compared_with_those_there(tmp_path):
+    """It was asked about `friction`, which is a key of joints alone."""
+    file = tmp_path / "portal.json"
+    file.write_text(json.dumps(find("fricton", to=0.6)))
+    with pytest.raises(lb.ModelError) as caught:
+        lb.read(file)
+    (line,) = caught.value.problems
+    assert line.endswith(": fricton: unknown key")
+
+
 def test_missing_file_directory_and_pipe(tmp_path):
     for name, said in (("none.json", "No such file"), (".", "not a file"), ("a\0b", "cannot be read")):
         with pytest.raises(lb.ModelError, match=said):

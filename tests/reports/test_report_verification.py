@@ -9,6 +9,7 @@ from facades import ARM, FC, FLOOR, OWN, G, H, T, facade
 
 import limitblocks as lb
 from limitblocks.practice import Spectrum, capacity_curve, verification
+from limitblocks.practice.verification_result import without_curve
 
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 TITLE = "Kinematic verification of the mechanism"
@@ -117,3 +118,24 @@ def test_what_snaps_through_zero_ends_before_it_does(answers):
         assert (shown.headline, shown.values[:2]) == (expected.headline, expected.values[:2])
         again = verification(model, solved, SITE, curve=beyond, **settings)
         assert [one.value for one in again.quantities] == [one.value for one in verified.quantities]
+
+
+def test_a_verification_that_lacks_a_check_has_no_ratio_at_its_head(answers):
+    """Linear at .01 g: satisfied; the curve ends early. Who read the head alone took it for the whole."""
+    model, solved, *_ = answers
+    made = verification(model, solved, replace(SITE, a_g=0.01 * G), q=2.0, confidence=FC)
+    lacking = without_curve(made, "blocks meet at 0.01 m")
+    assert made.checks[0].satisfied
+    said = lb.report(model, solved, lacking)
+    head = chapter(said, TITLE).parts[0]
+    assert head.number == "not complete"
+    assert head.quantity.startswith(
+        "verification: no non-linear check: the capacity curve does not end at zero"
+    )
+    assert head.quantity.endswith("least ratio of capacity to demand: linear, SLV, satisfied")
+    assert "not complete" in said.text.split("Side by side")[0]  # what is said about safety
+    checks = rows(said, TITLE, "Checks")
+    assert checks["non-linear"] == ["non-linear", "", "", "", "NOT made", "C8.7.1.2.1.8"]
+    assert "not complete" not in lb.report(model, solved, made).text  # nobody asked for the other
+    assert "no non-linear check" in str(lacking)
+    assert lacking.to_dict()["left_out"] == lacking.left_out

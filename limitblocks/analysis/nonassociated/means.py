@@ -9,6 +9,8 @@ from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.arrays import Array
+from limitblocks.errors import refuse_kind, sequence_of
+from limitblocks.joints.base import checked_count
 from limitblocks.problem import Flow, State
 
 
@@ -22,6 +24,18 @@ class Means(NamedTuple):
     seed: int
     budget: int
     patience: int | None = None
+
+
+def checked_means(given: Sequence[Means]) -> tuple[Means, ...]:
+    """Return the paths to try as a tuple; ModelError where one of their numbers is none."""
+    means = sequence_of("means", given, Means)
+    for one in means:
+        refuse_kind(one.barrier, Barrier, "barrier of means")
+        checked_count("seed of means", one.seed, 0)
+        checked_count("budget of means", one.budget, 1)
+        if one.patience is not None:
+            checked_count("patience of means", one.patience, 1)
+    return means
 
 
 # Floor of the compliance with a larger barrier: what is left of it is an error of the flow at the end. Of ten
