@@ -14,6 +14,7 @@ from limitblocks.practice.advance import farthest
 from limitblocks.reports.words import together
 
 JOINT = lb.PointContact(0.6)
+BARRIER, MEANS = lb.settings.Barrier, lb.settings.Means
 
 
 @pytest.fixture(scope="module")
@@ -186,6 +187,19 @@ def test_the_seed_of_a_study_may_be_of_numpy(tmp_path):
         (lambda wall: lb.report(wall, demand="0.15"), "demand is '0.15', expected a load factor > 0"),
         (lambda wall: lb.report(wall, failed="bounds"), "failed is 'bounds', expected a sequence of str"),
         (lambda wall: lb.nonassociated(wall, means=3), "means is 3, expected a sequence of Means"),
+        (lambda wall: lb.nonassociated(wall, means=[MEANS(3, 1, 9)]), "barrier of means is a int, expected"),
+        (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), -1, 9)]), "seed of means is -1"),
+        (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), 1, 0)]), "budget of means is 0"),
+        (lambda wall: lb.nonassociated(wall, means=[MEANS(BARRIER(), 1, 9, 0)]), "patience of means is 0"),
+        (lambda wall: BARRIER(size=0.0), "size of the barrier is 0.0, expected a finite number > 0"),
+        (lambda wall: BARRIER(power=-1.0), "power of the barrier is -1.0"),
+        (lambda wall: BARRIER(floor=-1.0), "floor of the barrier is -1.0"),
+        (lambda wall: BARRIER(opening=0.0), "opening of the barrier is 0.0"),
+        (lambda wall: lb.settings.Settings(first=float("nan")), "first of the settings is nan"),
+        (lambda wall: lb.settings.Settings(growth=1.0), "growth of the settings is 1.0"),
+        (lambda wall: lb.settings.Settings(barrier=0.0), "barrier of the settings is 0.0"),
+        (lambda wall: lb.settings.Settings(left=-1e-9), "left of the settings is -1e-09"),
+        (lambda wall: lb.settings.Settings(budget=1.5), "budget of the settings is 1.5"),
         (lambda wall: settlement(wall, [], (0, 0, -1)), "support is a list, expected str"),
         (lambda wall: lb.loads.fill(2e4, 1.0, blocks=3), "blocks is 3, expected a sequence of str"),
         (lambda wall: lb.loads.pressure([wall], 1.0, facing=(1, 0, 0)), "blocks holds <model"),

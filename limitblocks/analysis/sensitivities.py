@@ -78,6 +78,7 @@ def sensitivities(model: Model, bounds: Bounds) -> Sensitivities:
         blocks=tuple(block.name for block in model.blocks),
         interfaces=tuple(interface.name for interface in model.interfaces),
         digest=model.digest,
+        remarks=bounds.remarks,
     )
 
 

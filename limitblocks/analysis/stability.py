@@ -19,6 +19,7 @@ from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoEquilibrium, SolverFailure
+from limitblocks.evidence.crushing import ALONE, beyond_stress_block
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability, Standing, arising_residuals, mechanism_residuals
@@ -107,6 +108,7 @@ def _answer(
         displacement_rates=in_model_order(model, fall.rates) if fall else None,
         residuals=Residuals((*static, *entries, *moved)),
         digest=model.digest,
+        remarks=() if x is None else beyond_stress_block(model, resultants_of(problem, x), ALONE),
     )
 
 
@@ -133,14 +135,20 @@ def standing_margin(model: Model, load_factor: float = 0.0) -> float:
     SolverFailure
         If no solver finds a state whose recomputed equilibrium residual is within 1e-8.
     """
+    return remarked_margin(model, load_factor)[0]
+
+
+def remarked_margin(model: Model, load_factor: float) -> tuple[float, tuple[str, ...]]:
+    """Return the margin of :func:`standing_margin`, and what to know of its stresses."""
     problem = model.problem
     tried: list[Residual] = []
     for x, worst in _all_states(problem, load_factor * problem.units.live):
         if worst.value <= TOLERANCE or worst.name == "yield":
-            return min(MOST, _margin(problem, x))
+            stresses = resultants_of(problem, x)
+            return min(MOST, _margin(problem, x)), beyond_stress_block(model, stresses, ALONE)
         tried.append(worst)
     if falls(problem, problem.dead + load_factor * problem.units.live * problem.live):
-        return -MOST
+        return -MOST, ()
     raise SolverFailure(f"how safely the loads stand is undecided: {nearest(tried, 'state')}")
 
 

@@ -112,6 +112,7 @@ def _next(
     words += ["--thickness", f"{thickness:g}"] if thickness else []
     words += [part for layer in layers for part in ("--layers", layer)]
     words += ["--skip-bad"] if seen.faults else []
+    words += ["--heal"] if any("--heal" in one for one in seen.warnings) else []  # refused without it
     if not seen.marked_supports:
         chosen = seen.likely_supports[0].chosen_by if seen.likely_supports else ("NAME",)
         words += [part for one in chosen for part in ("--supports", one)]

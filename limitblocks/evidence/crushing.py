@@ -11,11 +11,16 @@ from limitblocks.joints.stress_block import over_stress_block
 from limitblocks.model import Model
 
 SAID = 1.01  # of the moment of the stress block: from there it is told
+TOO_LARGE = "the load factor may be too large"
+ALONE = "it may stand by Eq. (39) alone"
 MANY = 500  # interfaces at a time, some 100 kB each
 
 
-def beyond_stress_block(model: Model, stress_resultants: Array) -> tuple[str, ...]:
-    """Return a remark where stress resultants (m, 6) have more moment than the exact stress block has."""
+def beyond_stress_block(model: Model, stress_resultants: Array, then: str = TOO_LARGE) -> tuple[str, ...]:
+    """Return a remark where stress resultants (m, 6) have more moment than the exact stress block has.
+
+    `then` is what it says follows.
+    """
     if not np.isfinite(stress_resultants).all():
         return ()
     over: dict[str, float] = {}
@@ -34,7 +39,7 @@ def beyond_stress_block(model: Model, stress_resultants: Array) -> tuple[str, ..
     where = "" if len(told) == 1 else f", the most of {len(told)} joints with too large a moment"
     return (
         f"crushing by Eq. (39): {worst} carries {over[worst]:.2f} times the moment of the exact stress "
-        f"block{where}; the load factor may be too large",
+        f"block{where}; {then}",
     )
 
 

@@ -69,7 +69,8 @@ class InterfaceStates(Tabular):
         (ds1, ds2, dn, dth1, dth2, dthn) of block j relative to block i at the centroid, local axes, m and
         rad, in the scale of the mechanism; dn > 0 opens. Eqs (44)-(47).
     stress_resultants : Array, shape (m, 6)
-        (V1, V2, N, M1, M2, T), local axes, N and N m; N <= 0 in compression.
+        (V1, V2, N, M1, M2, T), local axes, N and N m; N <= 0 in compression. Of a prestressed tie N, and with
+        it force and utilisation, is what is beyond the prestress, which is a dead load.
     centre_of_pressure : Array, shape (m, 3)
         Where the normal force acts, (e1, e2) = (-M2, M1) / N off the centroid; global axes, m. NaN without
         a normal force.

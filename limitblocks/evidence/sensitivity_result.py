@@ -79,6 +79,8 @@ class Sensitivities(Result):
         Names.
     digest : str
         SHA-256 of the model.
+    remarks : tuple of str
+        What to know of the load factor that they are derivatives of.
     """
 
     load_factor: float
@@ -95,6 +97,7 @@ class Sensitivities(Result):
     blocks: tuple[str, ...]
     interfaces: tuple[str, ...]
     digest: str
+    remarks: tuple[str, ...] = ()
 
     @property
     def of_interfaces(self) -> Array:
@@ -133,6 +136,7 @@ class Sensitivities(Result):
         sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
         if self.unique and not self.agreed.all():
             sides = f"; by the friction of {many(int((~self.agreed).sum()), 'joint')} it may be one-sided"
+        sides += "".join(f"; {one}" for one in self.remarks)
         return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}{self._as_read}"
 
     def to_dict(self) -> dict[str, Any]:
@@ -153,6 +157,7 @@ class Sensitivities(Result):
             "agreed": self.agreed.tolist(),
             "blocks": list(self.blocks),
             "interfaces": list(self.interfaces),
+            "remarks": list(self.remarks),
             "model_digest": self.digest,
         }
 

@@ -57,6 +57,8 @@ class Stability(Result):
         less what the joints take up.
     digest : str
         SHA-256 of the model.
+    remarks : tuple of str
+        What to know of the stresses of largest margin.
     """
 
     kind: Standing
@@ -68,6 +70,7 @@ class Stability(Result):
     displacement_rates: Array | None
     residuals: Residuals
     digest: str
+    remarks: tuple[str, ...] = ()
 
     @property
     def stands(self) -> bool:
@@ -83,7 +86,7 @@ class Stability(Result):
         worst = self.residuals.worst
         return (
             f"{self.kind.value}{moving}; margin {self.margin:.3g}, worst residual {worst.value:.1e} "
-            f"({worst.name}){self._as_read}"
+            f"({worst.name}){''.join(f'; {one}' for one in self.remarks)}{self._as_read}"
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -99,6 +102,7 @@ class Stability(Result):
             "residuals": self.residuals.to_dict(),
             "residual_details": self.residuals.details(),
             **{name: None if (v := getattr(self, name)) is None else v.tolist() for name in arrays},
+            "remarks": list(self.remarks),
             "model_digest": self.digest,
         }
 

@@ -100,6 +100,12 @@ class SettlementCurve(Result):
         return (f"beyond {self.stands_to:.4g} m joints press across their gaps{why}",)
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What to know of the answers that the first and the last reaction are of."""
+        first, last = (self.points[k].found.remarks for k in (0, -1))
+        return tuple(dict.fromkeys(first + last))
+
+    @property
     def digest(self) -> str:
         """SHA-256 of the model that was given."""
         return self.points[0].found.digest
@@ -144,4 +150,4 @@ class SettlementCurve(Result):
     def __str__(self) -> str:
         first, last = self.reactions[[0, -1]].tolist()
         said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
-        return f"{said}: {'; '.join((self.ended, *self.filled))}{self._as_read}"
+        return f"{said}: {'; '.join((self.ended, *self.filled, *self.remarks))}{self._as_read}"

@@ -89,6 +89,7 @@ def stability_section(_model: Model, answer: Stability) -> Section:
         checks=checks_of(answer.residuals, ARISEN),
         tolerance=ARISEN,
         rates=answer.displacement_rates,
+        warnings=answer.remarks,
         own=not answer.stands,
         judges=not answer.stands,
     )

@@ -49,7 +49,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
         ),
         checks=checks_of(end.residuals, end.tolerance),
         tolerance=end.tolerance,
-        warnings=curve.filled,
+        warnings=curve.filled + curve.remarks,
         curve=_curve(curve),
         parts=(_points(curve), _figure(curve)),
     )

@@ -11,6 +11,7 @@ from limitblocks.analysis.diagnosis import diagnose
 from limitblocks.analysis.magnitudes import questions, weightless
 from limitblocks.drawing.elevations import dimensions, length
 from limitblocks.errors import few
+from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
 from limitblocks.model import Model
 from limitblocks.reports.words import (
@@ -43,7 +44,7 @@ def facts(model: Model) -> dict[str, Any]:
         "unit_weights": _unit_weights(model),
         "dimensions": dimensions(model),
         "heights": [float(heights.min()), float(heights.max())],
-        "interface_area": float(sum(areas(interface.polygon) for interface in model.interfaces)),
+        "interface_area": float(sum(areas(one.polygon) for one in model.interfaces if not _element(one))),
         "bounding_box": [corners.min(axis=0).tolist(), corners.max(axis=0).tolist()],
         "joints": counted(_joints(model)),
         "layers": counted(block.layer for block in model.blocks if block.layer),
@@ -63,6 +64,11 @@ def facts(model: Model) -> dict[str, Any]:
         "findings": findings(model, diagnosis),
         "warnings": questions(model) + diagnosis.warnings,
     }
+
+
+def _element(interface: Interface) -> bool:
+    """Whether it is no contact area: a tie, dowel, fill or guide, whose joints have a `word`."""
+    return bool(getattr(interface.joint, "word", ""))
 
 
 def fact_rows(known: dict[str, Any]) -> tuple[tuple[str, str], ...]:

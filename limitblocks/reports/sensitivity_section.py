@@ -50,7 +50,7 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
         ),
         checks=(),
         tolerance=0.0,
-        warnings=() if found.unique else (ONE_SIDED,),
+        warnings=(() if found.unique else (ONE_SIDED,)) + found.remarks,
         parts=_tables(found),
     )
 

@@ -58,7 +58,8 @@ def arch(
         (width, blocks, block_height); an arch whose springings slope has a skewback stone on each. Without
         piers the arch springs from two supports.
     fill : Fill, optional
-        (height, unit_weight, pressure, inertia); see :class:`Fill` for what the load factor multiplies.
+        Height above the crown, m, unit weight, N/m3, horizontal over vertical pressure, and the part of its
+        weight that joins the live load.
     depth : float
         Dimension along Y, m.
     unit_weight : float

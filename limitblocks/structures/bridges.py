@@ -79,7 +79,8 @@ def arch_bridge(
         facet a voussoir, so that a ring that slides without dilatancy is held as by a friction angle larger
         by half the angle of a voussoir.
     fill : Fill, optional
-        (height, unit_weight, pressure, inertia); see :class:`Fill` for what the load factor multiplies.
+        Height above the crown, m, unit weight, N/m3, horizontal over vertical pressure, and the part of its
+        weight that joins the live load.
     depth : float
         Width of the bridge, along Y, m.
     unit_weight : float

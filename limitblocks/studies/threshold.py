@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy import optimize
 
-from limitblocks.analysis.stability import standing_margin
+from limitblocks.analysis.stability import remarked_margin
 from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
@@ -39,6 +39,8 @@ class Threshold(Rows):
     trials : tuple of (float, float)
         Every value tried with its margin, see :func:`limitblocks.analysis.stability.standing_margin`; down to
         -1e-8, the tolerance of all residuals, it counts as standing.
+    remarks : tuple of str
+        What to know of the stresses at the safe end.
     """
 
     parameter: str
@@ -47,6 +49,7 @@ class Threshold(Rows):
     tolerance: float
     load_factor: float
     trials: tuple[tuple[float, float], ...]
+    remarks: tuple[str, ...] = ()
 
     @property
     def value(self) -> float:
@@ -64,7 +67,7 @@ class Threshold(Rows):
         digits = max(6, int(np.ceil(np.log10(size / width))) + 2)  # two of the width: the ends are told apart
         return (
             f"{self.parameter} {self.stands:.{digits}g} stands, {self.falls:.{digits}g} falls{beside} "
-            f"({many(len(self.trials), 'trial')})"
+            f"({many(len(self.trials), 'trial')}){''.join(f'; {one}' for one in self.remarks)}"
         )
 
     def rows(self) -> list[dict[str, Any]]:
@@ -84,6 +87,7 @@ class Threshold(Rows):
             "bracket": list(self.bracket),
             "tolerance": self.tolerance,
             "load_factor": self.load_factor,
+            "remarks": list(self.remarks),
             "rows": self.rows(),
         }
 
@@ -160,6 +164,7 @@ class _Search:
         self.maker, self.parameter, self.load_factor = maker, parameter, load_factor
         self.progress = progress
         self.trials: dict[float, float] = {}
+        self.remarks: dict[float, tuple[str, ...]] = {}
 
     def margin(self, value: float) -> float:
         """Margin of a value above what counts as standing: zero or more where the loads stand."""
@@ -168,7 +173,8 @@ class _Search:
             if self.progress is not None:
                 self.progress(value)
             try:
-                self.trials[value] = standing_margin(self.maker(value), self.load_factor)
+                found = remarked_margin(self.maker(value), self.load_factor)
+                self.trials[value], self.remarks[value] = found
             except (ModelError, SolverFailure) as error:
                 faults = error.problems if isinstance(error, ModelError) else (str(error),)
                 raise type(error)(*(f"{self.parameter} = {value:g}: {fault}" for fault in faults)) from None
@@ -196,7 +202,8 @@ class _Search:
             raise SolverFailure(
                 f"{self.parameter}: standing and falling change more than once in the interval"
             )
-        return Threshold(self.parameter, *ends, width, self.load_factor, tuple(self.trials.items()))
+        trials, remarks = tuple(self.trials.items()), self.remarks[ends[0]]
+        return Threshold(self.parameter, *ends, width, self.load_factor, trials, remarks)
 
     def _close(self, low: float, high: float, width: float) -> None:
         """Try values until one that stands and one that falls are no more than `width` apart."""

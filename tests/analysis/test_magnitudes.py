@@ -3,6 +3,7 @@
 import logging
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -273,3 +274,28 @@ def test_coordinates_that_rounding_changes_are_asked_about(off, asked):
     said = questions(lb.Model(stones, ["ground"], interfaces, lb.self_weight(), push))
     assert len(said) == asked
     assert all("5e+12 m off the origin, where coordinates are rounded to 0.001 m" in one for one in said)
+
+
+def test_a_force_on_a_block_without_a_unit_weight():
+    blocks = [lb.Block.box("ground", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5))]
+    down, push = (
+        lb.loads.force("stone", (0, 0, -1e5), (0, 0, 1)),
+        lb.loads.force("stone", (1, 0, 0), (0, 0, 1)),
+    )
+    model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, lb.PointContact(0.9)), down, push)
+    assert lb.report(model, lb.bounds(model)).text
+
+
+@pytest.mark.parametrize(("angle", "asked"), [(0.0, 0), (np.pi / 2, 0), (np.pi / 4, 1)])
+def test_axes_off_the_sides_of_a_rectangle_are_asked_about(angle, asked):
+    """Of a square with axes along its diagonals Eqs (31)-(32) have sides shorter by sqrt(2)."""
+    joint = lb.OrdunaLourenco(0.5)
+    model = block(joint)
+    (own,) = model.interfaces
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([(c, s, 0.0), (-s, c, 0.0), (0.0, 0.0, 1.0)])
+    turned = replace(own, axes=turn @ own.axes, polygon=own.polygon @ turn[:2, :2].T)
+    said = questions(replace(model, interfaces=[turned]))
+    assert len([one for one in said if "rad off the sides" in one]) == asked
+    torsion = [joint.strength(one, (0, 0, 0, 0, 0, 1.0), (0, 0, -1.0, 0, 0, 0)) for one in (own, turned)]
+    assert torsion[1] / torsion[0] == pytest.approx(np.sqrt(0.5) if asked else 1.0, abs=1e-6)

@@ -1,6 +1,7 @@
 """One bad block does not refuse the others: twisted faces, open shells, what was left out."""
 
 import re
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -148,3 +149,24 @@ def test_look_tells_the_remedy_where_all_faces_are_twisted_and_takes_it(tmp_path
     assert done.exit_code == 0, done.output
     assert re.search(r"Blocks +3\b", done.output)
     assert f"Next: limitblocks import {file} --twisted triangulate" in done.output
+
+
+def test_look_names_the_mending_without_which_import_refuses(tmp_path):
+    """Faces off by 1 mm: its next command, taken literally, was refused."""
+    random = np.random.default_rng(1)
+    wall = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=2)
+    bodies = [
+        (
+            block.name.replace(" ", "_"),
+            block.vertices + 1e-3 * random.uniform(-1.0, 1.0, block.vertices.shape),
+            [(face[0], *two) for face in block.faces for two in pairwise(face[1:])],
+        )
+        for block in wall.blocks
+    ]
+    file = obj(tmp_path / "rough.obj", bodies)
+    said = CliRunner().invoke(app, ["look", str(file)], env={"COLUMNS": "200"}).output
+    (words,) = (line.split()[2:] for line in said.splitlines() if line.startswith("Next: "))
+    assert "--heal" in words
+    assert CliRunner().invoke(app, words).exit_code == 0
+    refused = CliRunner().invoke(app, [*(word for word in words if word != "--heal"), "--force"])
+    assert "import --heal" in refused.stderr

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks import studies
 from limitblocks.practice import (
     CapacityCurve,
     CapacityPoint,
@@ -70,3 +71,40 @@ def test_a_vehicle_on_a_crushed_pier(pier):
     assert found.bounds.remarks[0] in str(found)
     text = " ".join(lb.report(pier, found).text.split())
     assert found.bounds.remarks[0][1:] in text
+
+
+def test_ranges_and_sensitivities_of_a_crushed_pier(pier):
+    limits = lb.bounds(pier)
+    (said,) = limits.remarks
+    sensitive = lb.sensitivities(pier, limits)
+    ranged = lb.load_factor_range(pier, paths=1, mechanisms=0)
+    for found in (sensitive, ranged):
+        assert said in found.remarks
+        assert said in str(found)
+        assert said[1:] in " ".join(lb.report(pier, found).text.split())
+
+
+def leaning(b):
+    """A square column of side 1 whose load F acts at (b, b), crushed to a tenth of its strength."""
+    joint, F = lb.OrdunaLourenco(0.9, compressive_strength=1e6), 1e5
+    blocks = [lb.Block.box("ground", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("column", (1, 1, 2), (0, 0, 1))]
+    dead, live = (
+        lb.loads.force("column", (0, 0, -F), (b, b, 2)),
+        lb.loads.force("column", (1, 0, 0), (0, 0, 1)),
+    )
+    return lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, joint), dead, live)
+
+
+def test_standing_beyond_the_stress_block_is_said():
+    """Eq. (39) lets F act at (1 - n) / 2, the triangle of the stress block at 1 / 2 - sqrt(2 n) / 3."""
+    n = 0.1
+    exact, own = 0.5 - np.sqrt(2 * n) / 3, (1 - n) / 2
+    inside, beyond = lb.stability(leaning(exact - 1e-3)), lb.stability(leaning(own - 1e-3))
+    assert inside.stands
+    assert not inside.remarks
+    assert beyond.stands
+    assert f"{(own - 1e-3) / exact:.2f} times the moment" in str(beyond)
+    assert beyond.remarks[0][1:] in " ".join(lb.report(leaning(own - 1e-3), beyond).text.split())
+    farthest = studies.maximum(leaning, 0.0, 0.49)
+    assert farthest.value == pytest.approx(own, abs=1e-5)
+    assert f"{own / exact:.2f} times the moment" in str(farthest)

@@ -20,6 +20,7 @@ from limitblocks.practice import (
     Vehicle,
     capacity_curve,
     least_ties,
+    reinforced,
     settlement,
     settlement_to_collapse,
     tie,
@@ -28,6 +29,7 @@ from limitblocks.practice import (
 )
 from limitblocks.reports import terminal
 from limitblocks.reports.document import Text
+from limitblocks.reports.facts import facts
 from limitblocks.reports.pdf import GREEK, latin, pdf
 
 pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
@@ -219,3 +221,12 @@ def test_a_support_that_settles_until_collapse():
     filled = replace(curve.points[-1], across=("a|b presses across a gap of 1 mm",))
     said = lb.report(ring, replace(curve, points=(curve.points[0], filled))).text
     assert "joints press across their gaps" in said
+
+
+def test_the_interface_area_is_that_of_contacts():
+    """A tie of 1e-2 m2 is no contact of the block, 0.5 m wide."""
+    model = lb.structures.block(lb.PointContact(0.5), width=0.5, height=1.0)
+    stone, ground = model.free_blocks[0], model.supports[0]
+    rod = tie(stone.name, stone.centroid.tolist(), ground, (-3, 0, 0), area=1e-2, strength=1e6)
+    areas = [facts(one)["interface_area"] for one in (model, reinforced(model, rod))]
+    assert areas[1] == pytest.approx(areas[0], rel=1e-12)

@@ -156,6 +156,7 @@ def remarks(flow: Flow, first: RangeAnswer | None, answers: list[RangeAnswer]) -
         said.append(f"the answer of nonassociated is not that of the load path ({first.solution.how})")
     if not flow.constant:
         said.append("with turning about the centre of pressure the set has no convex pieces: paths alone")
-    ends = [one for one in (answers[0], answers[-1]) if one.local] if answers else []
-    said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends]
-    return tuple(said)
+    ends = [answers[0], answers[-1]] if answers else []
+    said += [f"the load factor {one.load_factor:.6g} is of {one.mechanism}" for one in ends if one.local]
+    shown = [first, *ends] if first else ends
+    return tuple(dict.fromkeys([*said, *(one for found in shown for one in found.check.remarks)]))

@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane, found_in_plane_or_whole
-from limitblocks.analysis.nonassociated.means import MEANS, Means
+from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.start import (
@@ -26,7 +26,6 @@ from limitblocks.analysis.nonassociated.ways import Given, Half, first_to_solve,
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
-from limitblocks.errors import sequence_of
 from limitblocks.evidence.backward_error import checked_limit, settled, within
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
@@ -110,7 +109,7 @@ def nonassociated(
     way = method_of(method)
     limit = checked_limit(backward_error)
     number(tolerance, "tolerance", "", above=0.0)
-    means = MEANS if means is None else sequence_of("means", means, Means) or MEANS
+    means = MEANS if means is None else checked_means(means) or MEANS
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)

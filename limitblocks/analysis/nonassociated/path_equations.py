@@ -21,6 +21,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.arrays import Array
+from limitblocks.mechanics.loads.load import number
 from limitblocks.problem import Cones, Flow, State
 from limitblocks.problem.barrier import central, curvature, spread
 
@@ -44,6 +45,12 @@ class Barrier:
     power: float = 1.0
     floor: float = 1e-6
     opening: float = 1.0
+
+    def __post_init__(self) -> None:
+        number(self.size, "size of the barrier", "", above=0.0)
+        number(self.power, "power of the barrier", "", least=0.0)
+        number(self.floor, "floor of the barrier", "", least=0.0)
+        number(self.opening, "opening of the barrier", "", above=0.0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from limitblocks.joints.base import checked_count
+from limitblocks.mechanics.loads.load import number
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -29,3 +32,9 @@ class Settings:
     barrier: float = 1e-2
     left: float = 1e-10
     budget: int = 4000
+
+    def __post_init__(self) -> None:
+        for word in ("first", "barrier", "left"):
+            number(getattr(self, word), f"{word} of the settings", "", above=0.0)
+        number(self.growth, "growth of the settings", "", above=1.0)
+        checked_count("budget of the settings", self.budget, 1)
