@@ -20,6 +20,7 @@ from limitblocks.practice.resting import PARALLEL
 from limitblocks.practice.trimmed import trimmed
 
 MEETS = 1e-6  # of the size of the structure: a deeper overlap of blocks counts
+DAMP = 1e-4  # closes a gap by at most 1 / (2 DAMP) of it: contacts that fit at first order alone move far
 ROUNDS = 20  # of Newton's method for the gaps; it converges quadratically
 
 
@@ -63,7 +64,7 @@ def _closed(assembly: Assembly, wanted: Truths, scale: Array, barred: Array) -> 
             sparse.vstack([rows, sparse.csr_array(barred)]),
             np.append(-way[wanted], np.zeros(len(barred))),
         )
-        step = lsmr(rows, lack, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
+        step = lsmr(rows, lack, DAMP, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
     return assembly, way, left
 

@@ -119,7 +119,12 @@ class Study(Rows):
         least, result = self.load_factors[self.least], self.results[self.least]
         made = many(len(self.errors), "analysis", "analyses")
         said = "".join(f"; {one}" for one in result.remarks) if result else ""
-        return f"{made}, least load factor {least:.6g} at {where}{lost}{said}"
+        return f"{made}, least load factor {least:.6g} at {where}{self._elsewhere}{lost}{said}"
+
+    @property
+    def _elsewhere(self) -> str:
+        """What is known where no analysis was asked for."""
+        return ""
 
     def _key(self, k: int) -> dict[str, Any]:
         return {"row": k}
@@ -133,10 +138,34 @@ class Directions(Study):
     ----------
     directions : Array, shape (n, 3)
         Unit vectors.
+    convex : bool
+        Whether what the structure carries along all directions is a convex set: that of a live load which
+        is linear in its direction, where the flow is associated.
     """
 
     directions: Array
+    convex: bool = False
     units: ClassVar[dict[str, str]] = {"angle": "rad"}
+
+    @property
+    def between(self) -> float:
+        """Static load factor that no direction in plan between two neighbours is below; NaN if unknown.
+
+        Stress states of both add up to one of each point of the chord between them in the polar curve. It is
+        unknown where that is not `convex`, or no two neighbours are less than 180 degrees apart.
+        """
+        plan = np.flatnonzero(self.directions[:, 2] == 0.0)
+        if not self.convex or not len(plan) or np.isnan(self.load_factors[plan]).any():
+            return float("nan")
+        order = plan[np.argsort(self.angles[plan])]
+        way = np.diff(self.angles[order], append=self.angles[order[0]] + 2 * np.pi)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            r = 1.0 / self.load_factors[order]
+            s = np.roll(r, -1)
+            inside = (r > s * np.cos(way)) & (s > r * np.cos(way))  # the foot of the origin on the chord
+            chord = np.sin(way) / np.sqrt(r**2 + s**2 - 2.0 * r * s * np.cos(way))
+            least = np.where(inside, chord, 1.0 / np.maximum(r, s))[way < np.pi - 1e-9]
+        return float(least.min()) if len(least) else float("nan")
 
     @property
     def angles(self) -> Array:
@@ -144,6 +173,16 @@ class Directions(Study):
         x, y, _ = self.directions.T
         angles = np.mod(np.arctan2(y, x), 2 * np.pi)
         return np.where(np.hypot(x, y) > 1e-9, angles, np.nan)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the study as plain numbers, lists and text."""
+        return super().to_dict() | {"between": self.between}
+
+    @property
+    def _elsewhere(self) -> str:
+        if np.isnan(self.between):
+            return "; other directions may have less"
+        return f"; {self.between:.6g} or more between neighbouring directions"
 
     def _key(self, k: int) -> dict[str, Any]:
         x, y, z = self.directions[k].tolist()
@@ -168,6 +207,10 @@ class MovingLoad(Study):
         """Place (x, y) of least load factor, m."""
         x, y = self.positions[self.least].tolist()
         return x, y
+
+    @property
+    def _elsewhere(self) -> str:
+        return "; other places may have less"
 
     def _key(self, k: int) -> dict[str, Any]:
         x, y = self.positions[k].tolist()

@@ -56,21 +56,28 @@ class SampledStudy(Rows):
     def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
         """Return quantiles of the load factor over the independent samples that have one.
 
-        One for each of `shares`, 0 to 1. A row whose dead loads fall counts as load factor zero; other
-        failures are left out. Between a load factor and an unlimited one the lower counts.
+        One for each of `shares`, 0 to 1. The k-th least of n is the quantile k / (n + 1), the share that is
+        below it on average; less than the first and more than the last there is not (Weibull 1939; Hyndman &
+        Fan 1996, definition 6). A row whose dead loads fall counts as load factor zero; other failures are
+        left out. Between a load factor and an unlimited one the lower counts.
 
         Raises
         ------
         SolveError
             If no row has a load factor.
         """
-        known = self._known()
+        known = np.sort(self._known())
         most = known[np.isfinite(known)].max(initial=0.0)
-        unlimited = np.isinf(np.quantile(known, shares, method="lower"))
-        return np.where(unlimited, np.inf, np.quantile(np.minimum(known, most), shares))
+        place = np.clip(np.asarray(shares) * (len(known) + 1) - 1.0, 0.0, len(known) - 1.0)
+        between = np.interp(place, np.arange(len(known)), np.minimum(known, most))
+        return np.where(np.isinf(known[place.astype(int)]), np.inf, between)
 
     def probability_below(self, demand: float) -> float:
-        """Return the share of independent samples whose load factor is below `demand`; falling ones are."""
+        """Return the share of independent samples whose load factor is below `demand`; falling ones are.
+
+        Of those that have one: with `failures` among them it is at least share (1 - f) and at most
+        share (1 - f) + f, f the share of failures.
+        """
         return float((self._known() < demand).mean())
 
     def mode_frequencies(self) -> dict[str, float]:

@@ -30,6 +30,10 @@ def directions(
 ) -> Directions:
     """Return the load factor for each direction of the live load.
 
+    The least of them is not the least of all directions: a push square to an edge that lies half way between
+    two of n directions has cos(180 / n degrees) times what they have. ``between`` of the result is a proven
+    bound for all directions between; without dilatancy there is none.
+
     Parameters
     ----------
     model : Model
@@ -66,7 +70,8 @@ def directions(
         turned(model.live, (1.0, 0.0, 0.0))  # a live load that cannot be turned is no matter of one row
     models = _made(lambda direction: replace(model, live=loads(direction)), units)
     outcomes = analyse_all(models, analysis, settings, workers, progress)
-    return Directions(*_columns(analysis, outcomes), directions=read_only(units))
+    convex = live is None and analysis == "bounds"
+    return Directions(*_columns(analysis, outcomes), directions=read_only(units), convex=convex)
 
 
 def moving_load(
@@ -79,7 +84,9 @@ def moving_load(
     progress: Progress | None = None,
     **settings: Any,
 ) -> MovingLoad:
-    """Return the load factor of a load at each of a series of places, and with it the worst place.
+    """Return the load factor of a load at each of a series of places, and the worst of these places.
+
+    Other places may have less; :func:`limitblocks.practice.worst_position` searches between them.
 
     Parameters
     ----------

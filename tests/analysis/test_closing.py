@@ -13,6 +13,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGE_PLANAR_MEANS,
     LARGEST_MEANS,
     MEANS,
+    REDUCED_MEANS,
     SOFTENING,
     Means,
     follow,
@@ -189,27 +190,24 @@ def test_a_large_wall_in_its_plane_has_a_larger_barrier_and_rounds_before_increm
     assert lb.check_mcp(model, found).passed
 
 
-PATIENT = tuple(one._replace(patience=None) for one in MEANS)  # in a plane or one half points cost little
-
-
 @pytest.mark.parametrize(
     ("blocks", "in_space", "reduced", "means"),
     [
         (100, True, False, MEANS),
         (101, True, False, LARGE_MEANS),
-        (100, True, True, PATIENT),
+        (100, True, True, REDUCED_MEANS),
         (300, True, False, LARGE_MEANS),
         (301, True, False, LARGEST_MEANS),
         (101, True, True, LARGE_MEANS),
         (301, True, True, LARGE_MEANS),
-        (500, False, True, PATIENT),
+        (500, False, True, REDUCED_MEANS),
         (501, False, True, LARGE_PLANAR_MEANS),
     ],
 )
 def test_the_number_of_blocks_says_which_means_are_followed(blocks, in_space, reduced, means):
     assert ways.own_means(blocks, in_space, True, reduced) == means
     if in_space:  # a flow that can give power has further ways of its own
-        assert ways.own_means(blocks, in_space, False, reduced) == (PATIENT if reduced else MEANS)
+        assert ways.own_means(blocks, in_space, False, reduced) == (REDUCED_MEANS if reduced else MEANS)
 
 
 def test_beyond_three_hundred_blocks_one_barrier_goes_on(monkeypatch):

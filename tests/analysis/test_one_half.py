@@ -7,7 +7,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import ways
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
-from limitblocks.analysis.nonassociated.means import LARGE_MEANS, MEANS, Means, follow
+from limitblocks.analysis.nonassociated.means import LARGE_MEANS, MEANS, REDUCED_MEANS, Means, follow
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import flow_of, load_scale
 from limitblocks.problem.plane import Planar
@@ -93,6 +93,23 @@ def test_a_large_barrier_closes_sooner_with_a_share_of_it_where_joints_open_and_
     power = load_scale(half.flow.problem, enclosing.associated) / len(half.flow.problem.blocks)
     _, (info,) = follow(half.flow, half.x0, half.weights, means=[one], power=power)
     assert info.closed is closes
+
+
+@pytest.mark.parametrize(("seed", "one_answer"), [(REDUCED_MEANS[1].seed, True), (MEANS[1].seed, False)])
+def test_a_square_vault_has_one_answer_along_both_sides(seed, one_answer):
+    """The path with power 2; random weights would close one of the two halves alone, elsewhere."""
+    found = []
+    for direction in ((1, 0, 0), (0, 1, 0)):
+        vault = lb.structures.EXAMPLES["pavilion_vault"](lb.PointContact(0.7))
+        model = replace(vault, live=lb.mass_proportional(direction))
+        flow, enclosing = flow_of(model, 0.0, "centroid")
+        half = flow_in_plane(model, flow, flow.problem.compliance, None, half=True)
+        power = load_scale(half.flow.problem, enclosing.associated) / len(half.flow.problem.blocks)
+        means = [REDUCED_MEANS[1]._replace(seed=seed)]
+        state, (info,) = follow(half.flow, half.x0, half.weights, means=means, power=power)
+        found.append((info.closed, state.load_factor / flow.problem.units.live))
+    (one, other), answers = zip(*found, strict=True)
+    assert (one and other and answers[0] == pytest.approx(answers[1], rel=1e-6)) is one_answer
 
 
 def test_a_half_that_is_interrupted_says_so(monkeypatch):

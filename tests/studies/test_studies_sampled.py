@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 import limitblocks as lb
-from limitblocks.studies import sampled
+from limitblocks.studies import SampledStudy, sampled
 from limitblocks.studies.pool import failed
 
 
@@ -113,15 +113,27 @@ def test_failures_are_rows(tmp_path):
 
 
 def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
-    """In order .1, .2, .3, inf, inf: quartiles fall on rows, and beyond them the lower neighbour counts."""
+    """In order .1, .2, .3, inf, inf: sixths fall on rows, and beyond them the lower neighbour counts."""
     values = [np.inf, 0.3, 0.1, np.inf, 0.2]
     monkeypatch.setattr(
         sampled, "one_row", lambda k, *_: {"row": k, "load_factor": values[k], "mode": "", "error": ""}
     )
     found = lb.study(block, {"friction": (0.2, 0.6)}, 5, sampler="random")
-    assert found.quantiles([0.0, 0.125, 0.5, 0.6]) == pytest.approx([0.1, 0.15, 0.3, 0.3])
-    assert np.isinf(found.quantiles([0.75, 0.9, 1.0])).all()
+    assert found.quantiles([0.0, 0.125, 0.25, 0.5, 0.6]) == pytest.approx([0.1, 0.1, 0.15, 0.3, 0.3])
+    assert np.isinf(found.quantiles([0.67, 0.9, 1.0])).all()
     assert found.probability_below(0.2) == pytest.approx(1 / 5)  # below: .1, not .2 itself
+
+
+@pytest.mark.parametrize("n", [16, 64])
+def test_what_is_below_a_quantile_is_its_share_on_average(n):
+    """Of uniform samples between 0 and 1; numpy's default has (1 + (n - 1) / 20) / (n + 1)."""
+    samples = np.random.default_rng(1).random((3000, n))
+    words = {"modes": ("",) * n, "errors": ("",) * n, "samples": n, "indices": False}
+    studies = [SampledStudy("bounds", ("x",), one[:, None], one, **words) for one in samples]
+    low, high = np.mean([one.quantiles((0.05, 0.95)) for one in studies], axis=0)
+    expected = max(0.05, 1 / (n + 1))  # less than the least sample there is not
+    assert low == pytest.approx(expected, abs=2e-3)
+    assert high == pytest.approx(1 - expected, abs=2e-3)
 
 
 def test_a_study_without_an_answer_prints():

@@ -54,6 +54,44 @@ def test_rocking_against_direction(analysis):
     assert series.load_factors[series.least] == pytest.approx(B1 / H, rel=1e-5)
 
 
+@pytest.mark.parametrize("count", [3, 4, 8, 16])
+def test_what_is_carried_between_directions(count):
+    """Square to an edge half way between two of n, a block has cos(180 / n) times theirs."""
+    half = np.pi / count
+    along = lb.loads.compass(2 * count)[1::2]
+    series = studies.directions(block(), along)
+    every = studies.directions(block(), 72).load_factors
+    assert series.between <= every.min() * (1 + 1e-9)
+    assert series.between >= np.cos(half) * series.load_factors.min() * (1 - 1e-6)
+    if count in (4, 8):  # the edge across X lies between the first and the last
+        assert series.load_factors.min() * np.cos(half) == pytest.approx(B1 / H, rel=1e-5)
+        assert series.between == pytest.approx(B1 / H, rel=1e-5)
+    assert f"; {series.between:.6g} or more between neighbouring directions" in str(series)
+    assert series.to_dict()["between"] == series.between
+
+
+def test_chords_of_the_polar_curve():
+    """Of unlimited and of none, and where no two neighbours are less than half a turn apart."""
+
+    def between(factors, angles, convex=True):
+        a = np.array(angles) * np.pi / 180
+        units = np.stack([np.cos(a), np.sin(a), 0 * a], axis=1)
+        own = (None,) * len(a), ("",) * len(a)
+        return studies.Directions("bounds", np.array(factors, dtype=float), *own, units, convex).between
+
+    assert between([3.0, 4.0], [0, 90]) == pytest.approx(12 / 5)  # the height of 3, 4, 5
+    assert between([4.0, 3.0], [90, 0]) == pytest.approx(12 / 5)
+    assert between([1.0, 9.0], [0, 45]) == 1.0  # the chord leads outwards
+    assert between([2.0, np.inf], [0, 90]) == 2.0
+    assert between([2.0, np.inf], [0, 150]) == pytest.approx(2 * np.sin(np.pi / 6))
+    assert between([np.inf, np.inf], [0, 90]) == np.inf
+    assert between([0.0, 1.0], [0, 90]) == 0.0
+    assert np.isnan(between([1.0, 1.0], [0, 180]))
+    assert np.isnan(between([1.0], [0]))
+    assert np.isnan(between([1.0, np.nan], [0, 90]))
+    assert np.isnan(between([1.0, 1.0], [0, 90], convex=False))
+
+
 def test_directions_up_and_down():
     series = studies.directions(block(), lb.loads.compass(1, vertical=True))
     assert series.load_factors[1] == pytest.approx(1.0)  # lifted by its own weight
@@ -84,6 +122,7 @@ def test_live_load_that_cannot_be_turned():
         return lb.loads.force("block", 1e3 * np.array(direction), (0, 0, H))
 
     series = studies.directions(model, 4, live=push)
+    assert "; other directions may have less" in str(series)  # the load may depend on it in any way
     sides = WEIGHT / (2e3 * H) * np.array([B1, B2, B1, B2])
     assert series.load_factors == pytest.approx(sides, rel=1e-6)
 
@@ -104,7 +143,8 @@ def test_load_moving_over_a_cantilever():
     assert "no free block" in series.errors[4]
     assert series.worst_position == (2.4, 0.0)
     said = (
-        "least load factor 14.2857 at x 2.4 m, y 0 m; 1 unlimited; 1 without an answer (ModelError: live load"
+        "least load factor 14.2857 at x 2.4 m, y 0 m; other places may have less; "
+        "1 unlimited; 1 without an answer (ModelError: live load"
     )
     assert said in str(series)
     middle = studies.moving_load(slab(), (0, 0, -1e3), [(0.0, 0.0), (0.5, 0.0)])

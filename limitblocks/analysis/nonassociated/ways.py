@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.means import (
     LARGE_PLANAR_MEANS,
     LARGEST_MEANS,
     MEANS,
+    REDUCED_MEANS,
     SOFTENING,
     TURNED_MEANS,
     TURNED_SOFTENING,
@@ -155,7 +156,7 @@ def own_means(blocks: int, in_space: bool, dissipative: bool, reduced: bool) -> 
         return LARGEST_MEANS if blocks > LARGEST and not reduced else LARGE_MEANS
     if not in_space and blocks > LARGE_IN_PLANE:
         return LARGE_PLANAR_MEANS
-    return tuple(one._replace(patience=None) for one in MEANS) if reduced else MEANS  # points cost little
+    return REDUCED_MEANS if reduced else MEANS
 
 
 def _in_space(flow: Flow) -> bool:
