@@ -23,6 +23,7 @@ from limitblocks.shown import Shown
 
 LEVELS = tuple(10.0 ** np.arange(-10.0, 0.1, 0.5))  # of changes of the model that are tried
 SHOWN = 5  # places that are named
+LARGE = 1e-4  # from where on it is told, however small the residuals are
 ROUNDING = 1e-12  # changes that no place is named for
 MEANINGS = {
     "limits": "relative change of friction, or of the distance of an edge, that takes rows to yield",
@@ -145,6 +146,17 @@ def within(error: BackwardError, residuals: Residuals, tolerance: float, limit: 
     names = [entry.name for entry in residuals.above(tolerance)]
     stands = "standing" not in names
     return limit is not None and stands and max(error.value, residuals["dissipation"]) <= limit
+
+
+def far_off(error: BackwardError, residuals: Residuals, tolerance: float) -> tuple[str, ...]:
+    """Return a remark where residuals are within the tolerance and yet no model nearby is known."""
+    if error.value <= LARGE or residuals.worst.value > tolerance:
+        return ()
+    known = f"by {error.value:.1g}" if np.isfinite(error.value) else "by as much as is not known"
+    return (
+        f"the residuals are within {tolerance:g}, yet the state is exact only for a model changed {known}: "
+        "the load factor may be farther off than they are, and another solution near it may carry less",
+    )
 
 
 def least(given: Given, most: float = np.inf, *, held: bool = False) -> Nearby | None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import CheckFailed, ModelError
-from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, within
+from limitblocks.evidence.backward_error import BackwardError, backward_error, checked_limit, far_off, within
 from limitblocks.evidence.claim import Claim, claim_of, real_number
 from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.given_power import given_power
@@ -176,6 +176,7 @@ def _checked(
     error = backward_error(flow, state)
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
     remarks += locked_tension(model, flow, state) + beyond_stress_block(model, claim.stress_resultants)
+    remarks += far_off(error, judged, tolerance) if upper is None else ()
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 

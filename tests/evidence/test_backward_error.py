@@ -63,6 +63,25 @@ def test_what_is_beyond_the_most_that_counts_is_not_looked_for():
     assert backward_error(flow, state, most=0.1).value == pytest.approx(0.01, rel=1e-6)
 
 
+@pytest.mark.parametrize(("share", "told"), [(0.99, True), (1.0 - 5e-5, False), (1.0, False)])
+def test_small_residuals_far_from_any_exact_model_are_remarked(share, told):
+    model, claim = slid_at(share * MU)
+    check = lb.check_mcp(model, claim, tolerance=0.1)
+    assert check.passed
+    assert any("exact only for a model changed by 0.01" in one for one in check.remarks) is told
+
+
+@pytest.mark.parametrize(("tolerance", "told"), [(0.5, True), (1e-8, False)])
+def test_answers_far_from_any_exact_model_are_remarked(tolerance, told):
+    """The first state of a path that is within a loose tolerance is no solution of a model nearby."""
+    wall = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
+    means = [lb.settings.Means(lb.settings.Barrier(), 0, 30 if told else 300)]
+    found = lb.nonassociated(wall, means=means, tolerance=tolerance)
+    assert found.converged
+    assert (found.backward_error.value > 1e-4) is told
+    assert any("exact only" in one for one in found.remarks) is told
+
+
 @pytest.mark.parametrize("share", [1 + 1e-4, 1 - 1e-4])
 def test_the_changed_friction_is_that_of_a_model_that_can_be_made(share):
     _, claim = slid_at(share * MU)

@@ -12,7 +12,7 @@ from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
-from limitblocks.evidence.backward_error import BackwardError, settled, unknown, within
+from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
 from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.ending import BELOW_ZERO, UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
@@ -91,6 +91,7 @@ def finished(
             *locked_tension(model, flow, state),
             *beyond_stress_block(model, resultants),
             *unconfirmed(change),
+            *(() if stopped else far_off(error, residuals, tolerance)),
             *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
         ),
         tolerance=tolerance,
