@@ -134,6 +134,15 @@ def test_another_program_with_passive_fill():
     assert found.upper == pytest.approx(load_factor(own, -0.75, pulls=pulls), rel=1e-6)
 
 
+def test_passive_fill_of_two_rings_is_on_the_outer_one():
+    """Faces that another ring covers but for rounding errors were held by 1e-12 N."""
+    model = arch_bridge(lb.PointContact(0.6), span=3.0, rise=0.75, thickness=0.3, voussoirs=11, rings=2)
+    found = passive_fill(model, 2.0, unit_weight=18e3, coefficient=3.0)
+    assert {one.interface.block_i for one in found} == {
+        f"span 1 ring 2 voussoir {k}" for k in range(1, 12) if k != 6
+    }
+
+
 def test_passive_fill_of_faces_askew_and_on_both_sides():
     """Triangles of area A, pressures p at corners x: int p x = A (sum p sum x + sum p x) / 12."""
     corners = np.array([(0.0, 0, 0), (3.0, 0, 0), (0.0, 2, 0), (0.5, 0.4, 1.5)])
