@@ -181,7 +181,8 @@ def test_what_exact_programs_find_is_certified_too():
     unit, most = task.flow.problem.units.live, lb.bounds(model).upper
     assert task.collected.greatest.state.load_factor / unit < 0.95 * most
     found = search.extreme(task, -1.0, 60.0)
-    assert found.proven and found.load_factor == pytest.approx(most, rel=1e-6)
+    assert found.proven
+    assert found.load_factor == pytest.approx(most, rel=1e-6)
     assert task.collected.greatest.state.load_factor / unit == pytest.approx(most, rel=1e-6)
 
 
