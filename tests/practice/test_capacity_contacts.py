@@ -307,8 +307,10 @@ def test_the_contacts_that_an_answer_presses_are_marked():
 
 @pytest.mark.parametrize("turn", [0.002, 0.01, 0.05])
 def test_a_corner_at_the_end_of_a_floor_that_goes_on_ahead_rests_on_it(turn):
-    """A block of depth b flush with the end of a floor turns about an axis at 45 degrees through the other end
-    of its toe: the corner at the flush end is b (1 - cos turn) / 2 in the floor, as on one that goes on there."""
+    """A block of depth b flush with the end of a floor turns about an axis at 45 degrees through its toe.
+
+    The corner at the flush end is b (1 - cos turn) / 2 in the floor, as on one that goes on there.
+    """
     b = 0.4
     block = lb.Block.box("block", (b, b, H), (-b / 2, b / 2, H / 2), 20e3)
     axis = np.array([0.0, 1.0, -1.0]) / np.sqrt(2.0)
