@@ -116,7 +116,8 @@ def track(
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         walk.patience, walk.closing = patience, closing
         end = walk.go()
-        end = UNSETTLED if walk.settling.changes and end not in (CLOSED, INTERRUPTED) else end
+        if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled(flow, walk.best):
+            end = UNSETTLED
         best, left = (walk.best, walk.left) if walk.best else (walk.state, defect(flow, walk.state))
     counts = walk.factorisations, walk.failures, tuple(walk.points)
     return best, Tracked(walk.path.barrier, seed, end, left, *counts)
@@ -258,7 +259,7 @@ class Walk:
         """Whether a path within the tolerance has led to no other load factor."""
         if self.left > TOLERANCE:
             return False
-        still = self.settling.stands_still(self.state.load_factor, self.factorisations)
+        still = self.settling.stands_still(self.path.flow, self.state, self.factorisations)
         self.budget, self.patience = self.settling.since + FURTHER, None
         return still
 
