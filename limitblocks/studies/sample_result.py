@@ -12,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
-from limitblocks.studies.results import Rows, unanswered
+from limitblocks.studies.results import FLOWS, Rows, unanswered
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -133,9 +133,8 @@ class SampledStudy(Rows):
             low, middle, high = self.quantiles()
         except SolveError:
             return f"{said}, no load factor{failed}"
-        return (
-            f"{said}: load factor {middle:.6g}, 5 % to 95 % {low:.6g} to {high:.6g}{failed}{self._left_out}"
-        )
+        found = f"{FLOWS[self.analysis]} load factor {middle:.6g}, 5 % to 95 % {low:.6g} to {high:.6g}"
+        return f"{said}: {found}{failed}{self._left_out}"
 
     @property
     def _left_out(self) -> str:
