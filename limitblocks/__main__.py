@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from types import FrameType
 
 
@@ -12,8 +13,11 @@ def main() -> None:
         signal.signal(signal.SIGINT, _end)
     from limitblocks.cli import main as run
 
-    signal.signal(signal.SIGINT, usual)
-    run()
+    try:
+        signal.signal(signal.SIGINT, usual)
+        run()
+    except KeyboardInterrupt:  # before a command began: the interpreter would end as if it were killed
+        sys.exit(128 + signal.SIGINT)
 
 
 def _end(number: int, _frame: FrameType | None) -> None:

@@ -79,6 +79,21 @@ def test_notes_on_many_blocks_are_one():
     assert said[2:] == [f"9 blocks {shown} and 1 more: is turned"]
 
 
+def test_notes_that_differ_in_numbers_alone_are_one_with_the_least_and_the_most():
+    """Numbers are compared as such, not as text; what is not of a block stays as it is."""
+    notes = [
+        f"block 'b{k}': {n} of 6 bent, up to {off} m"
+        for k, (n, off) in enumerate([(2, "9e-5"), (10, "0.02")])
+    ]
+    said = together([*notes, "block 'c': 3 of 7 left out", "layer 1", "layer 2"])
+    assert said == [
+        "2 blocks 'b0', 'b1': 2 to 10 of 6 bent, up to 9e-5 to 0.02 m",
+        "block 'c': 3 of 7 left out",
+        "layer 1",
+        "layer 2",
+    ]
+
+
 @pytest.mark.parametrize(
     ("ask", "said"),
     [

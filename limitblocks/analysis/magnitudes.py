@@ -33,8 +33,6 @@ _HEAVY, _STRONG = 2.2e5, 1e9
 _OF_FILL, _OF_PRESSURE = 2.5e3, 1.2e3
 #: Unit weight, N/m3, that neither water nor soil has: concrete has 2.5e4.
 _HEAVY_FILL = 3e4
-#: Axle load, N, below which it may be in kN: a bicycle has 500.
-_LIGHT = 1e3
 #: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
 _CALM = 0.49
 #: Dead force on a block, N and over its weight, below which it may be in kN: a hand pulls with more.
@@ -134,20 +132,6 @@ def of_fill(weight: float, density: float = _OF_FILL) -> list[str]:
         ]
     asked = [] if weight == 1.0 or weight >= density else _of_weight(weight)
     return [f"fill or pressure: {question}" for question in asked]
-
-
-def of_passive(coefficient: float) -> list[str]:
-    """Return the question for a coefficient of passive earth pressure: Rankine's is one or more."""
-    if coefficient < 1.0:
-        return [f"coefficient of passive pressure is {coefficient:g}, below 1: that of active pressure?"]
-    return []
-
-
-def of_axles(axles: Sequence[float]) -> list[str]:
-    """Return the question for the axle loads of a vehicle, N."""
-    if (heaviest := max(axles)) < _LIGHT:
-        return [f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N"]
-    return []
 
 
 def of_ground(a_g: float) -> list[str]:

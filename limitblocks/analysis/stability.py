@@ -25,7 +25,7 @@ from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
 from limitblocks.evidence.stability_result import Stability, Standing, arising_residuals, mechanism_residuals
 from limitblocks.known import known
 from limitblocks.model import Model
-from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
+from limitblocks.problem import ASSOCIATED, Flow, LimitProblem
 from limitblocks.problem.plane import Choice
 
 MOST = 1.0  # of the force of each interface: a structure that can be wedged at will has no largest margin
@@ -60,22 +60,21 @@ def stability(model: Model) -> Stability:
         return _answer(model, Standing.FALLS, standing_margin(model), fall=fall)
     margin = min(MOST, _margin(problem, x))
     flow, weights = Flow(problem), joint_compliance(problem)
-    found = arising(problem, weights)
-    own = State(0.0, found.point.x, found.point.u, found.point.y)
-    entries = arising_residuals(flow, weights, own)
-    if found.accepted and Residuals(entries).worst.value <= ARISEN:
+    own = arising(problem, weights)
+    entries = arising_residuals(flow, weights, own) if own else ()
+    if own and Residuals(entries).worst.value <= ARISEN:
         return _answer(model, Standing.STANDS, margin, x, own.x, entries)
-    fall = _slides_through(problem, weights, Residuals(entries).worst)
+    fall = _slides_through(problem, weights)
     return _answer(model, Standing.SELF_STRESS, margin, x, fall=fall)
 
 
-def _slides_through(problem: LimitProblem, weights: Array, worst: Residual) -> Fall:
+def _slides_through(problem: LimitProblem, weights: Array) -> Fall:
     """Mechanism of the blocks that friction does not hold where nobody wedges them; SolverFailure if none."""
     moving = not_held(problem, weights)
     if moving is None or not moving.any():
         raise SolverFailure(
             "stresses that carry the dead loads exist, but whether they arise by themselves is undecided: "
-            f"{worst}"
+            "neither such that do nor blocks that slide through were found; docs/stability.md has what helps"
         )
     free = sparse.diags_array(np.repeat(1.0 * moving, 6))
     alone = replace(problem, C=sparse.csr_array(problem.C @ free), dead=np.asarray(free @ problem.dead))

@@ -5,25 +5,29 @@ One implicit step under load control, from x = 0, of joints of one compliance W 
     W x = C u + G^T y,   dead = C^T x + k u,   F x + g in K,   y in K*,   (F x + g) o y = 0,
 
 k = 0. Where friction alone cannot keep a block that nobody wedges, it has no solution. Then weak springs k
-tie every block to the ground: those whose springs carry a share of their load are not held.
+tie every block to the ground: those whose springs carry a share of their load are not held. A barrier on
+(F x + g) o y fades along a path that is followed by arclength: steps that lower it may fail.
 The question is that of Kao et al. (2022), Coupled rigid-block analysis, Computer-Aided Design 146, 103216.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.interface_blocks import InterfaceBlocks
-from limitblocks.analysis.nonassociated.implicit_step import Loading, StepResult, implicit_step
-from limitblocks.analysis.nonassociated.path_equations import Point
+from limitblocks.analysis.nonassociated.increment import Stretch
+from limitblocks.analysis.nonassociated.path import BUDGET
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
+from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array
-from limitblocks.problem import Flow, LimitProblem
+from limitblocks.problem import Flow, LimitProblem, State
 
-ITERATIONS = 100  # of Newton's method
+LEFT = 1e-10  # of the barrier at the end
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
 # nobody wedges, the step on soft springs has several solutions, and often none is found.
 SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
@@ -44,49 +48,70 @@ def joint_compliance(problem: LimitProblem) -> Array:
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))
 
 
-def arising(problem: LimitProblem, weights: Array) -> StepResult:
-    """The stresses that arise on joints of compliance `weights`, and the displacements."""
+def arising(problem: LimitProblem, weights: Array) -> State | None:
+    """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found."""
     return _under_load(problem, weights)
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:
     """Which blocks weak springs have to carry, shape (n,); None where no step with springs succeeds."""
-    n = 6 * len(problem.blocks)
-    free = sparse.csr_array((len(problem.g), n))
-    on_springs = replace(
-        problem,
-        C=sparse.csr_array(sparse.vstack([problem.C, sparse.eye_array(n)])),
-        F=sparse.csr_array(sparse.hstack([problem.F, free])),
-        G=sparse.csr_array(sparse.hstack([problem.G, free])),
-        resultants=sparse.csr_array(sparse.block_diag([problem.resultants, sparse.eye_array(n)])),
-        interfaces=problem.interfaces + problem.blocks,
-    )
+    n = problem.C.shape[1]
+    on_springs = _beside(problem, sparse.eye_array(n), sparse.eye_array(n), problem.blocks)
     for stiffness in SPRINGS:
-        step = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
-        if step.accepted:
-            x, springs = np.split(step.point.x, [-n])
+        found = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
+        if found is not None:
+            x, springs = np.split(found.x, [-n])
             acting = np.abs(problem.dead) + problem.acting @ np.abs(x)
             share = min(max(0.01, CARRIED * stiffness), 0.9)
             return np.asarray(_largest(np.abs(springs)) > share * _largest(acting))
     return None
 
 
-def _under_load(problem: LimitProblem, weights: Array) -> StepResult:
+@np.errstate(all="ignore")  # a point that ran away is not accepted
+def _under_load(problem: LimitProblem, weights: Array) -> State | None:
     """One implicit step from x = 0 under the dead loads.
 
-    The step is under control of live.u = 1: the live load moves a coordinate of its own, tied to nothing.
+    A path is under control of live.u = 1: the live load moves a coordinate of its own, tied to a spring.
     """
     s, n = problem.C.shape
-    controlled = replace(
-        problem,
-        C=sparse.csr_array(sparse.hstack([problem.C, sparse.csr_array((s, 1))])),
-        dead=np.append(problem.dead, 0.0),
-        live=np.append(np.zeros(n), 1.0),
+    controlled = _beside(
+        replace(
+            problem,
+            C=sparse.csr_array(sparse.hstack([problem.C, sparse.csr_array((s, 1))])),
+            dead=np.append(problem.dead, 0.0),
+            live=np.append(np.zeros(n), 1.0),
+        ),
+        sparse.eye_array(1, n + 1, k=n),
+        sparse.eye_array(6, 1),
+        ("spring",),
     )
-    loading = Loading(Flow(controlled), InterfaceBlocks(controlled), weights, np.zeros(s), rho=1.0)
-    step = implicit_step(loading, ITERATIONS)
-    z = step.point
-    return replace(step, point=Point(z.x, z.u[:-1], 0.0, z.s, z.y))
+    flow, x0 = Flow(controlled), np.zeros(s + 1)
+    even, elastic = problem.cones.identity, np.append(weights, 1.0)
+    path = Path(flow, Layout(flow), Barrier(1.0, power=0.0, floor=0.0), even, elastic, x0, x0)
+    try:
+        start, _ = centred(path)
+    except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+        return None
+    if start is None:
+        return None
+    walk = Stretch(path, start, LEFT, BUDGET)
+    if walk.go() != "arrived":
+        return None
+    z = walk.kept[-1]
+    return State(0.0, z.x[:-1], z.u[:-1], z.y)
+
+
+def _beside(problem: LimitProblem, C: Any, resultants: Any, names: tuple[str, ...]) -> LimitProblem:
+    """The problem with further interfaces that never yield, each of its own compatibility and resultants."""
+    free = sparse.csr_array((len(problem.g), C.shape[0]))
+    return replace(
+        problem,
+        C=sparse.csr_array(sparse.vstack([problem.C, C])),
+        F=sparse.csr_array(sparse.hstack([problem.F, free])),
+        G=sparse.csr_array(sparse.hstack([problem.G, free])),
+        resultants=sparse.csr_array(sparse.block_diag([problem.resultants, resultants])),
+        interfaces=problem.interfaces + names,
+    )
 
 
 def _largest(values: Array) -> Array:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -12,6 +12,10 @@ from limitblocks.cli.answers import NOTHING, Kept, answer, keeping
 from limitblocks.cli.errors import clean_errors, refuse_existing
 from limitblocks.cli.options import Force, ModelFile
 from limitblocks.cli.vectors import numbers
+
+if TYPE_CHECKING:
+    from limitblocks.model import Model
+    from limitblocks.practice import WorstPosition
 
 Axles = Annotated[str, typer.Option(help="Axle loads, N, such as 60e3,100e3.", show_default=False)]
 Distances = Annotated[str, typer.Option(help="Of the axles from the first, m, such as 0,1.2.")]
@@ -41,6 +45,12 @@ Resisting = Annotated[
     list[str] | None,
     typer.Option("--block", help="A block that the fill holds; again for more [default: all]."),
 ]
+WithVehicle = Annotated[
+    Path | None,
+    typer.Option(
+        "--model", metavar="MODEL", help="Also write the model with the vehicle at its worst, for `adequacy`."
+    ),
+]
 Weighs = Annotated[bool, typer.Option("--weight", help="Add the weight of the fill to the dead loads, too.")]
 Filled = Annotated[
     Path, typer.Option("--output", "-o", metavar="MODEL", help="Model file to write.", show_default=False)
@@ -59,21 +69,30 @@ def vehicle(
     first: First = None,
     last: Last = None,
     count: Places = 25,
+    loaded: WithVehicle = None,
     kept: Kept = NOTHING,
 ) -> None:
     """Print the least load factor of a vehicle that moves along the deck, and where it stands."""
+
+    def solve(structure: Model, **settings: Any) -> WorstPosition:
+        for question in (*of_axles(loads.axles), *of_level(structure, level, "road")):
+            typer.echo(f"warning: {question}", err=True)
+        found: WorstPosition = analyses.vehicle(structure, **settings)
+        if loaded:
+            found.model.save(loaded, overwrite=kept.force)
+        return found
+
     with clean_errors():
-        from limitblocks.analysis.magnitudes import of_axles
+        from limitblocks.analysis.magnitudes_of_bridges import of_axles, of_level
         from limitblocks.practice import Deck, Vehicle
 
+        refuse_existing(loaded, kept.force, model, option="--model")
         if (first is None) != (last is None):
             raise typer.BadParameter("give both or neither", param_hint="--first, --last")
         loads = Vehicle(numbers("--axles", axles), numbers("--distances", distances), contact)
         between = None if first is None or last is None else (first, last)
-        for question in of_axles(loads.axles):
-            typer.echo(f"warning: {question}", err=True)
         settings: Any = {"deck": Deck(level, spread, y), "between": between, "positions": count}
-        answer(analyses.vehicle, model, kept, vehicle=loads, **settings)
+        answer(solve, model, kept, vehicle=loads, **settings)
 
 
 def backfill(
@@ -90,21 +109,26 @@ def backfill(
     with clean_errors():
         from dataclasses import replace
 
-        from limitblocks.analysis.magnitudes import of_fill, of_passive
+        from limitblocks.analysis.magnitudes import of_fill
+        from limitblocks.analysis.magnitudes_of_bridges import of_level, of_passive
         from limitblocks.io import read
         from limitblocks.loads import fill
+        from limitblocks.mechanics.loads.surfaces import Fill
         from limitblocks.practice import passive_fill, reinforced
         from limitblocks.shown import many
 
         refuse_existing(output, force, model)
         structure = read(model)
-        for question in (*of_fill(unit_weight), *of_passive(passive)):
+        asked = *of_fill(unit_weight), *of_passive(passive), *of_level(structure, level, "fill that resists")
+        for question in asked:
             typer.echo(f"warning: {question}", err=True)
         held = passive_fill(
             structure, level, unit_weight=unit_weight, coefficient=passive, blocks=tuple(block or ())
         )
         made = reinforced(structure, *held)
         if weight:
+            if any(isinstance(term, Fill) for _, term in structure.dead.terms):
+                typer.echo("warning: the model has the weight of fill already; --weight adds to it", err=True)
             made = replace(made, dead=made.dead + fill(unit_weight, level))
         blocks = many(len({one.interface.block_i for one in held}), "block")
         faces = many(len(held), "face")

@@ -11,6 +11,9 @@ from limitblocks.cli.vectors import vector
 ModelFile = Annotated[Path, typer.Argument(metavar="MODEL", help="Model file (JSON).", show_default=False)]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Tolerance = Annotated[float, typer.Option(help="Largest gap and residual accepted.", min=0.0)]
+SolutionTolerance = Annotated[
+    float, typer.Option("--tolerance", help="Largest residual accepted, dimensionless.", min=0.0)
+]
 BackwardLimit = Annotated[
     float | None,
     typer.Option(

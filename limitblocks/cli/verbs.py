@@ -24,6 +24,7 @@ from limitblocks.cli.options import (
     Paths,
     Seconds,
     Seed,
+    SolutionTolerance,
     Tolerance,
     Turns,
     Way,
@@ -63,7 +64,7 @@ def nonassociated(
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
     method: Way = Method.PATH,
-    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    tolerance: SolutionTolerance = DEFAULT_TOLERANCE,
     backward_error: BackwardLimit = None,
     kept: Kept = NOTHING,
 ) -> None:
@@ -79,7 +80,7 @@ def path(
     model: ModelFile,
     dilatancy: Dilatancy = 0.0,
     turning: Turns = Turning.CENTROID,
-    tolerance: Tolerance = DEFAULT_TOLERANCE,
+    tolerance: SolutionTolerance = DEFAULT_TOLERANCE,
     along: Along = False,
     kept: Kept = NOTHING,
 ) -> None:

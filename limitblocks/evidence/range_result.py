@@ -44,7 +44,7 @@ class Extreme:
     Attributes
     ----------
     answer : RangeAnswer, optional
-        The best solution that the program found, certified.
+        The best solution that the program or the search before it found, certified.
     bound : float
         What no solution within the limits below is beyond, as the program claims.
     proven : bool

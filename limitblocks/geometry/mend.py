@@ -188,9 +188,7 @@ def _untwisted(
     which = np.flatnonzero(off > PLANE_TOLERANCE * size)
     if not len(which):
         return points, loops
-    said = (
-        f"{many(len(which), 'twisted face')}, whose corners lie up to {off.max():.3g} m out of their planes"
-    )
+    said = f"twisted faces: {len(which)} of {len(loops)}, corners up to {off.max():.3g} m out of their planes"
     if twisted == "triangulate":
         notes.append(f"{said}, divided into triangles")
         return points, triangulated(points, loops, which)

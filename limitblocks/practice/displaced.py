@@ -20,7 +20,7 @@ from limitblocks.practice.resting import half_way, resting_axes, rims_at
 
 CLOSED = 1e-9  # gap over the size of the structure that counts as none
 RIM = 1e-6  # of the size of a joint: a corner as near to the rim of a face is at it
-EVEN = 1e-3  # sine of an angle: a rim nearer to the way across a hinge does not end the face there
+EVEN = 1e-3  # of a unit normal: rims that face across a hinge as much alike end together
 
 BOND = ("cohesion", "tensile_strength")  # strengths of a joint that hold until it moves
 
@@ -42,7 +42,7 @@ class Contact:
         closed. A tie has its two anchors, a dowel the point where it crosses the joint, k times.
     axes_i, axes_j : Array, shape (3, 3)
         Its axes as they turn with block i and with block j.
-    rims_i, rims_j : Array, shape (k, 2, 2)
+    rims_i, rims_j : Array, shape (k, s, 2)
         The rims of both faces at the corners (:func:`~.resting.rims_at`), as the contact was last
         :func:`seated`; NaN at corners that were open.
     pressed : bool
@@ -68,18 +68,18 @@ class Contact:
     def on_face_i(self) -> Truths:
         """Which corners of block j rest on the face of block i, shape (k,); the others are of i on that of j.
 
-        Where one face goes on beyond a corner, across the hinge, and the other ends there, it rests on that
-        which goes on; else on that off which it is farther: the separating axis of convex bodies.
+        The faces come nearer across the hinge. The one whose rim there faces that way more ends, and rests on
+        the other; where both end, that of j rests where it is farther: the separating axis of convex bodies.
         """
         way, hinge = self.on_j - self.on_i, np.cross(self.axes_i[2], self.axes_j[2])
         farther = way @ self.axes_i[2] >= way @ self.axes_j[2]
+        nearer = np.cross(hinge, self.axes_i[2] + self.axes_j[2])
+        nearer = nearer / max(float(np.linalg.norm(nearer)), 1e-300)
         end_i, end_j = (
-            np.einsum("a,kab,b->k", across, rims, across) - EVEN**2 * across @ across
+            (rims @ (axes[:2] @ nearer)).max(axis=1)
             for rims, axes in ((self.rims_i, self.axes_i), (self.rims_j, self.axes_j))
-            for across in [axes[:2] @ np.cross(hinge, axes[2])]
-        )  # above zero where a face ends, NaN off it
-        on_i, on_j = (end_i <= 0.0) & (end_j > 0.0), (end_j <= 0.0) & (end_i > 0.0)
-        return np.asarray(on_i | (farther & ~on_j))
+        )  # NaN where a corner was open
+        return np.asarray((end_j > end_i + EVEN) | (farther & ~(end_i > end_j + EVEN)))
 
     @cached_property
     def axes(self) -> Array:
@@ -147,7 +147,7 @@ def contact(own: Interface, blocks: Sequence[Block], place: dict[str, int]) -> C
     corners = own.centroid + spread * own.polygon @ own.axes[:2]
     on_i = corners if half is None else (own.centroid - half)[None]
     on_j = corners if half is None else (own.centroid + half)[None]
-    ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 2, 2))
+    ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 1, 2))
     found = Contact(own, ends, on_i, on_j, own.axes, own.axes, rims, rims)
     return found if half is not None else seated(found, blocks)
 

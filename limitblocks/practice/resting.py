@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import shapely
 from scipy.spatial.transform import Rotation
+from shapely.geometry import polygon
 
 from limitblocks.arrays import Array
 from limitblocks.geometry import Block
@@ -37,19 +38,19 @@ def face_at(block: Block, out: Array, point: Array, plane: Array) -> shapely.Geo
 
 
 def rims_at(block: Block, out: Array, points: Array, axes: Array, least: float) -> Array:
-    """Return the sum of n n^T, n the normals in its plane of the rims of a face at points (k, 3): (k, 2, 2).
+    """Return the outward normals in its plane of the rims of a face at points (k, 3), shape (k, s, 2).
 
-    It is zero where a point is farther than `least`, m, from the rim, and NaN off the face. Where p n n^T p
-    is zero the face goes on along p and along -p.
+    They are zero where a point is farther than `least`, m, from the rim, and NaN off the face.
     """
     face, at = face_at(block, out, points[0], axes[:2]), shapely.points(points @ axes[:2].T)
-    rings = (shapely.get_coordinates(ring) for ring in shapely.get_rings(shapely.get_parts(face)))
+    parts = np.array([polygon.orient(part) for part in shapely.get_parts(face)], dtype=object)
+    rings = (shapely.get_coordinates(ring) for ring in shapely.get_rings(parts))
     sides = np.concatenate([np.zeros((0, 2, 2)), *(np.stack([c[:-1], c[1:]], axis=1) for c in rings)])
     way = sides[:, 1] - sides[:, 0]
-    normals = np.stack([-way[:, 1], way[:, 0]], axis=1) / np.linalg.norm(way, axis=1, keepdims=True)
+    normals = np.stack([way[:, 1], -way[:, 0]], axis=1) / np.linalg.norm(way, axis=1, keepdims=True)
     near = shapely.distance(at[:, None], shapely.linestrings(sides)) <= least
-    rims = np.einsum("ks,sa,sb->kab", near, normals, normals)
-    return np.where(shapely.dwithin(face, at, least)[:, None, None], rims, np.nan)
+    on = shapely.dwithin(face, at, least)[:, None, None]
+    return np.where(on, np.insert(near[..., None] * normals, 0, 0.0, axis=1), np.nan)
 
 
 def resting_axes(blocks: Sequence[Block], axes_i: Array, axes_j: Array, point: Array, size: float) -> Array:

@@ -106,7 +106,11 @@ class Settlement(Result):
     @property
     def remarks(self) -> tuple[str, ...]:
         """What to know of the answers that the reactions are of."""
-        return tuple(dict.fromkeys(self.bounds.remarks + (self.result.remarks if self.result else ())))
+        said = dict.fromkeys(self.bounds.remarks + (self.result.remarks if self.result else ()))
+        return tuple(
+            f"of settling.model, whose load factor is higher where the reaction is smaller: {one}"
+            for one in said
+        )
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each reaction."""

@@ -61,7 +61,7 @@ def _on(own: Contact, blocks: Sequence[Block], size: float, flat: Array) -> Cont
     polygon = on_i @ axes_i[:2].T
     interface = replace(own.interface, polygon=read_only(polygon - centroids(polygon[None])[0]))
     axes_j = tilted(axes_i, own.axes_j[2])
-    none = np.full((len(on_i), 2, 2), np.nan)
+    none = np.full((len(on_i), 1, 2), np.nan)
     new = {"on_i": on_i, "on_j": on_j, "axes_i": axes_i, "axes_j": axes_j, "rims_i": none, "rims_j": none}
     cut = replace(own, interface=interface, **new)
     return seated(replace(cut, interface=placed(cut, blocks)), blocks, size)

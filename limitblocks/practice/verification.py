@@ -57,7 +57,7 @@ def verification(
     ----------
     model : Model
         Its live load is the whole weight along a horizontal, added masses included: the load factor is an
-        acceleration over g.
+        acceleration over g. This direction alone is verified.
     result : Nonassociated
         The mechanism, of this model; its load factor is alpha0.
     demand : Spectrum

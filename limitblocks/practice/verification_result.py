@@ -10,6 +10,8 @@ from limitblocks.practice.moving_masses import MovingMass
 from limitblocks.shown import Result
 
 CLAIMED = (
+    "The push is along the live load alone: along other directions, also between two that were verified, "
+    "other mechanisms may be set off by less (limitblocks.studies.directions). "
     "Nothing is claimed beyond the inequalities named. Equations [C8.7.1.1] to [C8.7.1.12], [C7.2.5] to "
     "[C7.2.10] and [3.2.10] were checked against a transcription of the official text, not against the "
     "Gazzetta itself; M* is not in the text of 2019. Not looked at: the second criteria of C8.7.1.2.1.6 "

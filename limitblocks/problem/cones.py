@@ -123,18 +123,6 @@ class Cones:
             rows[index[:, 0]] = (p * q).sum(axis=1)
         return rows
 
-    def least_product(self, a: Array, b: Array) -> float:
-        """Return the least eigenvalue of the products of a and b, both in K: how far off the central path."""
-        least = float(np.min(a[: self.linear] * b[: self.linear], initial=np.inf))
-        for index in self.groups:
-            p, q = a[index], b[index]
-            half = (p * q).sum(axis=1)
-            det = _determinant(p) * _determinant(q)
-            root = np.sqrt(np.maximum(half * half - det, 0.0))
-            safe = np.where(half > 0.0, half + root, 1.0)
-            least = min(least, float(np.where(half > 0.0, det / safe, -1.0).min(initial=np.inf)))
-        return least
-
     def arrow(self, v: Array) -> sparse.csr_array:
         """Return the matrix L(v) of L(v) w = v o w."""
         return self._block_diagonal(*self.arrow_entries(v))
@@ -148,20 +136,6 @@ class Cones:
             block[:, 0, 1:] = block[:, 1:, 0] = w[:, 1:]
             blocks.append(block)
         return self._entries(v[: self.linear], blocks)
-
-    def inverse_arrow(self, v: Array) -> sparse.csr_array:
-        """Return the inverse of L(v)."""
-        blocks = []
-        for index in self.groups:
-            w = v[index]
-            t, z, det = w[:, 0], w[:, 1:], _determinant(w)
-            block = np.zeros((*w.shape, w.shape[1]))
-            block[:, 0, 0] = t / det
-            block[:, 0, 1:] = block[:, 1:, 0] = -z / det[:, None]
-            outer = z[:, :, None] * z[:, None, :] / (t * det)[:, None, None]
-            block[:, 1:, 1:] = np.eye(w.shape[1] - 1) / t[:, None, None] + outer
-            blocks.append(block)
-        return self._block_diagonal(*self._entries(1.0 / v[: self.linear], blocks))
 
     def _entries(self, line: Array, blocks: list[Array]) -> tuple[Array, Indices, Indices]:
         """Entries of `line` and the blocks of each group of cones, their rows and their columns."""

@@ -23,6 +23,7 @@ from limitblocks.shown import many
 from limitblocks.units import gravity
 
 MOST_FORCES = 8  # listed one by one
+_NUMBER = re.compile(r"(?<![\w.'])-?\d+(?:\.\d+)?(?:e[+-]?\d+)?(?![\w.])")
 _OF_BLOCK = re.compile(r"block ('.*?'): (.*)")
 
 
@@ -125,15 +126,27 @@ def counted(words: Iterable[str]) -> dict[str, int]:
 
 
 def together(notes: Iterable[str]) -> list[str]:
-    """Return notes that differ in the name of the block alone as one, with the first names."""
-    blocks: dict[str, list[str]] = {}
+    """Return notes that differ in the name of the block and in numbers alone as one, with the first names."""
+    alike: dict[str, list[tuple[str, str]]] = {}
     for note in notes:
         name, said = found.groups() if (found := _OF_BLOCK.fullmatch(note)) else ("", note)
-        blocks.setdefault(said, []).append(name)
-    return [
-        f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {few(names)}: {said}" if names[0] else said
-        for said, names in blocks.items()
-    ]
+        alike.setdefault(_NUMBER.sub("#", said) if name else said, []).append((name, said))
+    lines = []
+    for group in alike.values():
+        names, said = zip(*group, strict=True)
+        blocks = f"{'block' if len(names) == 1 else f'{len(names)} blocks'} {few(names)}: "
+        lines.append(blocks * bool(names[0]) + _least_to_most(said))
+    return lines
+
+
+def _least_to_most(texts: Sequence[str]) -> str:
+    """Return texts that differ in numbers alone as one, each number as the least and the most of them."""
+    ends = []
+    for own in zip(*map(_NUMBER.findall, texts), strict=True):
+        least, most = min(own, key=float), max(own, key=float)
+        ends.append(least if least == most else f"{least} to {most}")
+    each = iter(ends)
+    return _NUMBER.sub(lambda _: next(each), texts[0])
 
 
 def times(counts: dict[str, int]) -> str:

@@ -12,7 +12,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
-from limitblocks.studies.results import Rows, unanswered
+from limitblocks.studies.results import FLOWS, Rows, unanswered
+
+FEW = 19  # samples, below which the least of n has a share of more than 5 % below it, 1 / (n + 1)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -53,20 +55,21 @@ class SampledStudy(Rows):
         """Number of rows without a load factor."""
         return int(np.isnan(self.load_factors).sum())
 
-    def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95)) -> Array:
+    def quantiles(self, shares: Sequence[float] = (0.05, 0.5, 0.95), failed: float | None = None) -> Array:
         """Return quantiles of the load factor over the independent samples that have one.
 
         One for each of `shares`, 0 to 1. The k-th least of n is the quantile k / (n + 1), the share that is
         below it on average; less than the first and more than the last there is not (Weibull 1939; Hyndman &
         Fan 1996, definition 6). A row whose dead loads fall counts as load factor zero; other failures are
-        left out. Between a load factor and an unlimited one the lower counts.
+        left out, or count as the load factor `failed`: with 0 each quantile is the least that it can be,
+        with inf the largest. Between a load factor and an unlimited one the lower counts.
 
         Raises
         ------
         SolveError
             If no row has a load factor.
         """
-        known = np.sort(self._known())
+        known = np.sort(self._known(failed))
         most = known[np.isfinite(known)].max(initial=0.0)
         place = np.clip(np.asarray(shares) * (len(known) + 1) - 1.0, 0.0, len(known) - 1.0)
         between = np.interp(place, np.arange(len(known)), np.minimum(known, most))
@@ -132,13 +135,27 @@ class SampledStudy(Rows):
             low, middle, high = self.quantiles()
         except SolveError:
             return f"{said}, no load factor{failed}"
-        return f"{said}: load factor {middle:.6g}, 5 % to 95 % {low:.6g} to {high:.6g}{failed}"
+        few = len(self._known()) < FEW
+        ends = f"{'least and largest' if few else '5 % to 95 %'} {low:.6g} to {high:.6g}"
+        found = f"{FLOWS[self.analysis]} load factor {middle:.6g}, {ends}"
+        return f"{said}: {found}{failed}{self._left_out}"
 
-    def _known(self) -> Array:
+    @property
+    def _left_out(self) -> str:
+        """What the quantiles can be where samples without an answer are left out of them."""
+        if not np.isnan(self._known(np.nan)).any():
+            return ""
+        least, most = self.quantiles([0.05], failed=0.0)[0], self.quantiles([0.95], failed=np.inf)[0]
+        return (
+            "; the quantiles leave these out, on whichever side they lie: with them 5 % is at least "
+            f"{least:.6g}, 95 % at most {most:.6g}"
+        )
+
+    def _known(self, failed: float | None = None) -> Array:
         own, errors = self.load_factors[: self.samples], self.errors[: self.samples]
         falls = np.array([error.startswith("NoEquilibrium") for error in errors])
         known = np.where(falls, 0.0, own)
-        known = known[~np.isnan(known)]
+        known = known[~np.isnan(known)] if failed is None else np.where(np.isnan(known), failed, known)
         if not len(known):
             raise SolveError(f"no analysis of the study gave a load factor: {self.errors[0]}")
         return np.asarray(known)

@@ -10,10 +10,12 @@ from typer.testing import CliRunner
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.load_factor_range import search
-from limitblocks.analysis.load_factor_range.answers import merged
+from limitblocks.analysis.load_factor_range.answers import merged, remarks
+from limitblocks.analysis.load_factor_range.run import _task
+from limitblocks.analysis.nonassociated.start import flow_of
 from limitblocks.cli import app
 from limitblocks.evidence.range_answer import Origin
-from limitblocks.problem import Turning
+from limitblocks.problem import Flow, Turning
 
 FEW = {"paths": 3, "mechanisms": 3}
 ALONG = lb.mass_proportional((1, 0, 0))
@@ -171,6 +173,28 @@ def test_exact_programs_agree_with_closed_forms_and_search():
     assert "(proven)" in str(found)
 
 
+def test_what_exact_programs_find_is_certified_too():
+    """Pushed askew the pair carries the associated load factor, beyond which there is none; paths less."""
+    model = replace(pair(square(0.4), square(1.0), square(1.0)), live=lb.mass_proportional((0.8, 0.6, 0)))
+    task = _task(model, *flow_of(model, 0.0, Turning.CENTROID), None)
+    search.walked(task, 1, 0, np.inf)
+    unit, most = task.flow.problem.units.live, lb.bounds(model).upper
+    assert task.collected.greatest.state.load_factor / unit < 0.95 * most
+    found = search.extreme(task, -1.0, 60.0)
+    assert found.proven
+    assert found.load_factor == pytest.approx(most, rel=1e-6)
+    assert task.collected.greatest.state.load_factor / unit == pytest.approx(most, rel=1e-6)
+
+
+def test_exact_programs_end_no_earlier_than_the_certified_answers(monkeypatch):
+    """A program without a solution leaves what the paths found."""
+    model = structures.wedge(square(0.5), half_angle=np.pi / 3)
+    exact = search.exact_extreme
+    monkeypatch.setattr(search, "exact_extreme", lambda *given: exact(*given)._replace(state=None))
+    found = lb.load_factor_range(model, exact=True, paths=1, mechanisms=0)
+    assert (found.least.load_factor, found.greatest.load_factor) == found.certified
+
+
 def test_exact_programs_are_refused_for_round_friction():
     with pytest.raises(lb.ModelError, match="exact=True needs joints of planes"):
         lb.load_factor_range(structures.block(lb.PointContact(0.3), width=1.0, height=0.5), exact=True)
@@ -230,3 +254,13 @@ def test_the_command_prints_the_three_ranges(pushed, tmp_path):
     assert (done.exit_code, done.stdout.count("load factor ")) == (0, len(found.answers))
     with pytest.raises(lb.ModelError, match=r"LoadFactorRange has no load_factor.*one of its answers"):
         lb.check_mcp(pushed, found)
+
+
+def test_what_the_answer_and_both_ends_remark_is_said_once(pushed, of_pushed):
+    def remarking(*said):
+        one = of_pushed.answers[0]
+        return replace(one, check=replace(one.check, remarks=said))
+
+    first, ends = remarking("of the answer"), [remarking("of an end"), remarking("of an end", "too")]
+    said = remarks(Flow(pushed.problem), first, ends)
+    assert said[-3:] == ("of the answer", "of an end", "too")

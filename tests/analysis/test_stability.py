@@ -213,7 +213,7 @@ FALSE = {
 def test_false_states_that_do_not_arise_are_refused_by_the_residual_that_names_it(name):
     problem = between_walls(lb.OrdunaLourenco(0.3), 20.0).problem
     weights = joint_compliance(problem)
-    z = arising(problem, weights).point
+    z = arising(problem, weights)
     state = State(0.0, z.x, z.u, z.y)
     flow = Flow(problem)
     assert Residuals(arising_residuals(flow, weights, state)).worst.value < 1e-8
@@ -273,3 +273,54 @@ def test_undecided_says_once_how_near_the_best_state_came(monkeypatch):
         answers.dead_load_state(model.problem)
     best = "the best of 3 states has the equilibrium residual 1.0e-07 at a|b"
     assert str(said.value) == f"whether the dead loads stand is undecided: {best}"
+
+
+def test_stands_or_slides_in_doubt_says_what_was_not_found(monkeypatch):
+    monkeypatch.setattr(answers, "arising", lambda *_: None)
+    monkeypatch.setattr(answers, "not_held", lambda *_: None)
+    with pytest.raises(SolverFailure, match="neither such that do nor blocks that slide through were found"):
+        lb.stability(lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0))
+
+
+def vault_in_a_tower(joint):
+    """A barrel vault on ledges inside a tower, which it thrusts against."""
+    own = lb.structures.tower(joint, length=4.0, width=4.0, courses=10, block_height=0.8)
+    vault = lb.structures.barrel_vault(
+        joint, radius=1.3, thickness=0.2, length=3.2, courses=7, stones=4, embrace=np.pi
+    )
+    ledges = [
+        lb.Block.box(f"ledge {x} {k}", (0.4, 3.2, 0.8), (x, 2.0, 0.4 + 0.8 * k), GAMMA)
+        for x in (0.6, 3.4)
+        for k in range(4)
+    ]
+    lifted = [
+        replace(one, name=f"vault {one.name}", vertices=one.vertices + np.array([2.0, 0.4, 3.2]))
+        for one in vault.free_blocks
+    ]
+    return model([*own.blocks, *ledges, *lifted], ["base"], joint)
+
+
+def test_vault_in_a_tower_stands_on_ledges_that_fall_without_it():
+    """The thrust of the vault has no support but the tower: steps that only lower the barrier are lost."""
+    whole = vault_in_a_tower(lb.OrdunaLourenco(0.6))
+    assert lb.stability(whole).stands
+    tower = {one.name for one in whole.free_blocks if one.name.startswith(("front", "back", "left", "right"))}
+    blocks = [one for one in whole.blocks if one.name not in tower]
+    alone = lb.stability(model(blocks, ["base"], lb.OrdunaLourenco(0.6)))
+    assert alone.kind is lb.results.Standing.FALLS
+
+
+def test_which_joints_are_stiff_can_decide_whether_friction_holds():
+    """Compliances times e^z: vertical joints of an arch hold in some trials, with more friction in all."""
+
+    def stands(friction, seed):
+        problem = lb.structures.EXAMPLES["arch, vertical joints"](lb.OrdunaLourenco(friction)).problem
+        factor = np.exp(np.random.default_rng(seed).normal(size=len(problem.interfaces)))
+        weights = joint_compliance(problem) * factor[problem.stress_interface]
+        own = arising(problem, weights)
+        return (
+            own is not None and Residuals(arising_residuals(Flow(problem), weights, own)).worst.value < 1e-6
+        )
+
+    assert [stands(0.8, seed) for seed in range(4)] == [True, False, True, False]
+    assert all(stands(1.2, seed) for seed in range(4))

@@ -212,3 +212,17 @@ main()
 """
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (code, "")
+
+
+def test_an_interruption_before_a_command_begins_is_130_too():
+    """Python ends an uncaught KeyboardInterrupt by a signal to itself: -2, which shells do not call 130."""
+    script = """
+import sys, limitblocks.cli
+def interrupted():
+    raise KeyboardInterrupt
+limitblocks.cli.main = interrupted
+from limitblocks.__main__ import main
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (130, "")

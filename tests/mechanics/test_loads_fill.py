@@ -166,6 +166,15 @@ def test_wrong_fill_is_refused(load, said):
         load().on(ARCH.free_blocks)
 
 
+def test_a_level_under_what_covers_all_leaves_no_fill():
+    """The outer ring covers the inner one but for rounding errors: no fill of 8e-15 N at .1 m."""
+    bridge = lb.structures.arch_bridge(
+        lb.PointContact(0.6), span=3.0, rise=0.75, thickness=0.3, voussoirs=11, rings=2
+    )
+    with pytest.raises(lb.ModelError, match=r"level 0\.1 m leaves no fill"):
+        lb.loads.fill(GAMMA, 0.1).on(bridge.free_blocks)
+
+
 def test_a_block_that_is_not_convex_covers_itself_and_no_more():
     """Below its own overhang there is no fill; in a courtyard there is, whatever stands around."""
     hooked = lb.Block.prism(

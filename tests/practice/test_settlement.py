@@ -283,3 +283,12 @@ def test_passive_fill_stays_at_rest_as_a_support_moves(order):
     own = settlement(reinforced(model, *fill), "wall", (1, 0, 0))
     assert own.lower == pytest.approx(10e3 - 0.5 * 16e3 / 2.0, rel=1e-6)
     assert own.nonassociated == pytest.approx(10e3 - 0.5 * 16e3 / 2.0, rel=1e-6)
+
+
+def test_remarks_on_a_load_factor_say_that_a_higher_one_is_a_smaller_reaction():
+    found = settlement(lintel(lb.PointContact(0.6)), "right", DOWN)
+    assert found.remarks == ()
+    said = replace(found, result=replace(found.result, remarks=("mostly higher",))).remarks
+    assert said == (
+        "of settling.model, whose load factor is higher where the reaction is smaller: mostly higher",
+    )

@@ -124,6 +124,29 @@ def test_quantiles_where_some_loads_are_unlimited(monkeypatch):
     assert found.probability_below(0.2) == pytest.approx(1 / 5)  # below: .1, not .2 itself
 
 
+def test_quantiles_say_what_they_can_be_with_the_samples_left_out():
+    """Of .1, ..., .9 the median is .5; with two more below it is .4 of eleven, with two more above .6."""
+    values = np.array([*np.arange(1, 10) / 10, np.nan, np.nan])
+    words = {"modes": ("",) * 11, "errors": ("",) * 9 + ("NotConverged: lost",) * 2, "indices": False}
+    found = SampledStudy("bounds", ("x",), values[:, None], values, samples=11, **words)
+    half = [found.quantiles([0.5], failed=one)[0] for one in (None, 0.0, np.inf)]
+    assert half == pytest.approx([0.5, 0.4, 0.6])
+    assert "2 without an answer (NotConverged: lost); the quantiles leave these out" in str(found)
+    assert str(found).endswith("with them 5 % is at least 0, 95 % at most inf")
+    fallen = SampledStudy("bounds", ("x",), values[:9, None], values[:9], samples=9, modes=("",) * 9,
+                          errors=("",) * 9, indices=False)  # fmt: skip
+    assert "leave" not in str(fallen)
+
+
+@pytest.mark.parametrize(("n", "said"), [(18, "least and largest"), (19, "5 % to 95 %")])
+def test_the_line_claims_no_quantile_that_so_few_samples_do_not_have(n, said):
+    """The least of n has 1 / (n + 1) below it on average, 5 % of 19."""
+    values = np.arange(1.0, n + 1)
+    words = {"modes": ("",) * n, "errors": ("",) * n, "samples": n, "indices": False}
+    study = SampledStudy("nonassociated", ("x",), values[:, None], values, **words)
+    assert f"non-associated load factor {(n + 1) / 2:g}, {said} 1 to {n}" in str(study)
+
+
 @pytest.mark.parametrize("n", [16, 64])
 def test_what_is_below_a_quantile_is_its_share_on_average(n):
     """Of uniform samples between 0 and 1; numpy's default has (1 + (n - 1) / 20) / (n + 1)."""

@@ -37,6 +37,7 @@ MULTIPLIERS = (
 STRESSES = 10.0  # cap of M where it has no limit, over the sum of the dead loads
 FEASIBLE = {"primal_feasibility_tolerance": 1e-9, "dual_feasibility_tolerance": 1e-9}
 LINEAR = Solver("HIGHS", dict(FEASIBLE), conic=False)
+MIXED = {"mip_feasibility_tolerance": 1e-9, "mip_rel_gap": 1e-7, **FEASIBLE}
 AGREES = 1e-4  # of the bracket: answer and bound that are nearer prove each other
 
 
@@ -124,7 +125,7 @@ def _solve(program: cp.Problem, time_limit: float) -> float:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a time limit is no error
         try:
-            program.solve(solver=cp.HIGHS, time_limit=time_limit, mip_feasibility_tolerance=1e-9, **FEASIBLE)
+            program.solve(solver=cp.HIGHS, time_limit=time_limit, **MIXED)
         except (cp.SolverError, ValueError):
             return -np.inf
     statistics = getattr(program.solver_stats, "extra_stats", None)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.load_factor_range.answers import Certified, Collected, answer, of_result
+from limitblocks.analysis.load_factor_range.answers import Collected, answer, of_result
 from limitblocks.analysis.load_factor_range.exact import AGREES, exact_extreme
 from limitblocks.analysis.load_factor_range.mechanisms import Mechanisms
 from limitblocks.analysis.load_factor_range.sampling import Sampler, Way
@@ -132,14 +132,15 @@ def drawn(task: Task, count: int, seed: int, deadline: float) -> tuple[int, int]
 
 
 def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
-    """Return the least (sense 1) or the greatest (-1) load factor of all solutions."""
+    """Return the least (sense 1) or the greatest (-1) load factor of all solutions, and collect it."""
     live = task.flow.problem.units.live
     low, high = task.enclosing.frictionless * live, task.enclosing.associated * live
     room = 1e-6 * task.scale  # the bracket is known to a tolerance
     low = max(0.0, low - room) if np.isfinite(low) else 0.0
     high = high + room if np.isfinite(high) else task.collected.limits[1]
     state, bound, stresses, multipliers, seconds = exact_extreme(task.flow, (low, high), sense, time_limit)
-    one = state and Certified(state, "mixed-integer program", Origin.SEARCHED)
+    task.collected.add(state, "mixed-integer program", Origin.SEARCHED, keep=False)
+    one = task.collected.least if sense > 0.0 else task.collected.greatest
     best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
-    near = state is not None and abs(state.load_factor - bound) <= AGREES * task.scale
+    near = one is not None and abs(one.state.load_factor - bound) <= AGREES * task.scale
     return Extreme(best, float(bound / live), near, stresses, multipliers, seconds)

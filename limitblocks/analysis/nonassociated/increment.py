@@ -97,11 +97,11 @@ class Tried:
     returned: bool = False
 
 
-class _Stretch(Walk):
+class Stretch(Walk):
     """A walk from a point to a given theta, which keeps the points."""
 
-    def __init__(self, path: Path, start: Point, until: float) -> None:
-        super().__init__(path, BUDGET, None)
+    def __init__(self, path: Path, start: Point, until: float, budget: int = BUDGET) -> None:
+        super().__init__(path, budget, None)
         self.z, self.until = start, until
         self.kept: list[Point] = []
         self.fold = np.inf  # theta of a fold that tau has not come back to
@@ -215,7 +215,7 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
             break
     if start is None:
         return Tried(None, used)
-    walk = _Stretch(curve, start, 1.0 / span)
+    walk = Stretch(curve, start, 1.0 / span)
     walk.go()
     used += walk.factorisations
     if not walk.arrived:
@@ -236,7 +236,7 @@ def _without_barrier(path: Path, weights: Array, visit: Visit, left: float) -> T
 @np.errstate(all="ignore")
 def faded(met: Increment, left: float = NO_BARRIER, used: int = 0) -> Tried:
     """The increment with no more of the barrier at its end; `used` factorisations are counted with it."""
-    fade = _Stretch(met.fading, met.end, left / met.fading.barrier.size)
+    fade = Stretch(met.fading, met.end, left / met.fading.barrier.size)
     fade.go()
     used += fade.factorisations
     return Tried(replace(met, end=fade.kept[-1]) if fade.arrived else None, used)

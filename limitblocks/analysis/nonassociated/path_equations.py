@@ -55,10 +55,7 @@ class Barrier:
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """Variables of a path, or a direction in them: stresses, rates, load factor, slacks, multipliers, theta.
-
-    A single step has no theta.
-    """
+    """Variables of a path, or a direction: stresses, rates, load factor, slacks, multipliers, theta."""
 
     x: Array
     u: Array

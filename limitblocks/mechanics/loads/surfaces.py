@@ -26,6 +26,7 @@ from limitblocks.mechanics.loads.load import (
 from limitblocks.shown import coordinate, coordinates
 
 UP = np.array([0.0, 0.0, 1.0])
+_NONE = 1e-12  # of a block's size cubed: less fill is what rounding leaves between shadows that meet
 
 
 @dataclass(frozen=True)
@@ -153,7 +154,8 @@ class Fill:
                     stress = self.unit_weight * (self.level - ring[:, 2])
                     p, px = integrals(ring - block.centroid, stress, UP)
                     weight, first = weight + p, first + px
-                yield k, face, weight, first
+                some_fill = weight > _NONE * self.unit_weight * block.size**3
+                yield k, face, weight * some_fill, first * some_fill
 
 
 def pressure(

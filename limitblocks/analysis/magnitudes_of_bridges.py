@@ -1,0 +1,39 @@
+"""Slips in the magnitude of what bridges have: axles, passive pressure, levels of road and fill."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from limitblocks.mechanics.loads.surfaces import Fill
+from limitblocks.model import Model
+from limitblocks.shown import coordinate
+
+#: Axle load, N, below which it may be in kN: a bicycle has 500.
+_LIGHT = 1e3
+#: Of the size of the structure: levels that are nearer are the same.
+_SAME = 1e-6
+
+
+def of_passive(coefficient: float) -> list[str]:
+    """Return the question for a coefficient of passive earth pressure: Rankine's is one or more."""
+    if coefficient < 1.0:
+        return [f"coefficient of passive pressure is {coefficient:g}, below 1: that of active pressure?"]
+    return []
+
+
+def of_axles(axles: Sequence[float]) -> list[str]:
+    """Return the question for the axle loads of a vehicle, N."""
+    if (heaviest := max(axles)) < _LIGHT:
+        return [f"the heaviest axle is {heaviest:g} N: kN? {heaviest:g} kN = {1e3 * heaviest:g} N"]
+    return []
+
+
+def of_level(model: Model, level: float, what: str) -> list[str]:
+    """Return the question for the level, m, of a road or fill where that of a model ends elsewhere."""
+    levels = {term.level for _, term in model.dead.terms if isinstance(term, Fill)}
+    off = _SAME * max(block.size for block in model.blocks)
+    return [
+        f"the {what} is at {coordinate(level)} m, the fill of the model ends at {coordinate(own)} m: meant?"
+        for own in sorted(levels)
+        if abs(own - level) > off
+    ]
