@@ -160,7 +160,7 @@ def _right_inverse(matrix: Array) -> tuple[Array, Array]:
     """Right inverses R of a stack of matrices A, and |e| / (1 - |e|) of the error e = A R - 1, row sums."""
     across, square = np.swapaxes(matrix, 1, 2), matrix.shape[1] == matrix.shape[2]
     try:
-        right = np.linalg.inv(matrix) if square else across @ np.linalg.inv(matrix @ across)
+        right = np.asarray(np.linalg.inv(matrix) if square else across @ np.linalg.inv(matrix @ across))
     except np.linalg.LinAlgError:  # one of them has no right inverse
         right = np.asarray(np.linalg.pinv(matrix), dtype=float)
     identity, off = products(matrix, right)
