@@ -95,7 +95,8 @@ def equal_rows(values: Array) -> tuple[Indices, Indices]:
     Rows are sorted by a key of their bits; those of the same key, but not the same, are classes of their own.
     """
     bits = np.ascontiguousarray(values).view(np.uint64)
-    odd = np.arange(1, 2 * bits.shape[1], 2, dtype=np.uint64) * np.uint64(0x9E3779B97F4A7C15)
+    # numbers without a pattern: of an arithmetic series, rows of 1 and -1 in many orders would have one key
+    odd = np.cos(np.arange(bits.shape[1]) ** 2 + 1.0).view(np.uint64) | np.uint64(1)
     key = np.einsum("kd,d->k", bits ^ (bits >> np.uint64(32)), odd)  # modulo 2^64: in any order the same
     _, first, label = np.unique(key, return_index=True, return_inverse=True)
     other = np.flatnonzero((values[first[label]] != values).any(axis=1))

@@ -114,7 +114,9 @@ class Model(Viewed):
         sha = hashlib.sha256(json.dumps(columns, sort_keys=True).encode())
         arrays = [block.vertices for block in blocks]
         arrays += [part for i in interfaces for part in (i.centroid, i.axes, i.polygon)]
-        sha.update(np.frombuffer(b"".join([array.tobytes() for array in arrays])).astype("<f8").tobytes())
+        sha.update(
+            np.frombuffer(b"".join([array.tobytes() for array in arrays])).astype("<f8", copy=False).data
+        )
         found = sha.hexdigest()
         _MODELS.add(self)
         return found

@@ -158,7 +158,8 @@ class _Mixture:
 
 def _lack(reach: Reach) -> Array:
     """What each linear row and each cone lacks of the room that is needed."""
-    return np.asarray(np.nan_to_num(np.maximum(NEEDED * reach.need - reach.room, 0.0), nan=np.inf))
+    lack = np.maximum(NEEDED * reach.need - reach.room, 0.0)
+    return np.where(np.isnan(lack), np.inf, lack)
 
 
 def _polished(own: LimitProblem, plane: Planar | None, state: State, patience: int | None = None) -> State:

@@ -49,8 +49,8 @@ def compiled(problem: cp.Problem) -> Conic:
     A.data[A.indptr[zero] :] *= -1.0
     A.eliminate_zeros()
     constants = np.concatenate(right + [constant for _, constant in parts[len(equal) :]])
-    cost, _ = _affine(problem.objective.expr)
-    return Conic(cost.toarray()[0], sparse.csc_array(A), constants[place], K)
+    cost = np.ravel(problem.objective.expr.args[0].value)
+    return Conic(cost, sparse.csc_array(A), constants[place], K)
 
 
 def _affine(rows: cp.Expression) -> tuple[sparse.csr_array, Array]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.linalg import cho_solve_banded, cholesky_banded
+from scipy.linalg.lapack import dpbtrf, dpbtrs
 from scipy.sparse import csgraph, linalg
 
 from limitblocks.arrays import Array, Indices
@@ -50,11 +50,13 @@ def _banded(
     lower = below >= 0
     band[below[lower], column[lower]] = data[lower]
     band[0] += more[order]
-    factor = cholesky_banded(band, overwrite_ab=True, lower=True, check_finite=False)
+    factor, failed = dpbtrf(band, lower=True, overwrite_ab=True)
+    if failed:
+        raise np.linalg.LinAlgError
 
     def solve(b: Array) -> Array:
         x = b / more
-        x[order] = cho_solve_banded((factor, True), b[order], overwrite_b=True, check_finite=False)
+        x[order], _ = dpbtrs(factor, b[order], lower=True, overwrite_b=True)
         return x
 
     return solve

@@ -27,6 +27,10 @@ class Status(Enum):
         "not converged: the state shown satisfies all equations, but interfaces give power in it, so that "
         "it is no collapse"
     )
+    UNSETTLED = (
+        "not converged: the residuals of the state shown are within the tolerance, but the load factor "
+        "still changed as its path was followed on"
+    )
     NO_SOLUTION = (
         "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
     )

@@ -124,7 +124,7 @@ class Kinematic:
         change = np.zeros(len(self.problem.g))
         for rows, columns, kind, right, share in self._inverses:
             strain = _exactly(defect[columns], share[kind])
-            change[rows] = (right.take(kind, axis=0) @ strain[..., None])[..., 0] * UP
+            change[rows] = (strain[:, None] @ right.take(kind, axis=0))[:, 0] * UP
         return change
 
     @cached_property
@@ -135,7 +135,7 @@ class Kinematic:
     def _inverses(self) -> list[tuple[Indices, Indices, Indices, Array, Array]]:
         """Rows (K, r) and stresses (K, c) of interfaces of one shape, their kind (K,), its right inverse.
 
-        The latter in size, and its error. Interfaces of one kind have the same numbers.
+        The latter transposed and in size, and its error. Interfaces of one kind have the same numbers.
         """
         p, m, parts = self.problem, len(self.problem.interfaces), []
         rows, row = owned(p.row_interface, m)
@@ -151,15 +151,16 @@ class Kinematic:
             matrix = in_blocks(p.F, first, column, (len(these), r, c))
             one, kind = equal_rows(matrix.reshape(len(these), -1))
             right, share = _right_inverse(np.swapaxes(matrix[one], 1, 2))
-            parts.append((rows[these, :r], columns[these, :c], kind, np.abs(right), share))
+            across = np.abs(np.swapaxes(right, 1, 2), order="C")
+            parts.append((rows[these, :r], columns[these, :c], kind, across, share))
         return parts
 
 
 def _right_inverse(matrix: Array) -> tuple[Array, Array]:
     """Right inverses R of a stack of matrices A, and |e| / (1 - |e|) of the error e = A R - 1, row sums."""
-    across = np.swapaxes(matrix, 1, 2)
+    across, square = np.swapaxes(matrix, 1, 2), matrix.shape[1] == matrix.shape[2]
     try:
-        right = across @ np.linalg.inv(matrix @ across)
+        right = np.asarray(np.linalg.inv(matrix) if square else across @ np.linalg.inv(matrix @ across))
     except np.linalg.LinAlgError:  # one of them has no right inverse
         right = np.asarray(np.linalg.pinv(matrix), dtype=float)
     identity, off = products(matrix, right)

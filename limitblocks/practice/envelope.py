@@ -84,7 +84,6 @@ def search(
     drops = {x: known.tried(x) for x in (*places[::2], *places[1::2])}
     parts = [(a, b, max(drops[a], drops[b])) for a, b in pairwise(places)]
     while parts:
-        known.attain(NEGLIGIBLE)
         # halving a part may bring as much as halving what it is a part of did
         hopes = [(1.0 - drop) * known.between(a, b) if drop < 1.0 else 0.0 for a, b, drop in parts]
         k = int(np.argmin(hopes))

@@ -16,13 +16,15 @@ from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.mechanics.loads.load import number
 
 G = 9.81  # m/s2, as the code's examples take it
-MOST = 10.0  # of S, F0 and T_C in s, several times what the code has: more is a slip or another unit
+MOST = 10.0  # of S, F0 and periods in s, several times what the code has: more is a slip or another unit
+MOST_DAMPING = 0.3  # from .281 on eta is .55, its least: more is in per cent
 WIDEST = 1e6  # times the ground acceleration of the site: where that of a limit state is looked for
 
 
 def damping_factor(damping: float) -> float:
     """Return eta = sqrt(10 / (5 + damping in %)), at least .55, Eq. [3.2.4]; `damping` as a ratio."""
-    return max(float(np.sqrt(10.0 / (5.0 + 100.0 * damping))), 0.55)
+    xi = number(damping, "damping", "", least=0.0, most=MOST_DAMPING)
+    return max(float(np.sqrt(10.0 / (5.0 + 100.0 * xi))), 0.55)
 
 
 @dataclass(frozen=True)
@@ -110,10 +112,10 @@ class FloorMode:
     damping: float = 0.05
 
     def __post_init__(self) -> None:
-        number(self.period, "period of a mode", "s", above=0.0)
+        number(self.period, "period of a mode", "s", above=0.0, most=MOST)
         number(self.participation, "participation of a mode", "")
         number(self.shape, "shape of a mode", "")
-        number(self.damping, "damping of a mode", "", above=0.0)
+        number(self.damping, "damping of a mode", "", above=0.0, most=MOST_DAMPING)
 
     @classmethod
     def first(cls, period: float, storeys: int, height: float, damping: float = 0.05) -> FloorMode:

@@ -29,12 +29,12 @@ from limitblocks.practice.inputs import (
     unproven,
 )
 from limitblocks.practice.moving_masses import MovingMass, moving_masses
-from limitblocks.practice.spectra import Floor, G, Place, Spectrum, ground_acceleration
+from limitblocks.practice.spectra import MOST, MOST_DAMPING, Floor, G, Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
 
 SIMPLIFIED = "C8.7.1.2.1.7"
 MOST_FC = 2.0  # the code has 1 to 1.35
-MOST = 2.0 * G  # m/s2 of the ground: more is in another unit
+MOST_GROUND = 2.0 * G  # m/s2 of the ground: more is in another unit
 
 
 def verification(
@@ -75,7 +75,7 @@ def verification(
     damage_demand : Spectrum, optional
         Of the limit state of damage (SLD); with it the mechanism is checked not to set off, [C8.7.1.8].
     damping : (float, float)
-        Equivalent damping of the mechanism at SLV and SLC, C8.7.1.2.1.8.
+        Equivalent damping of the mechanism at SLV and SLC as ratios, C8.7.1.2.1.8.
     elastic_period : float
         T_0, s, of an element free to vibrate before it is set off (parapet, pinnacle, top of a facade):
         :func:`~limitblocks.practice.elastic_period`. 0 of a wall that its returns hold.
@@ -104,7 +104,7 @@ def verification(
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
     q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
-    place = Place(floor, number(elastic_period, "T_0", "s", least=0.0))
+    place = Place(floor, number(elastic_period, "T_0", "s", least=0.0, most=MOST))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
     flow = flow_words(collapse.dilatancy)  # type: ignore[attr-defined] # of every state
@@ -126,7 +126,7 @@ def verification(
             limit_states.append(("SLC", collapse_demand, damping[1], 0.0))
         for state, spectrum, given_xi, least in limit_states:
             found += steps("demand", given(spectrum, state)) if state != "SLV" else []
-            xi = number(given_xi, f"damping at {state}", "", above=0.0)
+            xi = number(given_xi, f"damping at {state}", "", above=0.0, most=MOST_DAMPING)
             more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
             found += steps(state, more)
             checks.append(check)
@@ -146,7 +146,7 @@ def _refuse(demand: object, *others: object) -> None:
     for own, kind, word in zip((demand, *others), kinds, words, strict=True):
         if own is not None or word == "demand":
             refuse_kind(own, kind, word)
-        if isinstance(own, Spectrum) and own.a_g > MOST:
+        if isinstance(own, Spectrum) and own.a_g > MOST_GROUND:
             raise ModelError(f"a_g is {own.a_g:g} m/s2, {own.a_g / G:.3g} g; expected at most 2 g: its unit?")
 
 

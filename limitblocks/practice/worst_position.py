@@ -100,9 +100,9 @@ def worst_position(
     """Return the position of a vehicle at which the load factor is least, and the envelope on the way.
 
     Evenly spaced positions first. A mechanism found at one position is a bound on the load factor at all
-    others, so that the next one tried is where the mechanisms found carry least, until it carries as little.
-    Between two positions a mechanism that was not met may carry less still: a part of the way is halved as
-    long as it would have the worst, if that brought as much as halving what it is a part of; by less than a
+    others. Between two positions one that was not met may carry less still: a part of the way is halved, that
+    which may have the worst first, as long as the mechanisms found carry less there, or would if they fell as
+    much as halving what it is a part of brought. At last the place where they carry least. Less by a
     thousandth is not looked for. That no position is worse is not proven, and where the load is unlimited at
     two neighbours nothing is looked for between them. After Ctrl-C: the worst of those tried.
 

@@ -18,6 +18,8 @@ from limitblocks.shown import Saved, many
 from limitblocks.studies.pool import Result
 from limitblocks.written import write
 
+FLOWS = {"bounds": "associated", "nonassociated": "non-associated"}  # of which a load factor is
+
 
 class Rows(Saved):
     """A result that is a table; `units` has those of the columns that have one, by name."""
@@ -117,9 +119,9 @@ class Study(Rows):
         here = self._key(self.least).items()
         where = ", ".join(f"{name} {in_short(value)}{units.get(name, '')}" for name, value in here)
         least, result = self.load_factors[self.least], self.results[self.least]
-        made = many(len(self.errors), "analysis", "analyses")
+        made = f"{many(len(self.errors), 'analysis', 'analyses')}, {FLOWS[self.analysis]}"
         said = "".join(f"; {one}" for one in result.remarks) if result else ""
-        return f"{made}, least load factor {least:.6g} at {where}{self._elsewhere}{lost}{said}"
+        return f"{made}: least load factor {least:.6g} at {where}{self._elsewhere}{lost}{said}"
 
     @property
     def _elsewhere(self) -> str:

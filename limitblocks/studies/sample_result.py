@@ -12,7 +12,9 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
-from limitblocks.studies.results import Rows, unanswered
+from limitblocks.studies.results import FLOWS, Rows, unanswered
+
+FEW = 19  # samples, below which the least of n has a share of more than 5 % below it, 1 / (n + 1)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -133,9 +135,10 @@ class SampledStudy(Rows):
             low, middle, high = self.quantiles()
         except SolveError:
             return f"{said}, no load factor{failed}"
-        return (
-            f"{said}: load factor {middle:.6g}, 5 % to 95 % {low:.6g} to {high:.6g}{failed}{self._left_out}"
-        )
+        few = len(self._known()) < FEW
+        ends = f"{'least and largest' if few else '5 % to 95 %'} {low:.6g} to {high:.6g}"
+        found = f"{FLOWS[self.analysis]} load factor {middle:.6g}, {ends}"
+        return f"{said}: {found}{failed}{self._left_out}"
 
     @property
     def _left_out(self) -> str:

@@ -1,5 +1,7 @@
 """Structures that fall, or jam, whatever the live load: said in so many words, never as a load factor."""
 
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -116,3 +118,22 @@ def test_a_block_that_cannot_slide_rocks(kind, friction):
     model = structures.block(kind(friction), width=0.5, height=1.0)
     assert lb.bounds(model).lower == pytest.approx(0.5, rel=1e-6)
     assert lb.nonassociated(model).load_factor == pytest.approx(0.5, rel=1e-6)
+
+
+OF_A_ROCKING_BLOCK = """
+import cvxpy as cp
+from limitblocks.analysis.programs import SOLVERS, Program, solved
+
+a, x = cp.Variable(), cp.Variable(4)
+two = x[2] + x[3]
+balance = [6.56e-4 * a + 5.2e5 * two == 0, x[0] + x[1] == -1.344, 3.4e5 * x[1] + 6.8e5 * two == 0]
+within = [-x[0] >= 0, -x[1] >= 0, -x[3] >= 0, x[3] >= 0, 6.7 - x[2] >= 0, 6.7 + x[2] >= 0]
+program = Program(cp.Problem(cp.Minimize(-a), [*balance, *within]), (a, x))
+load_factor, _ = solved(program, SOLVERS[-1]).values
+assert abs(load_factor) < 1e-6  # x[2] = -x[1] / 2 >= 0
+"""
+
+
+def test_a_linear_program_of_unlike_sizes_does_not_end_the_process():
+    """The block at the end of its capacity curve: presolved, HiGHS ended in "double free or corruption"."""
+    subprocess.run([sys.executable, "-c", OF_A_ROCKING_BLOCK], check=True)

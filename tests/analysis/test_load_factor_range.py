@@ -10,12 +10,12 @@ from typer.testing import CliRunner
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.load_factor_range import search
-from limitblocks.analysis.load_factor_range.answers import merged
+from limitblocks.analysis.load_factor_range.answers import merged, remarks
 from limitblocks.analysis.load_factor_range.run import _task
 from limitblocks.analysis.nonassociated.start import flow_of
 from limitblocks.cli import app
 from limitblocks.evidence.range_answer import Origin
-from limitblocks.problem import Turning
+from limitblocks.problem import Flow, Turning
 
 FEW = {"paths": 3, "mechanisms": 3}
 ALONG = lb.mass_proportional((1, 0, 0))
@@ -254,3 +254,13 @@ def test_the_command_prints_the_three_ranges(pushed, tmp_path):
     assert (done.exit_code, done.stdout.count("load factor ")) == (0, len(found.answers))
     with pytest.raises(lb.ModelError, match=r"LoadFactorRange has no load_factor.*one of its answers"):
         lb.check_mcp(pushed, found)
+
+
+def test_what_the_answer_and_both_ends_remark_is_said_once(pushed, of_pushed):
+    def remarking(*said):
+        one = of_pushed.answers[0]
+        return replace(one, check=replace(one.check, remarks=said))
+
+    first, ends = remarking("of the answer"), [remarking("of an end"), remarking("of an end", "too")]
+    said = remarks(Flow(pushed.problem), first, ends)
+    assert said[-3:] == ("of the answer", "of an end", "too")

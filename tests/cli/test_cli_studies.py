@@ -28,7 +28,7 @@ def test_directions_are_printed_and_written(file, tmp_path):
     options = ("--count", 4, "--workers", 1, "--csv", rows, "--output", result)
     done = run("directions", file, *options)
     assert (done.exit_code, done.stderr) == (0, "")
-    assert "4 analyses, least load factor 0.5 at" in done.stdout
+    assert "4 analyses, associated: least load factor 0.5 at" in done.stdout
     assert "warning" not in done.stdout
     with rows.open(newline="") as stream:
         factors = [float(row["load_factor"]) for row in csv.DictReader(stream)]

@@ -52,7 +52,8 @@ def rod(**more):
         ({"floor": MODE}, "floor is a FloorMode, expected Floor"),
         ({"confidence": 13.5}, "FC is 13.5, expected a finite number >= 1 and <= 2"),
         ({"damping": 0.05}, "damping is 0.05, expected two numbers, at SLV and at SLC"),
-        ({"elastic_period": -1.0}, "T_0 is -1.0, expected a finite number >= 0 in s"),
+        ({"elastic_period": -1.0}, "T_0 is -1.0, expected a finite number >= 0 and <= 10 in s"),
+        ({"elastic_period": 150.0}, "T_0 is 150.0, expected a finite number >= 0 and <= 10 in s"),  # of ms
     ],
 )  # fmt: skip
 def test_verification(facade, answer, given, words):

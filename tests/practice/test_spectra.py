@@ -89,3 +89,17 @@ def test_displacement_is_at_least_that_at_the_period_before_it_is_set_off():
 def test_wrong_spectrum(values, words):
     with pytest.raises(lb.ModelError, match=words):
         Spectrum(*values)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (lambda: SITE.displacement(1.0, 8.0), r"damping is 8\.0, expected .* <= 0\.3"),
+        (lambda: FloorMode(0.3, 1.3, 1.0, 5.0), r"damping of a mode is 5\.0, expected .* <= 0\.3"),
+        (lambda: FloorMode(300.0, 1.3, 1.0), r"period of a mode is 300\.0, expected .* <= 10 in s"),
+    ],
+)
+def test_per_cent_and_milliseconds_are_refused(ask, words):
+    """8 for 8 % makes eta .55 in place of .877, its least: sqrt(10 / (5 + 28.06)) = .55."""
+    with pytest.raises(lb.ModelError, match=words):
+        ask()

@@ -115,6 +115,11 @@ def test_acceleration_on_the_capacity_curve(facade, answer, curve):
     assert found["xi_SLV"] == 0.05
 
 
+def test_damping_in_per_cent_is_refused(facade, answer, curve):
+    with pytest.raises(lb.ModelError, match=r"damping at SLV is 8\.0, expected .* <= 0\.3"):
+        verification(facade, answer, SITE, q=2.0, curve=curve, damping=(8.0, 10.0))
+
+
 @pytest.mark.parametrize("steps", [3, 8])
 def test_between_the_points_of_a_curve_the_load_factor_is_on_the_safe_side(curve, steps):
     """On (1 - d)^1.2, which bends upwards, chords are above; on 1 - d^2 they are below."""

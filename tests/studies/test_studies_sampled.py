@@ -138,6 +138,15 @@ def test_quantiles_say_what_they_can_be_with_the_samples_left_out():
     assert "leave" not in str(fallen)
 
 
+@pytest.mark.parametrize(("n", "said"), [(18, "least and largest"), (19, "5 % to 95 %")])
+def test_the_line_claims_no_quantile_that_so_few_samples_do_not_have(n, said):
+    """The least of n has 1 / (n + 1) below it on average, 5 % of 19."""
+    values = np.arange(1.0, n + 1)
+    words = {"modes": ("",) * n, "errors": ("",) * n, "samples": n, "indices": False}
+    study = SampledStudy("nonassociated", ("x",), values[:, None], values, **words)
+    assert f"non-associated load factor {(n + 1) / 2:g}, {said} 1 to {n}" in str(study)
+
+
 @pytest.mark.parametrize("n", [16, 64])
 def test_what_is_below_a_quantile_is_its_share_on_average(n):
     """Of uniform samples between 0 and 1; numpy's default has (1 + (n - 1) / 20) / (n + 1)."""

@@ -6,7 +6,7 @@ from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, off_load_path
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
@@ -133,6 +133,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     place = f" at {worst.where}" if worst.where else ""
     interrupted = result.status is Status.INTERRUPTED
     why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
+    if result.status is Status.UNSETTLED:
+        why = "the load factor still changed as its path was followed on"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
     said = f"; {UNBOUNDED}" if result.astray else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
@@ -144,7 +146,7 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
 def _status(flow: Flow, residuals: Residuals, how: str, tolerance: float) -> Status:
     equations_left, worst = left_over(residuals, tolerance)
     if worst <= tolerance:
-        return Status.CONVERGED
+        return Status.UNSETTLED if UNSETTLED in how else Status.CONVERGED
     if how.endswith(INTERRUPTED):
         return Status.INTERRUPTED
     if not equations_left:

@@ -12,7 +12,7 @@ from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane, found_in_plane_or_whole
 from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
     flow_of,
@@ -164,7 +164,7 @@ def end_of_first_path(
     state, how = first_to_solve(given, MEANS, half=half, first=True)
     if how.endswith(INTERRUPTED):
         raise KeyboardInterrupt
-    solved = mcp_residuals(at, state).worst.value <= tolerance
+    solved = mcp_residuals(at, state).worst.value <= tolerance and UNSETTLED not in how
     solved &= planar is None or planar.accepted(state, tolerance) is not None
     return float(state.load_factor / at.problem.units.live) if solved else np.nan
 

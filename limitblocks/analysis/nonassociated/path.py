@@ -28,8 +28,16 @@ from limitblocks.analysis.nonassociated.path_equations import (
     theta_slope,
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.analysis.nonassociated.path_record import CLOSED, INTERRUPTED, Progress, Tracked, winds
+from limitblocks.analysis.nonassociated.path_record import (
+    CLOSED,
+    INTERRUPTED,
+    UNSETTLED,
+    Progress,
+    Tracked,
+    winds,
+)
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.settling import FURTHER, Settling
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polished
 from limitblocks.arrays import Array
@@ -108,6 +116,8 @@ def track(
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         walk.patience, walk.closing = patience, closing
         end = walk.go()
+        if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled(flow, walk.best):
+            end = UNSETTLED
         best, left = (walk.best, walk.left) if walk.best else (walk.state, defect(flow, walk.state))
     counts = walk.factorisations, walk.failures, tuple(walk.points)
     return best, Tracked(walk.path.barrier, seed, end, left, *counts)
@@ -128,6 +138,7 @@ class Walk:
         self.points: list[Progress] = []
         self.best: State | None = None
         self.left = np.inf  # worst residual of the best state
+        self.settling = Settling()
 
     @property
     def state(self) -> State:
@@ -230,7 +241,7 @@ class Walk:
     def _closed(self) -> bool:
         """Whether the polish of a base far down the path is a solution; tried as theta falls."""
         if self.base is None or self.base.point.theta >= self.tried:
-            return False
+            return self._stands_still()
         z = self.base.point
         if z.theta < LAST:
             raise Lost("no solution at the end")
@@ -242,7 +253,15 @@ class Walk:
             self._keep(pivoted(flow, reached, largest=PIVOTS))
         if self.closing and self.left > TOLERANCE and left < NEAR:
             self._keep(self.closing(reached))
-        return self.left < TOLERANCE
+        return self.settling.ends(flow, self.best, self.left) or self._stands_still()
+
+    def _stands_still(self) -> bool:
+        """Whether a path within the tolerance has led to no other load factor."""
+        if self.left > TOLERANCE:
+            return False
+        still = self.settling.stands_still(self.path.flow, self.state, self.factorisations)
+        self.budget, self.patience = self.settling.since + FURTHER, None
+        return still
 
     def _keep(self, state: State, residual: float | None = None) -> None:
         """Keep a state as the best one met, unless it belongs to another path."""

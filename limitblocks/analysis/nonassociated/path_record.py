@@ -11,6 +11,7 @@ from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.evidence.results import Iteration
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
+UNSETTLED = "its load factor still changing"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
 
 

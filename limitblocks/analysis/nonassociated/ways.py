@@ -23,7 +23,7 @@ from limitblocks.analysis.nonassociated.means import (
     follow,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, Progress
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, Progress
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish, polished
@@ -69,7 +69,7 @@ class Given:
             closing=closing,
         )
         how = f"{info.how}{closing.how}" if closing and state is closing.solution else info.how
-        return state, f"{how}, {INTERRUPTED}" if info.interrupted else how
+        return state, f"{how}, {info.end}" if info.end in (INTERRUPTED, UNSETTLED) else how
 
     def polished(self, state: State, how: str) -> Way:
         """Return the end of a path polished, or by pivots where it is near, unless the user stopped it.
@@ -140,7 +140,7 @@ def first_to_solve(
         ways = _then(ways, half, given)
     for state, how in ways:
         met.append((state, how))
-        if mcp_residuals(flow, state).worst.value <= given.tolerance:
+        if mcp_residuals(flow, state).worst.value <= given.tolerance and UNSETTLED not in how:
             return met[-1]
         if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break

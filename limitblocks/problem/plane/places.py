@@ -98,13 +98,12 @@ def kinds_of(problem: LimitProblem, strain: Array) -> Iterator[Place]:
 
 def _means(values: Array, of: Indices) -> Array:
     """Mean of values (K, ...) over all of the same number in `of` (K,), at each of them."""
-    _, which, count = np.unique(of, return_inverse=True, return_counts=True)
-    if len(count) == len(of):
+    count = np.bincount(of)
+    if count.max() == 1:
         return values
     total = np.zeros((len(count), *values.shape[1:]))
-    np.add.at(total, which, values)
-    mean = total / count.reshape(-1, *[1] * (values.ndim - 1))
-    return np.asarray(mean[which])
+    np.add.at(total, of, values)
+    return np.asarray(total[of] / count[of].reshape(-1, *[1] * (values.ndim - 1)))
 
 
 def _alike(

@@ -58,7 +58,9 @@ def _follows(rows: Array, present: Flags, flow: Array) -> Flags:
     sine = np.where(apart, sine, 1.0)
     by_i, by_j = (a - b * cosine) / sine, (b - a * cosine) / sine
     off = by_i[..., None] * rows[:, None, i] + by_j[..., None] * rows[:, None, j] - rows[:, :L, None]
-    sums = apart & (np.minimum(by_i, by_j) >= -ROUNDING) & (np.abs(off).max(axis=3) <= ROUNDING)
+    sums = (
+        apart & (np.minimum(by_i, by_j) >= -ROUNDING) & (np.einsum("kcpd,kcpd->kcp", off, off) <= ROUNDING**2)
+    )
     own = np.arange(L)[:, None]
     sums &= (i != own) & (j != own)
     left, follows = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1), np.zeros_like(present)

@@ -41,7 +41,7 @@ def pseudo_inverses(matrices: Array) -> Array:
 
 def without_rounding(turn: Array) -> Array:
     """The turn with 0, 1 and -1 where rounding is off them, lest a solver's last digits depend on it."""
-    whole = np.rint(turn)
+    whole = np.rint(turn) + 0.0  # no negative zeros: turns are classed by their bits
     return np.asarray(np.where(np.abs(turn - whole) <= AGREE, whole, turn))
 
 

@@ -1,0 +1,67 @@
+"""States within the tolerance on the way to a solution with another load factor."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import path, settling
+from limitblocks.analysis.nonassociated.loop import nonassociated
+from limitblocks.analysis.nonassociated.means import LOW
+from limitblocks.practice import displaced
+from limitblocks.practice.advance import advanced
+from limitblocks.practice.capacity_result import Control
+from limitblocks.practice.touching import pressed_in, touching
+from limitblocks.problem import Flow, State
+from limitblocks.structures import EXAMPLES
+
+LARGE = [lb.settings.Means(lb.settings.Barrier(0.2, 2.0, LOW), seed=2, budget=800)]
+
+
+@pytest.fixture(scope="module")
+def moved_corner():
+    """A corner of two walls, moved by a thousandth of a millimetre along its mechanism: it almost jams."""
+    push = (0.0, -1.0, 0.0)
+    model = replace(EXAMPLES["corner"](lb.PointContact(0.8)), live=lb.mass_proportional(push))
+    first = nonassociated(model, confirm=False)
+    fastest = model.blocks[int((first.displacement_rates[:, :3] @ push).argmax())]
+    control = Control(fastest.name, fastest.centroid, push)
+    assembly = displaced.assembly_of(model)
+    assembly = pressed_in(assembly, list(range(len(model.interfaces))), first.stress_resultants)
+    there = advanced(assembly, control, first.displacement_rates, 1e-6)
+    return touching(there.assembly)[0]
+
+
+def followed(model):
+    return nonassociated(model, means=LARGE, confirm=False, throw=False)
+
+
+def test_a_path_ends_only_where_its_state_is_exact_for_a_model_nearby(moved_corner, monkeypatch):
+    found = followed(moved_corner)
+    assert found.converged is (found.backward_error.value <= 1e-4)
+    monkeypatch.setattr(settling.Settling, "ends", lambda self, flow, best, left: left <= 1e-8)
+    early = followed(moved_corner)  # the first state within the tolerance
+    assert early.converged
+    assert early.backward_error.value > 0.1
+    assert early.load_factor > 1.05 * found.load_factor
+
+
+def test_a_load_factor_that_still_changes_is_no_answer(moved_corner, monkeypatch):
+    monkeypatch.setattr(path, "FURTHER", 100)
+    with pytest.raises(lb.NotConverged, match="the load factor still changed as its path was followed on"):
+        nonassociated(moved_corner, means=LARGE, confirm=False)
+    found = followed(moved_corner)
+    assert found.status is lb.results.Status.UNSETTLED
+    assert found.residuals.worst.value <= 1e-8
+
+
+@pytest.mark.parametrize(("change", "ends"), [(0.9e-4, True), (-1.1e-4, False)])
+def test_a_load_factor_that_stands_still_ends_a_path(moved_corner, change, ends):
+    p = moved_corner.problem
+    still, a = settling.Settling(), 0.3
+    state = State(a, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
+    for k in range(0, settling.SOON, 10):
+        assert not still.stands_still(Flow(p), state, 50 + k)
+    last = replace(state, load_factor=a * (1.0 + change))
+    assert still.stands_still(Flow(p), last, 50 + settling.SOON) is ends is not still.changes
