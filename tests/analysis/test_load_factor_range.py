@@ -238,7 +238,9 @@ def test_a_report_tells_the_three_ranges_apart(pushed, of_pushed):
 
 
 def test_intervals_that_touch_are_one():
-    assert merged([(3, 4), (0, 1), (1, 2), (0, 0.5)]) == [(0, 2), (3, 4)]
+    intervals = [(3, 4), (0, 1), (1, 2), (0, 0.5), (2.25, 2.5)]
+    assert merged(intervals, 0.0) == [(0, 2), (2.25, 2.5), (3, 4)]
+    assert merged(intervals, 0.25) == [(0, 2.5), (3, 4)]
 
 
 def test_the_command_prints_the_three_ranges(pushed, tmp_path):

@@ -78,7 +78,8 @@ class Collected:
             )
         shared = [z for z in (*kept, new.state) if np.array_equal(z.y, new.state.y)]
         factors = [z.load_factor for z in shared]
-        self.intervals = merged([*self.intervals, (min(factors), max(factors))])
+        near = TOLERANCE * self.scale
+        self.intervals = merged([*self.intervals, (min(factors), max(factors))], near)
         if self.endless and self.beyond is None:
             added = ray(self.flow, new.state)
             if added is not None:
@@ -106,11 +107,11 @@ class Collected:
         return sorted(kept, key=lambda one: one.state.load_factor)
 
 
-def merged(intervals: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return the union of intervals as intervals apart from each other, in order."""
+def merged(intervals: list[tuple[float, float]], near: float) -> list[tuple[float, float]]:
+    """Return the union of intervals as intervals farther apart than `near`, in order."""
     union: list[tuple[float, float]] = []
     for low, high in sorted(intervals):
-        if union and low <= union[-1][1]:
+        if union and low <= union[-1][1] + near:
             union[-1] = union[-1][0], max(union[-1][1], high)
         else:
             union.append((low, high))

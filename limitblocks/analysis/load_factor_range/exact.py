@@ -36,7 +36,7 @@ MULTIPLIERS = (
 )
 STRESSES = 10.0  # cap of M where it has no limit, over the sum of the dead loads
 FEASIBLE = {"primal_feasibility_tolerance": 1e-9, "dual_feasibility_tolerance": 1e-9}
-LINEAR = Solver("HIGHS", dict(FEASIBLE), conic=False)
+LINEAR = Solver("HIGHS", {"presolve": "off", **FEASIBLE}, conic=False)
 MIXED = {"mip_feasibility_tolerance": 1e-9, "mip_rel_gap": 1e-7, **FEASIBLE}
 AGREES = 1e-4  # of the bracket: answer and bound that are nearer prove each other
 
