@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated import path, settling
+from limitblocks.analysis.load_factor_range import sampling
+from limitblocks.analysis.nonassociated import path, settling, ways
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.means import LOW
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_record import CLOSED, UNSETTLED, Tracked
 from limitblocks.practice import displaced
 from limitblocks.practice.advance import advanced
 from limitblocks.practice.capacity_result import Control
@@ -16,6 +19,7 @@ from limitblocks.practice.touching import pressed_in, touching
 from limitblocks.problem import Flow, State
 from limitblocks.structures import EXAMPLES
 
+Status = lb.results.Status
 LARGE = [lb.settings.Means(lb.settings.Barrier(0.2, 2.0, LOW), seed=2, budget=800)]
 
 
@@ -40,7 +44,7 @@ def followed(model):
 def test_a_path_ends_only_where_its_state_is_exact_for_a_model_nearby(moved_corner, monkeypatch):
     found = followed(moved_corner)
     assert found.converged is (found.backward_error.value <= 1e-4)
-    monkeypatch.setattr(settling.Settling, "ends", lambda self, flow, best, left: left <= 1e-8)
+    monkeypatch.setattr(settling.Settling, "ends", lambda self: self.left <= 1e-8)
     early = followed(moved_corner)  # the first state within the tolerance
     assert early.converged
     assert early.backward_error.value > 0.1
@@ -52,16 +56,51 @@ def test_a_load_factor_that_still_changes_is_no_answer(moved_corner, monkeypatch
     with pytest.raises(lb.NotConverged, match="the load factor still changed as its path was followed on"):
         nonassociated(moved_corner, means=LARGE, confirm=False)
     found = followed(moved_corner)
-    assert found.status is lb.results.Status.UNSETTLED
+    assert found.status is Status.UNSETTLED
     assert found.residuals.worst.value <= 1e-8
 
 
 @pytest.mark.parametrize(("change", "ends"), [(0.9e-4, True), (-1.1e-4, False)])
 def test_a_load_factor_that_stands_still_ends_a_path(moved_corner, change, ends):
     p = moved_corner.problem
-    still, a = settling.Settling(), 0.3
+    still, a = settling.Settling(Flow(p)), 0.3
     state = State(a, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
     for k in range(0, settling.SOON, 10):
-        assert not still.stands_still(Flow(p), state, 50 + k)
+        assert not still.stands_still(state, 50 + k)
     last = replace(state, load_factor=a * (1.0 + change))
-    assert still.stands_still(Flow(p), last, 50 + settling.SOON) is ends is not still.changes
+    assert still.stands_still(last, 50 + settling.SOON) is ends is not still.changes
+
+
+@pytest.mark.parametrize(("before", "exact"), [(True, False), (True, True), (False, False)])
+def test_after_an_unsettled_path_only_what_is_exact_nearby_is_an_answer(
+    moved_corner, before, exact, monkeypatch
+):
+    """Rounds and pivots lead to a state within the tolerance and follow no load factor."""
+
+    def given_ways(given, means):
+        state, how = given.tracked(means[0])
+        if before:
+            yield state, f"{how}, {UNSETTLED}"
+        yield state, f"{how}, 3 rounds of the fixed point"
+
+    monkeypatch.setattr(settling.Settling, "ends", lambda self: self.left <= 1e-8)
+    monkeypatch.setattr(ways, "_ways", given_ways)
+    if exact:
+        monkeypatch.setattr(ways, "exact_nearby", lambda *_: True)
+    found = followed(moved_corner)
+    assert found.residuals.worst.value <= 1e-8
+    assert found.backward_error.value > 0.1
+    refused = before and not exact
+    assert found.status is (Status.UNSETTLED if refused else Status.CONVERGED)
+    assert (UNSETTLED in found.how) is refused
+
+
+@pytest.mark.parametrize(("end", "refused"), [(CLOSED, False), (UNSETTLED, True)])
+def test_a_range_is_not_sampled_where_a_load_factor_still_changes(moved_corner, end, refused, monkeypatch):
+    p = moved_corner.problem
+    state = State(0.3, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
+    went = Tracked(Barrier(), 1, end, 1e-9, 100, 0, ())
+    monkeypatch.setattr(sampling, "track", lambda *_, **__: (state, went))
+    monkeypatch.setattr(sampling, "polish", lambda _, one: one)
+    sampler = sampling.Sampler(Flow(p), state.x, None, 1.0, lambda _: None)
+    assert next(sampler.ways(0)).go() is (None if refused else state)

@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.loading import pushed
 from limitblocks.analysis.nonassociated.means import MEANS, SOFTENING, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_record import UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
@@ -101,7 +102,7 @@ class Sampler:
         )
         if path.interrupted:
             raise KeyboardInterrupt
-        return polish(self.flow, state)
+        return None if path.end == UNSETTLED else polish(self.flow, state)
 
     def _tracked_from(self, means: Means, random: Array) -> State | None:
         return self._tracked(means, self._permanent(random))

@@ -18,8 +18,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path import RETURNED, Base, Lost, Walk
-from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point, inner, moved
+from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Base, Path, Point, inner, moved
 from limitblocks.analysis.nonassociated.path_newton import REFINED
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.arrays import Array

@@ -11,13 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
-    Covector,
+    Base,
     Path,
     Point,
     covector,
@@ -52,21 +51,11 @@ RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DEGENERATE, NEAR = 3e-3, 1e-6  # residuals from which on complementary pivots and rounds are tried
 PIVOTS = 200  # pairs of slack and multiplier that are not plain: more cost more than further steps
-DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
 BUDGET = 600  # factorisations
 
 
 class Lost(Exception):
     """The path cannot be followed any further."""
-
-
-class Base(NamedTuple):
-    """Where predictors start: a point near the path, its last correction, its tangent, products with it."""
-
-    point: Point
-    correction: Point
-    tangent: Point
-    ahead: Covector
 
 
 def track(
@@ -116,9 +105,11 @@ def track(
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         walk.patience, walk.closing = patience, closing
         end = walk.go()
-        if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled(flow, walk.best):
+        if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled:
             end = UNSETTLED
-        best, left = (walk.best, walk.left) if walk.best else (walk.state, defect(flow, walk.state))
+        best, left = walk.settling.best, walk.settling.left
+        if best is None:
+            best, left = walk.state, defect(flow, walk.state)
     counts = walk.factorisations, walk.failures, tuple(walk.points)
     return best, Tracked(walk.path.barrier, seed, end, left, *counts)
 
@@ -136,9 +127,7 @@ class Walk:
         self.length, self.correctors, self.tried = FIRST, 0, TRIED
         self.factorisations = self.failures = 0
         self.points: list[Progress] = []
-        self.best: State | None = None
-        self.left = np.inf  # worst residual of the best state
-        self.settling = Settling()
+        self.settling = Settling(path.flow)
 
     @property
     def state(self) -> State:
@@ -245,27 +234,21 @@ class Walk:
         z = self.base.point
         if z.theta < LAST:
             raise Lost("no solution at the end")
-        flow, reached = self.path.flow, self.state
+        flow, reached, found = self.path.flow, self.state, self.settling
         left = defect(flow, reached)
         self.tried = max(AGAIN, TOLERANCE / max(left, TOLERANCE)) * z.theta  # where it may solve all as it is
-        self._keep(*polished(flow, reached, left, patience=1))  # a point costs less than more steps
-        if self.left > TOLERANCE and left < DEGENERATE:
-            self._keep(pivoted(flow, reached, largest=PIVOTS))
-        if self.closing and self.left > TOLERANCE and left < NEAR:
-            self._keep(self.closing(reached))
-        return self.settling.ends(flow, self.best, self.left) or self._stands_still()
+        state, residual = polished(flow, reached, left, patience=1)  # a point costs less than more steps
+        found.keep(state, reached, residual)
+        if found.left > TOLERANCE and left < DEGENERATE:
+            found.keep(pivoted(flow, reached, largest=PIVOTS), reached)
+        if self.closing and found.left > TOLERANCE and left < NEAR:
+            found.keep(self.closing(reached), reached)
+        return found.ends() or self._stands_still()
 
     def _stands_still(self) -> bool:
         """Whether a path within the tolerance has led to no other load factor."""
-        if self.left > TOLERANCE:
+        if self.settling.left > TOLERANCE:
             return False
-        still = self.settling.stands_still(self.path.flow, self.state, self.factorisations)
+        still = self.settling.stands_still(self.state, self.factorisations)
         self.budget, self.patience = self.settling.since + FURTHER, None
         return still
-
-    def _keep(self, state: State, residual: float | None = None) -> None:
-        """Keep a state as the best one met, unless it belongs to another path."""
-        residual = defect(self.path.flow, state) if residual is None else residual
-        reached = self.state.load_factor
-        if abs(state.load_factor - reached) <= DRIFT * abs(reached) and residual < self.left:
-            self.best, self.left = state, residual

@@ -206,6 +206,15 @@ class Covector(NamedTuple):
         return self._replace(s=t * self.s, y=t * self.y, theta=t * self.theta)
 
 
+class Base(NamedTuple):
+    """Where predictors start: a point near the path, its last correction, its tangent, products with it."""
+
+    point: Point
+    correction: Point
+    tangent: Point
+    ahead: Covector
+
+
 def covector(cones: Cones, z: Point, a: Point) -> Covector:
     """Return what takes directions at z to their product with one of them."""
     return Covector(curvature(cones, z.s, a.s), curvature(cones, z.y, a.y), a.theta, z.theta, cones.degree)

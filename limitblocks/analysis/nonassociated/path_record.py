@@ -58,6 +58,11 @@ class Progress(NamedTuple):
     sign: float
     factorisations: int
 
+    def told(self, unit: float) -> Iteration:
+        """Return what it tells the user; `unit` is that of the live load."""
+        load_factor, theta = float(self.load_factor / unit), float(self.theta)
+        return Iteration(load_factor, "path", theta, {"theta": theta}, self.factorisations, 0)
+
 
 def winds(points: Sequence[Progress], factorisations: int, patience: int | None) -> bool:
     """Whether theta did not fall to a third in as many of the factorisations as there is patience for."""

@@ -10,57 +10,74 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
+from limitblocks.analysis.polish import defect
 from limitblocks.evidence.backward_error import LARGE, backward_error
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 EXACT = 1e-10  # residual that only a polish reaches: none of 278 rows has then a large backward error
-LEFT, LESS = (
-    1e-11,
-    0.1,
-)  # residual at which it is asked for again, and of that then: it costs 100 factorisations
+# Residual at which it is asked for again, and of that then: it costs 100 factorisations.
+LEFT, LESS = 1e-11, 0.1
 STILL = 1e-4  # change of the load factor
-# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 factorisations beyond the tolerance.
-FURTHER, SOON = (
-    1100,
-    60,
-)  # factorisations beyond it: at most, and until the load factor is one that stands still
+# Factorisations beyond the tolerance: at most, and until the load factor is one that stands still.
+# A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it.
+FURTHER, SOON = 1100, 60
+DRIFT = 0.01  # of the load factor, from the point to its polish: farther it is another path's solution
+
+
+def exact_nearby(flow: Flow, state: State) -> bool:
+    """Whether a state is exact for a model nearby."""
+    return backward_error(flow, state, LARGE).value <= LARGE
 
 
 @dataclass
 class Settling:
-    """Where a path came within the tolerance, and by how much the load factor changed since, over its size.
+    """The best state of a path, where that came within the tolerance, and how the load factor changed since.
 
-    The backward error is asked for where the residual is at most `judged`.
+    `left` is the worst residual of the best state; `change` is over the size of the load factor. The backward
+    error is asked for where the residual is at most `judged`.
     """
 
+    flow: Flow
+    best: State | None = None
+    left: float = np.inf
     first: float | None = None
     unit: float = 1.0
     since: int = 0
     change: float = 0.0
     judged: float = TOLERANCE
 
-    def ends(self, flow: Flow, best: State | None, left: float) -> bool:
-        """Whether the best state, of residual `left`, is exact for a model nearby."""
-        if best is None or left > self.judged:
-            return False
-        if left <= EXACT and self.first is None:
-            return True
-        self.judged = min(LESS * left, LEFT)
-        return backward_error(flow, best, LARGE).value <= LARGE
+    def keep(self, state: State, reached: State, residual: float | None = None) -> None:
+        """Keep a state as the best one met, unless it belongs to another path than the point reached."""
+        residual = defect(self.flow, state) if residual is None else residual
+        apart = abs(state.load_factor - reached.load_factor)
+        if apart <= DRIFT * abs(reached.load_factor) and residual < self.left:
+            self.best, self.left = state, residual
 
-    def stands_still(self, flow: Flow, reached: State, factorisations: int) -> bool:
+    def ends(self) -> bool:
+        """Whether the best state is exact for a model nearby."""
+        if self.best is None or self.left > self.judged:
+            return False
+        if self.left <= EXACT and self.first is None:
+            return True
+        self.judged = min(LESS * self.left, LEFT)
+        return exact_nearby(self.flow, self.best)
+
+    def stands_still(self, reached: State, factorisations: int) -> bool:
         """Whether the load factor is the one at which the path came within the tolerance."""
         if self.first is None:
             self.first, self.since = reached.load_factor, factorisations
-            self.unit = Measure(flow.problem, reached).power
+            self.unit = Measure(self.flow.problem, reached).power
         self.change = max(self.change, abs(reached.load_factor - self.first) / self.unit)
         return factorisations >= self.since + SOON and not self.changes
 
-    def unsettled(self, flow: Flow, best: State | None) -> bool:
+    @property
+    def unsettled(self) -> bool:
         """Whether the end of a path is within the tolerance and yet no answer: exact for no model nearby."""
-        return self.changes and best is not None and backward_error(flow, best, LARGE).value > LARGE
+        return self.changes and self.best is not None and not exact_nearby(self.flow, self.best)
 
     @property
     def changes(self) -> bool:

@@ -23,14 +23,15 @@ from limitblocks.analysis.nonassociated.means import (
     follow,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, Progress
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.settling import exact_nearby
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish, polished
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration
-from limitblocks.problem import Flow, LimitProblem, State, Turning
+from limitblocks.problem import Flow, State, Turning
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
 LARGEST = 300  # beyond it one path takes what time there is
@@ -65,7 +66,7 @@ class Given:
             problem.compliance,
             means=[one],
             power=self.scale / len(problem.blocks),
-            progress=lambda at: self.record(_point(problem, at)),
+            progress=lambda at: self.record(at.told(problem.units.live)),
             closing=closing,
         )
         how = f"{info.how}{closing.how}" if closing and state is closing.solution else info.how
@@ -122,6 +123,7 @@ def first_to_solve(
 
     If there are further means, `half` comes second. Where the `first` path is asked for it is followed alone.
 
+    After a path whose load factor still changed, only what is exact for a model nearby is a solution.
     Of a large model a state that is near `enough` ends the search as well, but for the end of the first path.
     """
     flow, met = given.flow, list[Way]()
@@ -140,14 +142,28 @@ def first_to_solve(
         ways = _then(ways, half, given)
     for state, how in ways:
         met.append((state, how))
-        if mcp_residuals(flow, state).worst.value <= given.tolerance and UNSETTLED not in how:
+        if _solved(given, met):
             return met[-1]
         if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(mcp_residuals(flow, one[0]), given.tolerance))
+    way += f", {UNSETTLED}" * (_unsettled(met) and UNSETTLED not in way)
     interrupted = how.endswith(INTERRUPTED) and not way.endswith(INTERRUPTED)
     return state, f"{way}, {INTERRUPTED}" if interrupted else way
+
+
+def _solved(given: Given, met: Sequence[Way]) -> bool:
+    """Whether the last way met leads to a solution."""
+    state, how = met[-1]
+    if UNSETTLED in how or mcp_residuals(given.flow, state).worst.value > given.tolerance:
+        return False
+    return not _unsettled(met) or exact_nearby(given.flow, state)
+
+
+def _unsettled(met: Sequence[Way]) -> bool:
+    """Whether the load factor of a path still changed at its end."""
+    return any(UNSETTLED in how for _, how in met)
 
 
 def own_means(blocks: int, in_space: bool, dissipative: bool, reduced: bool) -> Sequence[Means]:
@@ -236,9 +252,3 @@ def _large_planar_ways(given: Given) -> Iterator[Way]:
 def left_over(left: Residuals, tolerance: float) -> tuple[bool, float]:
     """Whether more than the dissipation is above the tolerance, and the worst residual."""
     return any(one.name != "dissipation" for one in left.above(tolerance)), left.worst.value
-
-
-def _point(problem: LimitProblem, at: Progress) -> Iteration:
-    """What a point of the path tells the user."""
-    load_factor, theta = float(at.load_factor / problem.units.live), float(at.theta)
-    return Iteration(load_factor, "path", theta, {"theta": theta}, at.factorisations, 0)
