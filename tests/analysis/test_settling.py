@@ -7,7 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis.load_factor_range import sampling
-from limitblocks.analysis.nonassociated import path, settling, ways
+from limitblocks.analysis.nonassociated import finished, path, settling, ways
 from limitblocks.analysis.nonassociated.loop import nonassociated
 from limitblocks.analysis.nonassociated.means import LOW
 from limitblocks.analysis.nonassociated.path_equations import Barrier
@@ -58,6 +58,19 @@ def test_a_load_factor_that_still_changes_is_no_answer(moved_corner, monkeypatch
     found = followed(moved_corner)
     assert found.status is Status.UNSETTLED
     assert found.residuals.worst.value <= 1e-8
+
+
+def test_a_path_stopped_on_the_way_is_no_answer_unless_it_is_exact_nearby(moved_corner, monkeypatch):
+    def stop(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(settling.Settling, "stands_still", stop)
+    found = followed(moved_corner)
+    assert found.residuals.worst.value <= 1e-8
+    assert found.status is Status.INTERRUPTED
+    assert found.backward_error.value > 0.1
+    monkeypatch.setattr(finished, "far_off", lambda *_: ())
+    assert followed(moved_corner).status is Status.CONVERGED
 
 
 @pytest.mark.parametrize(("change", "ends"), [(0.9e-4, True), (-1.1e-4, False)])

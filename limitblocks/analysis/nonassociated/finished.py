@@ -59,7 +59,9 @@ def finished(
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
-    status = Status.INTERRUPTED if stopped else _status(flow, residuals, how, tolerance)
+    far = () if stopped else far_off(error, residuals, tolerance)
+    halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
+    status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
     bounds, claimed = enclosing.bounds, enclosing.of(flow)
     dead = (
         bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
@@ -91,7 +93,7 @@ def finished(
             *locked_tension(model, flow, state),
             *beyond_stress_block(model, resultants),
             *unconfirmed(change),
-            *(() if stopped else far_off(error, residuals, tolerance)),
+            *far,
             *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
         ),
         tolerance=tolerance,
