@@ -1,5 +1,6 @@
 """Solutions are fixed points of limit analysis with frozen flow; the outer loop alone finds some of them."""
 
+import signal
 from dataclasses import replace
 
 import cvxpy as cp
@@ -335,5 +336,9 @@ def test_ctrl_c_that_osqp_keeps_to_itself_ends_the_analysis(monkeypatch):
 
     monkeypatch.setattr(least_norm.osqp.OSQP, "solve", pressed)
     problem = lb.structures.wall(lb.OrdunaLourenco(0.6, slip="paper"), length=1.2, courses=3).problem
-    with pytest.raises(KeyboardInterrupt):
-        permanent_state(problem, problem.compliance)
+    usual = signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background of a shell
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            permanent_state(problem, problem.compliance)
+    finally:
+        signal.signal(signal.SIGINT, usual)
