@@ -305,8 +305,9 @@ def test_the_contacts_that_an_answer_presses_are_marked():
     assert all(own.pressed for own in answered.answered(assembly)[0].contacts)
 
 
+@pytest.mark.parametrize("floor_first", [True, False])
 @pytest.mark.parametrize("turn", [0.002, 0.01, 0.05])
-def test_a_corner_at_the_end_of_a_floor_that_goes_on_ahead_rests_on_it(turn):
+def test_a_corner_at_the_end_of_a_floor_that_goes_on_ahead_rests_on_it(turn, floor_first):
     """A block of depth b flush with the end of a floor turns about an axis at 45 degrees through its toe.
 
     The corner at the flush end is b (1 - cos turn) / 2 in the floor, as on one that goes on there.
@@ -316,11 +317,14 @@ def test_a_corner_at_the_end_of_a_floor_that_goes_on_ahead_rests_on_it(turn):
     axis = np.array([0.0, 1.0, -1.0]) / np.sqrt(2.0)
     for beyond in (0.0, 0.3):
         floor = lb.Block.box("floor", (3, b + beyond, 1), (0, (b + beyond) / 2, -0.5))
-        found = lb.find_interfaces([floor, block], JOINTS[0])
-        model = lb.Model([floor, block], ["floor"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+        stones = [floor, block] if floor_first else [block, floor]
+        found = lb.find_interfaces(stones, JOINTS[0])
+        assert found[0].block_i == stones[0].name
+        model = lb.Model(stones, ["floor"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
         rates = np.zeros((2, 6))
-        rates[1] = [*np.cross(turn * axis, block.centroid), *(turn * axis)]
+        rates[stones.index(block)] = [*np.cross(turn * axis, block.centroid), *(turn * axis)]
         own = moved(assembly_of(model), rates).contacts[0]
-        corner = np.flatnonzero(np.abs(own.on_i - [0.0, b, 0.0]).max(axis=1) < 1e-12)
+        on_floor = own.on_i if floor_first else own.on_j
+        corner = np.flatnonzero(np.abs(on_floor - [0.0, b, 0.0]).max(axis=1) < 1e-12)
         sunk = -b / 2 * (1.0 - np.cos(turn))
         assert own.ways[corner, 2] == pytest.approx(sunk, rel=1e-9)
