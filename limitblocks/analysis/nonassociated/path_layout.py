@@ -12,6 +12,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.analysis.elimination import Factors, rates_in_order
@@ -53,11 +54,11 @@ class Layout:
         return (self._constant if self.flow.constant else self._potentials(x))[1]
 
     @cached_property
-    def sliding(self) -> Indices:
+    def sliding(self) -> npt.NDArray[np.bool_]:
         """Whether each row or cone flows otherwise than along its normal, shape (degree,)."""
         p = self.problem
         across = abs(p.F - self.flow.matrix(np.zeros(len(self.stress_place)))).sum(axis=1) > 0.0
-        return np.asarray(np.bincount(p.cones.member, across) > 0)
+        return np.asarray(np.bincount(p.cones.member, across) > 0.0)
 
     @cached_property
     def interfaces(self) -> int:
