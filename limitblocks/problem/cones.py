@@ -13,7 +13,6 @@ from itertools import combinations, groupby
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.arrays import Array, Indices
 
@@ -123,23 +122,15 @@ class Cones:
             rows[index[:, 0]] = (p * q).sum(axis=1)
         return rows
 
-    def arrow(self, v: Array) -> sparse.csr_array:
-        """Return the matrix L(v) of L(v) w = v o w."""
-        return self._block_diagonal(*self.arrow_entries(v))
-
     def arrow_entries(self, v: Array) -> tuple[Array, Indices, Indices]:
-        """Return the entries of L(v), zeros among them, their rows and their columns."""
+        """Return the entries of L(v), L(v) w = v o w, zeros among them, their rows and columns."""
         blocks = []
         for index in self.groups:
             w = v[index]
             block = w[:, :1, None] * np.eye(w.shape[1])
             block[:, 0, 1:] = block[:, 1:, 0] = w[:, 1:]
             blocks.append(block)
-        return self._entries(v[: self.linear], blocks)
-
-    def _entries(self, line: Array, blocks: list[Array]) -> tuple[Array, Indices, Indices]:
-        """Entries of `line` and the blocks of each group of cones, their rows and their columns."""
-        return np.concatenate([line, *(block.ravel() for block in blocks)]), *self._places
+        return np.concatenate([v[: self.linear], *(block.ravel() for block in blocks)]), *self._places
 
     @cached_property
     def _places(self) -> tuple[Indices, Indices]:
@@ -148,9 +139,6 @@ class Cones:
         rows = (index.repeat(index.shape[1]) for index in self.groups)
         columns = (index.repeat(index.shape[1], axis=0).ravel() for index in self.groups)
         return np.concatenate([k, *rows]), np.concatenate([k, *columns])
-
-    def _block_diagonal(self, data: Array, rows: Indices, columns: Indices) -> sparse.csr_array:
-        return sparse.coo_array((data, (rows, columns)), shape=(self.height, self.height)).tocsr()
 
 
 def rays(size: int, count: int) -> Array:
