@@ -13,6 +13,7 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.findings import Overlap
+from limitblocks.geometry.neighbours import bounds_of
 
 _CHUNK = 2_000_000  # distances held in memory at once
 _FEW = 1000  # pairs of edges that are tried before a common part is made
@@ -93,8 +94,7 @@ def _thickness(common: Any, limit: float) -> tuple[float, float]:
 
 def _bounds_depths(points: Sequence[Array], pairs: Indices) -> Array:
     """Return how deep the bounds of pairs of blocks overlap, (p,), m."""
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
+    low, high = bounds_of(points)
     i, j = pairs.T
     return np.asarray(np.minimum(high[i] - low[j], high[j] - low[i]).min(axis=1))
 
