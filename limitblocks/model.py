@@ -198,10 +198,25 @@ def model_of(result: Any, model: Model | None = None) -> Model | None:
     ModelError
         If the result belongs to another model.
     """
-    digest = str(getattr(result, "digest", ""))
-    if model is not None and digest and digest != model.digest:
-        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
-    return model if model is not None else next((one for one in _MODELS if one.digest == digest), None)
+    if model is not None:
+        refuse_other(model, result)
+        return model
+    digest = getattr(result, "digest", "")
+    return next((one for one in _MODELS if one.digest == digest), None)
+
+
+def refuse_other(model: Model, result: Any) -> None:
+    """Refuse a result that says it belongs to another model; a load path says so by its collapse.
+
+    Raises
+    ------
+    ModelError
+        Its digest is another one.
+    """
+    digest = str(getattr(getattr(result, "collapse", result), "digest", ""))
+    if digest and digest != model.digest:
+        kind = type(result).__name__
+        raise ModelError(f"this {kind} belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
 
 
 def _name_problems(model: Model) -> list[str]:

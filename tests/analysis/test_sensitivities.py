@@ -256,7 +256,7 @@ def test_bounds_of_another_model_are_refused():
     model, other = block(lb.PointContact(0.3)), block(lb.PointContact(0.4))
     with pytest.raises(ModelError, match="bounds belong to model"):
         lb.sensitivities(model, lb.bounds(other))
-    with pytest.raises(LimitBlocksError, match="another model"):
+    with pytest.raises(LimitBlocksError, match="belongs to model"):
         lb.plots.sensitivity(model, of(other))
 
 

@@ -211,7 +211,7 @@ def test_wrong_scale_is_refused(scale):
 
 @pytest.mark.parametrize("name", [*DRAWINGS[1:], "thrust_line"])
 def test_result_of_another_model_is_refused(name):
-    with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         getattr(lb.plots, name)(rocking(), bounds(arch))
 
 

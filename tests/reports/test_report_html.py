@@ -251,7 +251,7 @@ def test_save_replaces_only_our_own_files(model, bounds, tmp_path):
 def test_unknown_results_and_results_of_other_models_are_refused(model, bounds):
     with pytest.raises(lb.LimitBlocksError, match="cannot show str; expected a result: Adequacy, Bounds"):
         lb.report(model, bounds, "bounds")
-    with pytest.raises(lb.LimitBlocksError, match="another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         lb.report(portal("beam"), bounds)
 
 

@@ -162,7 +162,7 @@ def test_failed_check_is_told_apart():
 
 def test_results_of_other_models_are_refused():
     for result in (RESULT, PATH):
-        with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+        with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
             lb.report(portal("beam"), result)
     with pytest.raises(
         lb.LimitBlocksError,

@@ -14,12 +14,11 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import displaced, motion
 from limitblocks.errors import ModelError
-from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.io.colours import parts_of
 from limitblocks.io.packages import package
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.written import refuse_existing, write
 
 _RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
