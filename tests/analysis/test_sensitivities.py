@@ -254,7 +254,7 @@ def test_governing_joints_and_stones_come_first():
 
 def test_bounds_of_another_model_are_refused():
     model, other = block(lb.PointContact(0.3)), block(lb.PointContact(0.4))
-    with pytest.raises(ModelError, match="bounds belong to model"):
+    with pytest.raises(ModelError, match="this Bounds belongs to model"):
         lb.sensitivities(model, lb.bounds(other))
     with pytest.raises(LimitBlocksError, match="belongs to model"):
         lb.plots.sensitivity(model, of(other))
