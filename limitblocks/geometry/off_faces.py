@@ -53,7 +53,7 @@ def _nearest(
 
 def _outside(blocks: Sequence[Block], interfaces: Sequence[Interface], ends: Indices) -> Array:
     """How far corners of each interface lie outside the bounds of both its blocks, m, shape (2 m,)."""
-    corners = [one.centroid + one.polygon @ one.axes[:2] for one in interfaces]
+    corners = [one.corners for one in interfaces]
     least, most = (np.array([bound(each, axis=0) for each in corners])[:, None] for bound in (np.min, np.max))
     low, high = (
         np.array([bound(one.vertices, axis=0) for one in blocks])[ends] for bound in (np.min, np.max)

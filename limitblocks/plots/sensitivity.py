@@ -58,10 +58,9 @@ def sensitivity(
     largest = float(np.abs(joints).max(initial=0.0))
     for interface, value, colour in zip(model.interfaces, joints, _colours(joints), strict=True):
         share = abs(value) / largest if largest else 0.0
-        corners = interface.centroid + interface.polygon @ interface.axes[:2]
         matters = share > NONE
         style = {"facecolors": colour, "edgecolors": colour if matters else EDGE}
-        drawn.polygons([corners], linewidths=0.4 + (WIDEST - 0.4) * share, **style)
+        drawn.polygons([interface.corners], linewidths=0.4 + (WIDEST - 0.4) * share, **style)
     drawn.frame(np.concatenate(points))
     most = [number(float(np.abs(v).max(initial=0.0))) for v in (blocks, joints)]
     drawn.title(

@@ -54,7 +54,7 @@ def least_friction(kind):
 
 def at_upper_edge(interface, depth=1e-3):
     """The strip of that depth, m, along the upper edge of an upright contact."""
-    corners = interface.centroid + interface.polygon @ interface.axes[:2]
+    corners = interface.corners
     top = corners[:, 2].max()
     corners[:, 2] = np.maximum(corners[:, 2], top - depth)
     centre = np.array([*interface.centroid[:2], top - depth / 2])

@@ -233,9 +233,8 @@ def test_a_joint_narrowed_to_its_closed_corners():
     shut = own.ways[:, 2] < 1e-9
     width, depth = np.sort(np.ptp(strip.polygon, axis=0))
     assert (width, depth) == pytest.approx((0.01 * np.abs(own.interface.polygon).max(), 1.0), rel=1e-9)
-    corners = strip.centroid + strip.polygon @ strip.axes[:2]
     for corner in own.on_j[shut]:
-        assert np.linalg.norm(corners - corner, axis=1).min() < 1e-12
+        assert np.linalg.norm(strip.corners - corner, axis=1).min() < 1e-12
     assert abs(strip.polygon.mean(axis=0)).max() < 1e-12
     assert abs(strip.polygon[0] - strip.polygon[-1])[1] < 1e-12  # its longest side lies along the first axis
 

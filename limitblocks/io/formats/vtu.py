@@ -134,7 +134,7 @@ def _labels(blocks: Sequence[Block]) -> dict[str, Any]:
 def _interfaces(model: Model, path: Path, resultants: Array | None) -> tuple[Path, bytes]:
     """Return path and VTU file of the interfaces with their stress resultants (m, 6)."""
     parts = model.interfaces
-    points = [part.centroid + part.polygon @ part.axes[:2] for part in parts]
+    points = [part.corners for part in parts]
     ends = np.cumsum([0, *map(len, points)]).tolist()
     polygons = [np.arange(*span) for span in pairwise(ends)]
     cells: dict[str, Any] = {"interface": np.arange(len(parts))}
