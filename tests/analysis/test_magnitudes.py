@@ -278,10 +278,8 @@ def test_coordinates_that_rounding_changes_are_asked_about(off, asked):
 
 def test_a_force_on_a_block_without_a_unit_weight():
     blocks = [lb.Block.box("ground", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5))]
-    down, push = (
-        lb.loads.force("stone", (0, 0, -1e5), (0, 0, 1)),
-        lb.loads.force("stone", (1, 0, 0), (0, 0, 1)),
-    )
+    down = lb.loads.force("stone", (0, 0, -1e5), (0, 0, 1))
+    push = lb.loads.force("stone", (1, 0, 0), (0, 0, 1))
     model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, lb.PointContact(0.9)), down, push)
     assert lb.report(model, lb.bounds(model)).text
 

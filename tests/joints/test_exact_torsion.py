@@ -173,10 +173,8 @@ def test_stack_of_shapes_is_the_single_ones_scaled():
 
 
 def test_the_set_is_convex():
-    interface, joint = (
-        lb.joints.interface(POLYGONS["trapezium"], None),
-        lb.joints.ExactTorsion(MU, fineness=2),
-    )
+    interface = lb.joints.interface(POLYGONS["trapezium"], None)
+    joint = lb.joints.ExactTorsion(MU, fineness=2)
     rng = np.random.default_rng(3)
     held, surface = np.array([0, 0, -1.0, 0, 0, 0]), []
     for _ in range(40):
@@ -189,10 +187,8 @@ def test_the_set_is_convex():
 
 
 def test_flow_has_no_dilatancy_and_turns_about_the_point_of_action():
-    joint, interface = (
-        lb.joints.ExactTorsion(MU, fineness=1, compressive_strength=1e5),
-        lb.joints.interface(RECTANGLE, None),
-    )
+    joint = lb.joints.ExactTorsion(MU, fineness=1, compressive_strength=1e5)
+    interface = lb.joints.interface(RECTANGLE, None)
     Q = np.add(COMPRESSION, [5, 3, 0, 8.0, -12.0, 2.0])
     flow = joint.flow_directions(interface, Q, turning="centre of pressure")
     rows = joint.yield_rows(RECTANGLE[None])
