@@ -153,8 +153,8 @@ def _ahead(
         beyond = -to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
         if left >= -ZERO * scale or min(abs(way), beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
-        share = max(HALVING, min(most, point.load_factor / (point.load_factor - left)))
-        step, most = share * (way if way > 0.0 else step), HALVING
+        part = max(HALVING, min(most, point.load_factor / (point.load_factor - left)))
+        step, most = part * (way if way > 0.0 else step), HALVING
 
 
 def _next_step(assembly: Assembly, before: CapacityPoint | None, point: CapacityPoint, steps: int) -> float:
