@@ -24,7 +24,7 @@ from enum import IntEnum
 
 import numpy as np
 
-from limitblocks.analysis.elimination import Entries, elimination, factors_in_order, placed
+from limitblocks.evidence.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
@@ -166,7 +166,8 @@ def _proximal_solution(p: LimitProblem, active: Active, entries: Entries, r: Arr
 
 def _least_solution(p: LimitProblem, active: Active, entries: Entries, r: Array) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other."""
-    return least_solution(entries.square(len(r)), r, REGULAR)
+    order = elimination(p, p.row_interface[active.rows])  # of each unknown, and of its equation
+    return least_solution(entries, r, (order[:, None] + [0, len(r)]).ravel(), REGULAR)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
