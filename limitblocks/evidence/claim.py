@@ -90,11 +90,6 @@ ARRAYS = (
 )
 
 
-def as_lists(result: Any) -> dict[str, Any]:
-    """Return the arrays of a result that are claims, as lists."""
-    return {name: getattr(result, name).tolist() for name in ARRAYS}
-
-
 def refuse_other(model: Model, result: Any) -> None:
     """Refuse a result that says it belongs to another model; a load path says so by its collapse.
 

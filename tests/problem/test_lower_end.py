@@ -31,15 +31,9 @@ SQUARE = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
 PENTAGON = [(2.0, 0.0), (1.0, 1.2), (-0.8, 1.0), (-1.0, -0.7), (0.6, -1.4)]
 
 
-def prism(name, polygon, low, high, unit_weight=None):
-    n = len(polygon)
-    corners = [(x, y, z) for z in (low, high) for x, y in polygon]
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    return lb.Block(name, corners, [tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides], unit_weight)
-
-
 def problem_of(joint, polygon):
-    blocks = [prism("base", polygon, -0.2, 0.0), prism("stone", polygon, 0.0, 1.0, 20e3)]
+    base = lb.Block.prism("base", polygon, (-0.2, 0.0), along="z")
+    blocks = [base, lb.Block.prism("stone", polygon, (0.0, 1.0), 20e3, along="z")]
     interfaces = lb.find_interfaces(blocks, joint)
     return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))).problem
 

@@ -31,7 +31,7 @@ from limitblocks.practice import (
     verification,
     worst_position,
 )
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 MODEL = facades.beam()
 
@@ -55,16 +55,10 @@ class Heaviest(Result):
         ]
 
     def to_dict(self):
-        return {
-            "analysis": "heaviest blocks",
-            "names": list(self.names),
-            "weights": self.weights.tolist(),
-            "total": self.total,
-            "model_digest": self.digest,
-        }
+        return {"analysis": "heaviest blocks"} | kept(self, "names", "weights", "total", "digest")
 
     def __str__(self):
-        return f"{self.total:.6g} N on {len(self.names)} blocks{self._as_read}"
+        return self._line(f"{self.total:.6g} N on {len(self.names)} blocks")
 
 
 def heaviest(model):
