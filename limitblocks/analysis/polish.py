@@ -24,8 +24,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from limitblocks.evidence.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State

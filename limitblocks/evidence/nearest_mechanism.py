@@ -27,7 +27,9 @@ def nearest_mechanism(
     small ones keep their sign, and by their ease; those of rates by `ease`.
     """
     (s, n), w = problem.C.shape, may.parts(problem.cones, y)
-    C, strains, live = (Entries.of(A) for A in (problem.C, G.T @ may.columns, sparse.csr_array(problem.live[None])))
+    C, strains, live = (
+        Entries.of(A) for A in (problem.C, G.T @ may.columns, sparse.csr_array(problem.live[None]))
+    )
     entries = placed([(C, 0, 0), (strains, 0, n), (live, s, 0)])
     J = sparse.csr_array((entries.data, (entries.row, entries.column)), (s + 1, n + len(w)))
     order = _order(problem, may.columns)
