@@ -166,8 +166,8 @@ def _proximal_solution(p: LimitProblem, active: Active, entries: Entries, r: Arr
 
 def _least_solution(p: LimitProblem, active: Active, entries: Entries, r: Array) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other."""
-    order = elimination(p, p.row_interface[active.rows])  # of each unknown, and of its equation
-    return least_solution(entries, r, (order[:, None] + [0, len(r)]).ravel(), REGULAR)
+    order = elimination(p, p.row_interface[active.rows])
+    return least_solution(entries, r, np.stack([order, len(r) + order], axis=1).ravel(), REGULAR)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
