@@ -1,5 +1,7 @@
 """The facade of one block that several tests compare with closed forms."""
 
+from stones import model_of
+
 import limitblocks as lb
 from limitblocks.loads import added_mass
 
@@ -26,5 +28,4 @@ def beam():
         lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
         lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["left", "right"], lb.PointContact(0.6))

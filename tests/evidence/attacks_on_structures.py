@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from attacking import attack
+from stones import model_of
 from true_claims import DEPTH, MU, UNIT_WEIGHT, B, H, claimed, true
 
 import limitblocks as lb
@@ -40,8 +41,7 @@ def a_block_on_a_slope_too_steep(joint):
         lb.Block.box("slope", (4, 1, 0.2), (0, 0, -0.1)).moved(turn, (0, 0, 0)),
         lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), UNIT_WEIGHT).moved(turn, (0, 0, 0)),
     ]
-    found = lb.find_interfaces(blocks, joint)
-    return fallen(lb.Model(blocks, ["slope"], found, lb.self_weight(), lb.mass_proportional(DOWN)))
+    return fallen(model_of(blocks, ["slope"], joint, DOWN))
 
 
 @attack("standing")

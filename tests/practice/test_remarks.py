@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import studies
@@ -31,8 +32,7 @@ def pier():
     joint = lb.OrdunaLourenco(0.9, compressive_strength=20e3 * 4.0 / SHARE)
     ground = lb.Block.box("ground", (6, 6, 0.4), (0, 0, -0.2))
     blocks = [ground, lb.Block.box("pier", (1, 1, 4), (0, 0, 2), 20e3)]
-    contacts = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional(DIAGONAL))
+    return model_of(blocks, ["ground"], joint, DIAGONAL)
 
 
 def begun(pier):

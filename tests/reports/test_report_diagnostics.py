@@ -1,6 +1,7 @@
 """What contact detection saw beside the interfaces, in facts, in the report and on the command line."""
 
 import pytest
+from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -20,10 +21,8 @@ SEEN = {
 
 def model_with(name, at):
     blocks = [lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)), lb.Block.box("left", UNIT, (0, 0, 0.5), 1e3)]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
     blocks.append(lb.Block.box(name, UNIT, at))
-    live = lb.mass_proportional((1, 0, 0))
-    return lb.Model(blocks, ["ground", name], interfaces, lb.self_weight(), live)
+    return model_of(blocks, ["ground", name], lb.PointContact(0.5))
 
 
 @pytest.mark.parametrize("case", SEEN)

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.evidence.backward_error import unknown
@@ -25,8 +26,7 @@ def portal(name="lintel"):
         lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
         lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6))
 
 
 MODEL = portal()

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+from stones import model_of
+
 import limitblocks as lb
 
 
@@ -27,10 +29,4 @@ def jammed(joint):
         lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
         lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
     ]
-    return lb.Model(
-        blocks,
-        ["floor", "ceiling"],
-        lb.find_interfaces(blocks, joint),
-        lb.self_weight(),
-        lb.mass_proportional((1, 0, 0)),
-    )
+    return model_of(blocks, ["floor", "ceiling"], joint)
