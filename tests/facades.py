@@ -21,11 +21,11 @@ def facade(joint=None):
     return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
 
 
-def beam():
+def beam(joint=None):
     """A beam on two supports, beyond one of which it projects: 4 m long, 10 kN a metre."""
     stones = [
         lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
         lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
         lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
     ]
-    return model_of(stones, ["left", "right"], lb.PointContact(0.6))
+    return model_of(stones, ["left", "right"], joint or lb.PointContact(0.6))

@@ -6,7 +6,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
-from stones import model_of
+from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
@@ -119,12 +119,7 @@ def test_every_answer_is_confirmed(kind, turning):
 
 def test_confirmation_of_one_of_many_solutions():
     """Jammed without preload: every load factor from mu on is a solution, and the associated one is none."""
-    stones = [
-        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
-        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
-    ]
-    model = model_of(stones, ["floor", "ceiling"], lb.PointContact(friction=0.3))
+    model = jammed(lb.PointContact(friction=0.3))
     for method in ("path", "fixed point"):
         found = lb.nonassociated(model, method=method)
         assert found.load_factor >= 0.3 - 1e-8

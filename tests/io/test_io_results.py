@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from stones import model_of
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.evidence.claim import claim_of
@@ -22,12 +22,7 @@ PAGE = Path(__file__).parents[2] / "docs" / "result-file.md"
 
 
 def portal(joint, name="lintel"):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
+    blocks = portal_stones(lintel=name)
     return model_of(blocks, ["ground"], joint)
 
 

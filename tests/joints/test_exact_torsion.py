@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from rectangles import L1, L2, MU, RECTANGLE, SQUARE, N
 from scipy.optimize import brentq
 
 import limitblocks as lb
@@ -10,9 +11,6 @@ from limitblocks.joints.interaction import rectangle_torsion_bending, torsion_be
 from limitblocks.joints.limit_surface import limit_points
 from limitblocks.joints.torsion import rectangle_torsion_constant, torsion_constant
 
-L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0
-SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
-RECTANGLE = SQUARE * [L1, L2]
 COMPRESSION = np.array([0, 0, N, 0, 0, 0])
 TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
 POLYGONS = {

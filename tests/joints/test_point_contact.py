@@ -2,14 +2,12 @@
 
 import numpy as np
 import pytest
+from rectangles import L1, L2, MU, RECTANGLE, SQUARE, N
 
 import limitblocks as lb
 from limitblocks.joints.cutting_planes import farthest
 from limitblocks.joints.torsion import rectangle_torsion_constant
 
-L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0
-SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
-RECTANGLE = SQUARE * [L1, L2]
 TRIANGLE = np.array([(0.0, 0.0), (4.0, 0.0), (0.0, 1.0)])
 COMPRESSION = np.array([0, 0, N, 0, 0, 0])
 TORSION = (0, 0, 0, 0, 0, 1)

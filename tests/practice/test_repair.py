@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import facades
 import numpy as np
 import pytest
 from stones import model_of
@@ -182,12 +183,7 @@ def test_no_water_in_ties_strips_dowels_and_passive_fill():
 
 def beam():
     """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
-    stones = [
-        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
-        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
-        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
-    ]
-    return model_of(stones, ["left", "right"], JOINT)
+    return facades.beam(JOINT)
 
 
 def test_worst_position_is_the_end_of_the_overhang():

@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from stones import model_of
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.drawing import painter, picture
@@ -19,12 +19,7 @@ from limitblocks.reports.words import at_most
 
 
 def portal(name="lintel", joint=None):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
+    blocks = portal_stones(lintel=name)
     return model_of(blocks, ["ground"], joint or lb.OrdunaLourenco(0.6), name=f"Portal {name}")
 
 

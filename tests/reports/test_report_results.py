@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from stones import model_of
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.evidence.backward_error import unknown
@@ -20,12 +20,7 @@ from limitblocks.reports.words import at_most
 
 
 def portal(name="lintel"):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left <leg>", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
+    blocks = portal_stones("left <leg>", name)
     return model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6))
 
 

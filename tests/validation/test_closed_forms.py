@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from boxes import jammed, leaves
-from stones import model_of
+from boxes import leaves
+from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks import structures
