@@ -40,3 +40,18 @@ def sloping(stone, joint, direction):
         lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), stone).moved(turn, (0, 0, 0)),
     ]
     return model_of(blocks, ["slope"], joint, direction)
+
+
+def imbalance(model, load_factor, stress_resultants):
+    """Forces and moments on the free blocks about their centroids, (n, 6), joint by joint."""
+    loads = model.dead.on(model.free_blocks) + load_factor * model.live.on(model.free_blocks)
+    left = dict(zip((block.name for block in model.free_blocks), loads, strict=True))
+    centroid = {block.name: block.centroid for block in model.free_blocks}
+    for interface, Q in zip(model.interfaces, stress_resultants, strict=True):
+        f, m = interface.axes.T @ Q[:3], interface.axes.T @ Q[3:]
+        # N < 0 in compression and n points out of block i: +Q acts on block i, -Q on block j
+        for name, sign in ((interface.block_i, 1.0), (interface.block_j, -1.0)):
+            if name in left:
+                arm = interface.centroid - centroid[name]
+                left[name] = left[name] + sign * np.concatenate([f, m + np.cross(arm, f)])
+    return np.array(list(left.values()))
