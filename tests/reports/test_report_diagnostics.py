@@ -1,7 +1,6 @@
 """What contact detection saw beside the interfaces, in facts, in the report and on the command line."""
 
 import pytest
-from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -21,8 +20,10 @@ SEEN = {
 
 def model_with(name, at):
     blocks = [lb.Block.box("ground", (4, 1, 1), (0, 0, -0.5)), lb.Block.box("left", UNIT, (0, 0, 0.5), 1e3)]
+    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
     blocks.append(lb.Block.box(name, UNIT, at))
-    return model_of(blocks, ["ground", name], lb.PointContact(0.5))
+    live = lb.mass_proportional((1, 0, 0))
+    return lb.Model(blocks, ["ground", name], interfaces, lb.self_weight(), live)
 
 
 @pytest.mark.parametrize("case", SEEN)
