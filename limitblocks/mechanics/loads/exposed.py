@@ -17,12 +17,6 @@ _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not 
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
-def boxes(blocks: Sequence[Block]) -> tuple[Array, Array]:
-    """Return the lowest and the highest coordinates of each block, shapes (n, 3)."""
-    points = [block.vertices for block in blocks]
-    return np.array([p.min(axis=0) for p in points]), np.array([p.max(axis=0) for p in points])
-
-
 def open_to_the_sky(
     corners: Array,
     block: Block,
