@@ -38,7 +38,7 @@ def open_to_the_sky(
     blocks : sequence of Block
         What may cover it: the part of each above the plane of the face; of its own block if not convex.
     bounds : tuple of Array
-        :func:`boxes` of these blocks.
+        Least and greatest corners of these blocks.
     """
     if len(corners) < 3:
         return
