@@ -20,9 +20,9 @@ from scipy import sparse
 
 from limitblocks.analysis.complementarity import complementary
 from limitblocks.analysis.eigenpairs import Pairs, pairs
-from limitblocks.analysis.elimination import Entries, Factors, elimination, factors_in_order, placed
 from limitblocks.analysis.polish import admissible, defect, polished
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.elimination import Entries, Factors, elimination, factors_in_order, placed
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from lintels import JOINTS, lintel
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -69,8 +70,7 @@ def test_interval_contains_an_exact_load_factor(joint, mu):
         lb.Block.box("floor", (3.0, 3.0, 1.0), (0.5, 0.5, -0.5), 16.0),
         lb.Block.box("cube", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5), 16.0),
     ]
-    touching = lb.find_interfaces(blocks, joint(mu))
-    model = lb.Model(blocks, ["floor"], touching, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+    model = model_of(blocks, ["floor"], joint(mu))
     found = lb.bounds(model)
     assert found.proven
     assert found.lower <= mu <= found.upper
@@ -149,9 +149,7 @@ def wedged(joint):
         lb.Block.box("right", (1.0, 1.0, 1.0), (1.5, 0.5, 0.5), 2e4),
         lb.Block.box("floor", (1.0, 1.0, 1.0), (0.5, 0.5, -0.5), 2e4),
     ]
-    touching = lb.find_interfaces(blocks, joint)
-    live = lb.mass_proportional((0.0, 0.0, -1.0))
-    return lb.Model(blocks, ["left", "right", "floor"], touching, lb.self_weight(), live)
+    return model_of(blocks, ["left", "right", "floor"], joint, (0.0, 0.0, -1.0))
 
 
 def test_opening_mechanism_exists_where_nothing_can_be_wedged():

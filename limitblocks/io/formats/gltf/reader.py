@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
@@ -141,10 +142,8 @@ def _local(node: dict[str, Any]) -> Array:
     """Return the placement (4, 4) of a node in its parent."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
-    x, y, z, w = np.array(node.get("rotation", (0, 0, 0, 1)), dtype=np.float64)
     placement = np.eye(4)
-    twist = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    turn = np.eye(3) + 2.0 * (w * twist + twist @ twist) / (x * x + y * y + z * z + w * w)
+    turn = Rotation.from_quat(node.get("rotation", (0, 0, 0, 1))).as_matrix()
     placement[:3, :3] = turn * np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)
     placement[:3, 3] = node.get("translation", (0, 0, 0))
     return placement
