@@ -185,10 +185,8 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
     )
     n, a = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
     C, yields, loaded = Entries.of(p.C), np.arange(len(active.rows)), np.flatnonzero(p.live)
-    flows, no = (
-        Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T,
-        np.zeros_like(loaded),
-    )
+    flows = Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T
+    no = np.zeros_like(loaded)
     blocks = [
         (C, 0, n), (flows, 0, a + 1),
         (C.T, n, 0), (Entries(-p.live[loaded], loaded, no), n, a),

@@ -7,6 +7,7 @@ import shapely
 
 from limitblocks.arrays import Array
 from limitblocks.geometry.block import Block
+from limitblocks.geometry.polygon import axes_of
 from limitblocks.geometry.surface import winding
 
 
@@ -20,6 +21,6 @@ def distance(block: Block, point: Array) -> float:
 
 def beside(block: Block, face: int, point: Array) -> float:
     """Distance of a point from a face, convex or not, along its plane, m; zero above and below it."""
-    plane = np.linalg.svd(block.normals[[face]])[2][1:]
+    plane = axes_of(block.normals[face])[:2]
     outline = shapely.Polygon(block.vertices[list(block.faces[face])] @ plane.T)
     return float(shapely.distance(outline, shapely.Point(plane @ point)))

@@ -11,6 +11,7 @@ from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, edges_of, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
+from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.geometry.polyhedron import Faces
 from limitblocks.io.solid import Solid
 
@@ -118,7 +119,7 @@ def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list
     """Return the groups, those that point inward inside another put to it: they are its cavities."""
     shells = [tuple(loops[k] for k in group) for group in groups]
     bodies = [points[np.unique(np.concatenate(shell))] for shell in shells]
-    low, high = (np.array([f(body, axis=0) for body in bodies]) for f in (np.min, np.max))
+    low, high = bounds_of(bodies)
     volumes = np.array([_flux(points, shell) for shell in shells])
     whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
     for k in np.flatnonzero(volumes < 0.0).tolist():

@@ -61,10 +61,8 @@ def _closed(assembly: Assembly, wanted: Truths, scale: Array, barred: Array) -> 
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
         rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
-        rows, lack = (
-            sparse.vstack([rows, sparse.csr_array(barred)]),
-            np.append(-way[wanted], np.zeros(len(barred))),
-        )
+        rows = sparse.vstack([rows, sparse.csr_array(barred)])
+        lack = np.append(-way[wanted], np.zeros(len(barred)))
         step = lsmr(rows, lack, DAMP, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
     return assembly, way, left

@@ -15,13 +15,14 @@ from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure, force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
-from limitblocks.practice.elements import CORNERS, Element, axes_of
+from limitblocks.practice.elements import CORNERS, Element
 from limitblocks.practice.freed import as_before, other_supports, pressed
 from limitblocks.shown import Result, kept
 

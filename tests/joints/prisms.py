@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from stones import model_of
+
 import limitblocks as lb
 
 DOCS = (Path(__file__).parents[2] / "docs/choosing-a-joint.md").read_text(encoding="utf-8")
@@ -14,5 +16,4 @@ def prism(outline, height):
 
 
 def pushed(blocks, joint, direction):
-    contacts = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional((*direction, 0.0)))
+    return model_of(blocks, ["ground"], joint, (*direction, 0.0))

@@ -231,10 +231,8 @@ def test_cohesion_and_tension():
 @pytest.mark.parametrize("c", [0.0, 3e3])
 def test_tension_ends_at_cohesion_over_friction_in_bending_too(c):
     """Coulomb's law allows no tension beyond c / mu: a hinge forms at M1 = L2 (A c / mu - N)."""
-    joint, interface = (
-        lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=1e6),
-        lb.joints.interface(RECTANGLE, None),
-    )
+    joint = lb.OrdunaLourenco(MU, cohesion=c, tensile_strength=1e6)
+    interface = lb.joints.interface(RECTANGLE, None)
     moment = joint.strength(interface, (0, 0, 0, 1, 0, 0), COMPRESSION)
     assert moment == pytest.approx(L2 * (AREA * c / MU - N), rel=1e-9)
     assert any(f"tensile strength {c / MU / 1e3:.4g} kPa counts" in line for line in joint.assumed())

@@ -84,10 +84,8 @@ def test_only_what_is_below_the_level_and_not_covered_gets_fill():
 
 
 def test_a_hole_in_the_fill():
-    slab, post = (
-        lb.Block.box("slab", (4, 4, 1), (0, 0, 0.5), 1.0),
-        lb.Block.box("post", (1, 1, 5), (0.3, 0.2, 3.5), 1.0),
-    )
+    slab = lb.Block.box("slab", (4, 4, 1), (0, 0, 0.5), 1.0)
+    post = lb.Block.box("post", (1, 1, 5), (0.3, 0.2, 3.5), 1.0)
     load = lb.loads.fill(GAMMA, 2.0, blocks="slab").on([slab, post])[0]
     assert load[2] == pytest.approx(-GAMMA * 15)
     assert load[3:] == pytest.approx(np.cross((0.3, 0.2, 0), (0, 0, GAMMA)), abs=1e-6)

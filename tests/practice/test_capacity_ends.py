@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from few_blocks import sliding_block, toe_corner
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
@@ -30,9 +31,7 @@ B, H = 0.2, 1.0
 def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     """From one corner of a square to the other, a way longer than its side: it slides for ever."""
     stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
-    found = lb.find_interfaces(stones, lb.PointContact(0.1))
-    push = lb.mass_proportional((0.5**0.5, 0.5**0.5, 0))
-    curve = capacity_curve(lb.Model(stones, ["base"], found, lb.self_weight(), push), steps=2)
+    curve = capacity_curve(model_of(stones, ["base"], lb.PointContact(0.1), (0.5**0.5, 0.5**0.5, 0)), steps=2)
     assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
     assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
 
@@ -78,8 +77,7 @@ def test_blocks_that_meet_stop_the_curve():
         lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
         lb.Block.box("wall", (0.3, 1, 2.0), (B / 2 + 0.05 + 0.15, 0, 1.0)),
     ]
-    found = lb.find_interfaces(stones, JOINT)
-    model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base", "wall"], JOINT)
     curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
     assert curve.zero is None
     assert curve.ended.startswith("contacts that close, or blocks that meet, stop the mechanism at 0.05")
@@ -219,8 +217,7 @@ def test_curve_ends_where_the_control_point_turns_back():
         lb.Block.box("ground", (2, 1, 1), (0, 0, -0.5)),
         lb.Block.box("stone", (3, 1, 2), (0, 0, 1), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["ground"], lb.PointContact(2.0))
     curve = capacity_curve(model, control=("stone", (1.5, 0, 0.05)), steps=20)
     most, leans = np.hypot(0.5, 0.05), np.arctan2(0.05, 0.5)
     assert curve.zero is None

@@ -133,7 +133,7 @@ def test_an_unknown_kind_and_a_part_of_a_known_one_are_refused(toy, tmp_path):
         lb.LimitBlocksError, match=r"a report cannot show dict; expected a result: .*Heaviest"
     ):
         lb.report(MODEL, {})
-    with pytest.raises(lb.LimitBlocksError, match="this Heaviest belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="this Heaviest belongs to model"):
         lb.report(MODEL, replace(toy, digest="0" * 64))
 
 
