@@ -123,11 +123,7 @@ def test_what_is_above_the_level_covers_nothing():
 
 def test_level_through_a_slope_fills_the_lower_part():
     """Slope from z = 0 at x = 2 to z = 1 at x = 0, level 0.5: a prism 1 long, 0.5 high, 3 deep."""
-    wedge = lb.Block(
-        "wedge",
-        [(0, 0, 0), (2, 0, 0), (0, 0, 1), (0, 3, 0), (2, 3, 0), (0, 3, 1)],
-        [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)],
-    )
+    wedge = lb.Block.prism("wedge", [(0, 0), (2, 0), (0, 1)], (0, 3))
     load = lb.loads.fill(GAMMA, 0.5).on([wedge])[0]
     weight = GAMMA * 3 * 0.5 * 1 * 0.5
     assert load[2] == pytest.approx(-weight)
