@@ -18,10 +18,11 @@ from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.ends import floating
 from limitblocks.geometry.given_interfaces import interface_faults
+from limitblocks.geometry.interface import PLACE
 from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
-from limitblocks.shown import Viewed, many
+from limitblocks.shown import Viewed, kept, many
 from limitblocks.written import tagged, write
 
 SCHEMA_VERSION = 1
@@ -150,17 +151,7 @@ class Model(Viewed):
             ],
             "supports": list(self.supports),
             "joints": joints,
-            "interfaces": [
-                {
-                    "block_i": interface.block_i,
-                    "block_j": interface.block_j,
-                    "centroid": interface.centroid.tolist(),
-                    "axes": interface.axes.tolist(),
-                    "polygon": interface.polygon.tolist(),
-                    "joint": joint[id(interface.joint)],
-                }
-                for interface in self.interfaces
-            ],
+            "interfaces": [kept(one, *PLACE) | {"joint": joint[id(one.joint)]} for one in self.interfaces],
             **self._loads,
         }
 
@@ -198,10 +189,25 @@ def model_of(result: Any, model: Model | None = None) -> Model | None:
     ModelError
         If the result belongs to another model.
     """
-    digest = str(getattr(result, "digest", ""))
-    if model is not None and digest and digest != model.digest:
-        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
-    return model if model is not None else next((one for one in _MODELS if one.digest == digest), None)
+    if model is not None:
+        refuse_other(model, result)
+        return model
+    digest = getattr(result, "digest", "")
+    return next((one for one in _MODELS if one.digest == digest), None)
+
+
+def refuse_other(model: Model, result: Any) -> None:
+    """Refuse a result that says it belongs to another model; a load path says so by its collapse.
+
+    Raises
+    ------
+    ModelError
+        Its digest is another one.
+    """
+    digest = str(getattr(getattr(result, "collapse", result), "digest", ""))
+    if digest and digest != model.digest:
+        kind = type(result).__name__
+        raise ModelError(f"this {kind} belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
 
 
 def _name_problems(model: Model) -> list[str]:

@@ -7,12 +7,18 @@ know no report and no file format.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass
+from enum import Enum
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from limitblocks.arrays import Sealed
+
+#: In files, where the key is not the field's name.
+KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}
 
 
 def many(number: int, word: str, words: str = "") -> str:
@@ -28,6 +34,25 @@ def coordinate(value: float) -> str:
 def coordinates(point: Sequence[float]) -> str:
     """Return a point in m as text."""
     return f"({', '.join(map(coordinate, point))})"
+
+
+def kept(result: Any, *names: str) -> dict[str, Any]:
+    """Return what a file keeps of a result under these names: plain numbers, lists and text."""
+    return {KEYS.get(name, name): _plain(getattr(result, name)) for name in names}
+
+
+def _plain(value: Any) -> Any:
+    if hasattr(value, "to_dict"):
+        return value.to_dict()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    if isinstance(value, dict):
+        return dict(value)
+    if is_dataclass(value):
+        return kept(value, *(part.name for part in fields(value)))
+    return value.value if isinstance(value, Enum) else value
 
 
 class Shown(Sealed):
@@ -114,10 +139,9 @@ class Result(Viewed, Saved):
 
     from_file: bool = field(default=False, kw_only=True)
 
-    @property
-    def _as_read(self) -> str:
-        """What a line of it ends with."""
-        return "; as a file says, not checked" if self.from_file else ""
+    def _line(self, *parts: str) -> str:
+        """Return the parts of its line as one, with a word where only a file says so."""
+        return "; ".join((*parts, *("as a file says, not checked",) * self.from_file))
 
 
 def _notebook() -> Any:

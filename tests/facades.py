@@ -1,5 +1,7 @@
 """The facade of one block that several tests compare with closed forms."""
 
+from stones import model_of
+
 import limitblocks as lb
 from limitblocks.loads import added_mass
 
@@ -19,12 +21,11 @@ def facade(joint=None):
     return lb.Model(stones, ["ground"], found, lb.self_weight([floor]), push)
 
 
-def beam():
+def beam(joint=None):
     """A beam on two supports, beyond one of which it projects: 4 m long, 10 kN a metre."""
     stones = [
         lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
         lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
         lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["left", "right"], joint or lb.PointContact(0.6))

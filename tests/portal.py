@@ -3,6 +3,8 @@
 import copy
 import json
 
+from stones import model_of
+
 import limitblocks as lb
 
 PORTAL = {
@@ -24,8 +26,7 @@ PORTAL = {
 
 def _listed():
     blocks = [lb.Block.box(b["name"], **b["box"], unit_weight=b.get("unit_weight")) for b in PORTAL["blocks"]]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6))
     return json.loads(json.dumps(model.to_dict()))
 
 

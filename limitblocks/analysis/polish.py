@@ -24,8 +24,8 @@ from enum import IntEnum
 
 import numpy as np
 
-from limitblocks.analysis.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.evidence.nearest_mechanism import least_solution
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Cones, Flow, LimitProblem, State
@@ -166,7 +166,8 @@ def _proximal_solution(p: LimitProblem, active: Active, entries: Entries, r: Arr
 
 def _least_solution(p: LimitProblem, active: Active, entries: Entries, r: Array) -> Array:
     """Least-norm least-squares solution of J d = r, where rows contradict each other."""
-    return least_solution(entries.square(len(r)), r, REGULAR)
+    order = elimination(p, p.row_interface[active.rows])
+    return least_solution(entries, r, np.stack([order, len(r) + order], axis=1).ravel(), REGULAR)
 
 
 def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
@@ -184,10 +185,8 @@ def _equations(flow: Flow, now: State, active: Active) -> tuple[Array, Entries]:
     )
     n, a = p.C.shape[0], p.C.shape[0] + p.C.shape[1]
     C, yields, loaded = Entries.of(p.C), np.arange(len(active.rows)), np.flatnonzero(p.live)
-    flows, no = (
-        Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T,
-        np.zeros_like(loaded),
-    )
+    flows = Entries(np.ones(len(yields)), yields, active.rows).times(flow.matrix(now.x)).T
+    no = np.zeros_like(loaded)
     blocks = [
         (C, 0, n), (flows, 0, a + 1),
         (C.T, n, 0), (Entries(-p.live[loaded], loaded, no), n, a),

@@ -21,12 +21,12 @@ from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.shape import Field, moved
 from limitblocks.analysis.unique import Yielding
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
 from limitblocks.geometry import Interface
 from limitblocks.joints.base import joint_of
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.problem import LimitProblem, State
 
 STEP = 1e-5  # relative change of a datum in the difference of two assemblies
@@ -120,10 +120,7 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
 def _given(model: Model, bounds: Bounds) -> tuple[LimitProblem, State]:
     """The problem and the state of the bounds in SI units, its rates those of the free blocks."""
     refuse_kind(bounds, Bounds, "bounds")
-    if bounds.digest != model.digest:
-        raise ModelError(
-            f"bounds belong to model {bounds.digest[:12]}, not to this model {model.digest[:12]}"
-        )
+    refuse_other(model, bounds)
     supports = set(model.supports)
     free = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     return model.problem, State(

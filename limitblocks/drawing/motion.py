@@ -10,10 +10,9 @@ from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 
 #: Largest displacement shown, over the diagonal of the structure, and largest rotation shown, rad.
 SHOWN, TURN = 0.08, 0.25

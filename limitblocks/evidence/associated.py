@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.claim import as_lists
+from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import ASSOCIATED, Turning
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -103,10 +103,10 @@ class Bounds(Result):
     def __str__(self) -> str:
         worst = self.residuals.worst
         word = "proven" if self.proven else "not proven"
-        return (
+        return self._line(
             f"associated load factor {self.lower:.6g} (static) to {self.upper:.6g} (kinematic), "
-            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._wide}"
-            f"{''.join(f'; {one}' for one in self.remarks)}{self._as_read}"
+            f"gap {self.gap:.1e}, worst residual {worst.value:.1e} ({worst.name}), {word}{self._wide}",
+            *self.remarks,
         )
 
     @property
@@ -121,17 +121,7 @@ class Bounds(Result):
         """Return the result as plain numbers, lists and text."""
         return {
             "analysis": "bounds",
-            "lower": self.lower,
-            "upper": self.upper,
-            "gap": self.gap,
-            "worth": self.worth,
-            "proven": self.proven,
-            "proof": self.proof.to_dict(),
-            "residuals": self.residuals.to_dict(),
+            **kept(self, "lower", "upper", "gap", "worth", "proven", "proof", "residuals"),
             "residual_details": self.residuals.details(),
-            "tolerance": self.tolerance,
-            "remarks": list(self.remarks),
-            "solvers": list(self.solvers),
-            **as_lists(self),
-            "model_digest": self.digest,
+            **kept(self, "tolerance", "remarks", "solvers", *ARRAYS, "digest"),
         }

@@ -32,7 +32,7 @@ from limitblocks.evidence.standing import standing_state
 from limitblocks.evidence.steps import steps_residual
 from limitblocks.model import Model, checked_model
 from limitblocks.problem import Flow, LimitProblem, State, turning_of
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 
 @dataclass(frozen=True, repr=False)
@@ -102,16 +102,10 @@ class Check(Result):
         """Return the check as plain numbers and text."""
         return {
             "analysis": "check",
-            "passed": self.passed,
-            "residuals": self.residuals.to_dict(),
+            **kept(self, "passed", "residuals"),
             "residual_details": self.residuals.details(),
-            "tolerance": self.tolerance,
-            "backward_error": self.backward_error.to_dict(),
-            "backward_error_limit": self.limit,
-            "accepted": self.accepted,
-            "mechanism_found": self.mechanism_found,
-            "remarks": list(self.remarks),
-            "model_digest": self.digest,
+            **kept(self, "tolerance", "backward_error", "limit", "accepted", "mechanism_found"),
+            **kept(self, "remarks", "digest"),
         }
 
     def __str__(self) -> str:
@@ -120,9 +114,8 @@ class Check(Result):
             word = f"not passed, but exact for a model within {self.limit:g}"
         source = ", mechanism found by the checker" if self.mechanism_found else ""
         place = f" at {self.worst.where}" if self.worst.where else ""
-        said = "".join(f"; {remark}" for remark in self.remarks)
         worst = f"worst residual {self.worst.value:.1e} ({self.worst.name}{place})"
-        return f"check {word}: {worst}, {self.backward_error}{source}{said}{self._as_read}"
+        return self._line(f"check {word}: {worst}, {self.backward_error}{source}", *self.remarks)
 
 
 def check_mcp(model: Model, result: Any, *, tolerance: Any = None, backward_error: Any = None) -> Check:

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.problem import ASSOCIATED, Turning, turning_of
 from limitblocks.shown import Result
 
@@ -88,24 +88,6 @@ ARRAYS = (
     "generalised_stresses",
     "dead_load_stresses",
 )
-
-
-def as_lists(result: Any) -> dict[str, Any]:
-    """Return the arrays of a result that are claims, as lists."""
-    return {name: getattr(result, name).tolist() for name in ARRAYS}
-
-
-def refuse_other(model: Model, result: Any) -> None:
-    """Refuse a result that says it belongs to another model; a load path says so by its collapse.
-
-    Raises
-    ------
-    ModelError
-        Its digest is another one.
-    """
-    digest = str(getattr(getattr(result, "collapse", result), "digest", ""))
-    if digest and digest != model.digest:
-        raise ModelError(f"the result belongs to model {digest[:12]}, not to this model {model.digest[:12]}")
 
 
 def claim_of(model: Model, result: Any) -> Claim:

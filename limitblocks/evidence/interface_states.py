@@ -17,7 +17,7 @@ from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_r
 from limitblocks.evidence.utilisation import utilisation
 from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
-from limitblocks.model import Model, checked_model
+from limitblocks.model import Model, checked_model, refuse_other
 from limitblocks.problem import LimitProblem, Mode
 from limitblocks.shown import Tabular, many
 
@@ -164,12 +164,13 @@ def collapse_of(model: Model, result: Collapse | LoadPath) -> Collapse:
     given: Any = result
     collapse: Collapse = getattr(given, "collapse", given)
     kind = type(result).__name__
-    if any(getattr(collapse, name, None) is None for name in ("displacement_rates", "flow_multipliers")):
+    names = ("displacement_rates", "flow_multipliers")
+    if any(getattr(collapse, name, None) is None for name in names) or not collapse.digest:
         raise LimitBlocksError(
-            f"{kind} has no mechanism; expected the result of bounds, nonassociated or load_path"
+            f"{kind} has no mechanism of a model that it names; expected the result of bounds, nonassociated "
+            "or load_path"
         )
-    if collapse.digest != model.digest:
-        raise LimitBlocksError(f"this {kind} belongs to another model; give the model it is a result of")
+    refuse_other(model, given)
     return collapse
 
 

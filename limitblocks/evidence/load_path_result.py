@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.shown import Result, Shown, many
+from limitblocks.shown import Result, Shown, kept, many
 
 AGREE = 1e-6  # relative difference of two load factors that agree
 
@@ -139,17 +139,14 @@ class LoadPath(Result):
 
     def __str__(self) -> str:
         snaps = f", {many(len(self.snaps), 'snap')}" if self.snaps else ""
-        remarks = "".join(f"; {remark}" for remark in self.remarks)
-        return f"load path of {many(len(self.steps), 'step')}{snaps}: {self.collapse}{remarks}"
+        return "; ".join(
+            (f"load path of {many(len(self.steps), 'step')}{snaps}: {self.collapse}", *self.remarks)
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the path as plain numbers, lists and text."""
         steps = [
-            row
-            | {
-                "displacements": step.displacements.tolist(),
-                "stress_resultants": step.stress_resultants.tolist(),
-            }
+            row | kept(step, "displacements", "stress_resultants")
             for row, step in zip(self.rows(), self.steps, strict=True)
         ]
         places = {id(step): k for k, step in enumerate(self.steps)}
@@ -157,10 +154,7 @@ class LoadPath(Result):
             "analysis": "path",
             "steps": steps,
             "snaps": [[places[id(snap.before)], places[id(snap.after)]] for snap in self.snaps],
-            "trace": self.trace.tolist(),
-            "tracked": self.tracked,
-            "remarks": list(self.remarks),
-            "collapse": self.collapse.to_dict(),
+            **kept(self, "trace", "tracked", "remarks", "collapse"),
         }
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from scipy import sparse
 
-from limitblocks.arrays import Array
-from limitblocks.evidence.factors import diagonal_factors
+from limitblocks.arrays import Array, Indices
+from limitblocks.evidence.elimination import Entries, elimination, factors_in_order, placed
 from limitblocks.evidence.multipliers import Multipliers
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import LimitProblem
@@ -28,12 +26,14 @@ def nearest_mechanism(
     There are only the multipliers that `may` be. Changes are measured by the size of the multipliers, so that
     small ones keep their sign, and by their ease; those of rates by `ease`.
     """
-    n, w = problem.C.shape[1], may.parts(problem.cones, y)
-    live = sparse.csr_array(problem.live[None, :])
-    strains = sparse.csr_array(G.T @ may.columns)
-    blocks: list[list[Any]] = [[problem.C, strains], [live, None]]
-    J = sparse.csr_array(sparse.block_array(blocks if len(w) else [row[:1] for row in blocks]))
-    right, kept = np.append(np.zeros(len(J.indptr) - 2), 1.0), np.ones(len(w), dtype=bool)
+    (s, n), w = problem.C.shape, may.parts(problem.cones, y)
+    C, strains, live = (
+        Entries.of(A) for A in (problem.C, G.T @ may.columns, sparse.csr_array(problem.live[None]))
+    )
+    entries = placed([(C, 0, 0), (strains, 0, n), (live, s, 0)])
+    J = sparse.csr_array((entries.data, (entries.row, entries.column)), (s + 1, n + len(w)))
+    order = _order(problem, may.columns)
+    right, kept = np.append(np.zeros(s), 1.0), np.ones(len(w), dtype=bool)
     found, aim = None, CLOSE
     for further in reversed(range(ROUNDS)):
         w = np.where(kept, w, 0.0)
@@ -42,7 +42,8 @@ def nearest_mechanism(
         if before > EXACT:
             largest = float(np.abs(w).max(initial=0.0)) or 1.0
             size = np.maximum(np.abs(w[may.ray]) / largest, LEAST_MULTIPLIER)
-            d = _least_change(J, left, np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0)))
+            unit = np.append(np.full(n, ease), np.where(kept, may.ease * size, 0.0))
+            d = _least_change(entries, left, unit, order)
             u, w = u + d[:n], w + d[n:]
             left = right - J @ np.append(u, w)
         below = np.where(may.along, -w, 0.0) / (np.abs(w).max(initial=0.0) or 1.0)
@@ -64,21 +65,29 @@ def _share(left: Array, u: Array) -> float:
     return float(np.abs(left).max() / (np.abs(u).max() or 1.0))
 
 
-def _least_change(J: sparse.csr_array, r: Array, unit: Array) -> Array:
+def _order(problem: LimitProblem, columns: sparse.csr_array) -> Indices:
+    """Order of elimination of rates, multipliers w of the columns, and the equations of strains and work."""
+    (s, n), k, entries = problem.C.shape, columns.shape[1], columns.tocoo()
+    interface = np.zeros(k, dtype=np.int64)
+    interface[entries.col] = problem.row_interface[entries.row]
+    strains, work = n + k + np.arange(s), [n + k + s]
+    return np.concatenate([strains, np.arange(n), work, n + np.arange(k)])[elimination(problem, interface)]
+
+
+def _least_change(J: Entries, r: Array, unit: Array, order: Indices) -> Array:
     """Least change d, each part of it in its unit, with J d = r."""
-    columns = sparse.diags_array(unit)
-    length = np.sqrt((J @ columns).power(2).sum(axis=1))
-    scale = sparse.diags_array(1.0 / np.where(length > 0.0, length, 1.0))
-    scaled = sparse.csr_array(scale @ J @ columns)
-    return unit * least_solution(scaled, np.asarray(scale @ r), REGULAR)
+    data = J.data * unit[J.column]
+    length = np.sqrt(np.bincount(J.row, data * data, len(r)))
+    scale = 1.0 / np.where(length > 0.0, length, 1.0)
+    return unit * least_solution(J._replace(data=scale[J.row] * data), scale * r, order, REGULAR)
 
 
-def least_solution(J: sparse.csr_array, r: Array, regular: float) -> Array:
-    """Least-norm solution of J p = r, from the quasidefinite system.
+def least_solution(J: Entries, r: Array, order: Indices, regular: float) -> Array:
+    """Least-norm solution of J p = r, from the quasidefinite system, its unknowns eliminated in an order.
 
     [I J^T; J -eps] is regular for every J (Vanderbei 1995, SIAM J. Optimization 5).
     """
-    m, n = J.shape
-    eps = sparse.diags_array(np.full(m, -regular))
-    K = sparse.csc_array(sparse.block_array([[sparse.eye_array(n), J.T], [J, eps]]))
-    return np.asarray(diagonal_factors(K).solve(np.concatenate([np.zeros(n), r]))[:n])
+    every, n = np.arange(len(order)), len(order) - len(r)
+    diagonal = Entries(np.where(every < n, 1.0, -regular), every, every)
+    K = placed([(J.T, 0, n), (J, n, 0), (diagonal, 0, 0)])
+    return factors_in_order(K, order).solve(np.append(np.zeros(n), r))[:n]

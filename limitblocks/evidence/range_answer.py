@@ -9,7 +9,7 @@ from typing import Any
 from limitblocks.errors import few
 from limitblocks.evidence.check import Check
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.shown import Viewed
+from limitblocks.shown import Viewed, kept
 
 FEW = 0.1  # of the weight of all free blocks: a mechanism that moves less is local
 LIGHTLY = 0.5  # of the thrust under the permanent loads: less is low
@@ -89,10 +89,5 @@ class RangeAnswer(Viewed):
         return {
             "load_factor": self.load_factor,
             "origin": self.origin.name.lower().replace("_", " "),
-            "moving": list(self.moving),
-            "share": self.share,
-            "thrust": self.thrust,
-            "local": self.local,
-            "check": self.check.to_dict(),
-            "solution": self.solution.to_dict(),
+            **kept(self, "moving", "share", "thrust", "local", "check", "solution"),
         }

@@ -8,7 +8,7 @@ from typing import Any
 from limitblocks.errors import few
 from limitblocks.evidence.range_answer import SHOWN, Origin, RangeAnswer
 from limitblocks.problem import Turning
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 
 @dataclass(frozen=True)
@@ -76,9 +76,7 @@ class Extreme:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the extreme as plain numbers, lists and text."""
-        names = ("bound", "gap", "proven", "stress_limit", "multiplier_limit", "seconds")
-        answer = self.answer.to_dict() if self.answer else None
-        return {"answer": answer, **{name: getattr(self, name) for name in names}}
+        return kept(self, "answer", "bound", "gap", "proven", "stress_limit", "multiplier_limit", "seconds")
 
     def __str__(self) -> str:
         word = "proven" if self.proven else f"bound {self.bound:.6g}"
@@ -167,11 +165,10 @@ class LoadFactorRange(Result):
         start = f"{self.load_path.load_factor:.6g}" if self.load_path else "none"
         exact = f"; of all solutions {self.least} to {self.greatest}" if self.least else ""
         stopped = "" if self.complete else "; stopped early, by the time limit or by hand"
-        return (
+        return self._line(
             f"load factor {start} by the load path; {_span(self.reached)} reached from permanent-load "
-            f"states; {_span(self.certified)} certified, reachable or not{exact}{stopped}"
-            + "".join(f"; {remark}" for remark in self.remarks)
-            + self._as_read
+            f"states; {_span(self.certified)} certified, reachable or not{exact}{stopped}",
+            *self.remarks,
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -180,28 +177,9 @@ class LoadFactorRange(Result):
             "analysis": "range",
             "load_path": self.load_path.load_factor if self.load_path else None,
             "load_path_place": next((k for k, one in enumerate(self.answers) if one is self.load_path), None),
-            "reached": list(self.reached),
-            "certified": list(self.certified),
-            "intervals": [list(interval) for interval in self.intervals],
-            "unlimited": self.unlimited,
-            "frictionless": self.frictionless,
-            "associated": self.associated,
-            "wedging": {
-                "wedged": self.wedging.wedged,
-                "interfaces": list(self.wedging.interfaces),
-                "residual": self.wedging.residual,
-            },
-            "least": self.least.to_dict() if self.least else None,
-            "greatest": self.greatest.to_dict() if self.greatest else None,
-            "answers": [answer.to_dict() for answer in self.answers],
-            "paths": list(self.paths),
-            "mechanisms": list(self.mechanisms),
-            "complete": self.complete,
-            "remarks": list(self.remarks),
-            "dilatancy": self.dilatancy,
-            "turning": self.turning.value,
-            "tolerance": self.tolerance,
-            "model_digest": self.digest,
+            **kept(self, "reached", "certified", "intervals", "unlimited", "frictionless", "associated"),
+            **kept(self, "wedging", "least", "greatest", "answers", "paths", "mechanisms", "complete"),
+            **kept(self, "remarks", "dilatancy", "turning", "tolerance", "digest"),
         }
 
 

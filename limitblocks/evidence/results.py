@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.backward_error import BackwardError
-from limitblocks.evidence.claim import as_lists
+from limitblocks.evidence.claim import ARRAYS
 from limitblocks.evidence.ending import UNBOUNDED, Status
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 
 @dataclass(frozen=True)
@@ -152,31 +152,19 @@ class Nonassociated(Result):
         found = f"{self.load_factor:.6g}"
         if self.astray:
             found, said = "none found", (UNBOUNDED, *said)
-        return (
+        return self._line(
             f"non-associated load factor {found}, {least} {self.associated:.6g} (associated), "
-            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}"
-            f"{''.join(f'; {one}' for one in said)}{self._as_read}"
+            f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}",
+            *said,
         )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""
         return {
             "analysis": "nonassociated",
-            "load_factor": self.load_factor,
-            "frictionless": self.frictionless,
-            "unclaimed": self.unclaimed,
-            "associated": self.associated,
-            "status": self.status.value,
-            "dilatancy": self.dilatancy,
-            "turning": self.turning.value,
-            "remarks": list(self.remarks),
-            "residuals": self.residuals.to_dict(),
+            **kept(self, "load_factor", "frictionless", "unclaimed", "associated", "status", "dilatancy"),
+            **kept(self, "turning", "remarks", "residuals"),
             "residual_details": self.residuals.details(),
-            "tolerance": self.tolerance,
-            "backward_error": self.backward_error.to_dict(),
-            "how": self.how,
-            "fixed_point_change": self.fixed_point_change,
-            "history": [asdict(iteration) for iteration in self.history],
-            **as_lists(self),
-            "model_digest": self.digest,
+            **kept(self, "tolerance", "backward_error", "how", "fixed_point_change", "history"),
+            **kept(self, *ARRAYS, "digest"),
         }

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from limitblocks.arrays import Array
-from limitblocks.shown import Result, many
+from limitblocks.shown import Result, kept, many
 
 ROUNDING = 1e-9  # of the load factor: a change that is none
 
@@ -136,8 +136,9 @@ class Sensitivities(Result):
         sides = "" if self.unique else "; the mechanism is not unique, derivatives may be one-sided"
         if self.unique and not self.agreed.all():
             sides = f"; by the friction of {many(int((~self.agreed).sum()), 'joint')} it may be one-sided"
-        sides += "".join(f"; {one}" for one in self.remarks)
-        return f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}{self._as_read}"
+        return self._line(
+            f"sensitivities of load factor {self.load_factor:.6g}: {first}{sides}", *self.remarks
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the derivatives as plain numbers (None where there is none), lists and text."""
@@ -149,16 +150,7 @@ class Sensitivities(Result):
             **numbers,
             "weights": self.weights.tolist(),
             "frictions": _plain(self.frictions),
-            "positions": [
-                {"load": one.load, "term": one.term, "block": one.block, "gradient": one.gradient.tolist()}
-                for one in self.positions
-            ],
-            "unique": self.unique,
-            "agreed": self.agreed.tolist(),
-            "blocks": list(self.blocks),
-            "interfaces": list(self.interfaces),
-            "remarks": list(self.remarks),
-            "model_digest": self.digest,
+            **kept(self, "positions", "unique", "agreed", "blocks", "interfaces", "remarks", "digest"),
         }
 
 

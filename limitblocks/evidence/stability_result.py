@@ -13,7 +13,7 @@ from limitblocks.errors import few
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import Residual, Residuals, largest_of, residual, static_residuals
 from limitblocks.problem import Flow, State
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 TOLERANCE = 1e-6  # largest residual of stresses that arise, and of a mechanism
 
@@ -84,26 +84,23 @@ class Stability(Result):
     def __str__(self) -> str:
         moving = f"; {few(self.blocks)} would move" if self.blocks else ""
         worst = self.residuals.worst
-        return (
+        return self._line(
             f"{self.kind.value}{moving}; margin {self.margin:.3g}, worst residual {worst.value:.1e} "
-            f"({worst.name}){''.join(f'; {one}' for one in self.remarks)}{self._as_read}"
+            f"({worst.name})",
+            *self.remarks,
         )
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""
-        arrays = ("stress_resultants", "generalised_stresses", "arising", "displacement_rates")
         return {
             "analysis": "stability",
             "kind": self.kind.name.lower().replace("_", "-"),
             "stands": self.stands,
             "meaning": self.kind.value,
-            "margin": self.margin,
-            "blocks": list(self.blocks),
-            "residuals": self.residuals.to_dict(),
+            **kept(self, "margin", "blocks", "residuals"),
             "residual_details": self.residuals.details(),
-            **{name: None if (v := getattr(self, name)) is None else v.tolist() for name in arrays},
-            "remarks": list(self.remarks),
-            "model_digest": self.digest,
+            **kept(self, "stress_resultants", "generalised_stresses", "arising", "displacement_rates"),
+            **kept(self, "remarks", "digest"),
         }
 
 

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from scipy import optimize, sparse
+from scipy import sparse
 
 from limitblocks.arrays import Array
+from limitblocks.evidence.mechanism import PRECISE, linear_program
 from limitblocks.problem import Cones, LimitProblem
 from limitblocks.problem.cones import rays
 
 SIDES = 32  # of the polygon within each cone: 0.5 % of its strength is left out
-linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
 
 
 def standing_state(problem: LimitProblem) -> Array | None:
@@ -32,7 +30,7 @@ def standing_state(problem: LimitProblem) -> Array | None:
         b_eq=p.dead,
         bounds=[(None, None)] * p.C.shape[0] + [(None, 1.0)],
         method="highs",
-        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+        options=PRECISE,
     )
     return None if solution.x is None else np.asarray(solution.x[:-1])
 

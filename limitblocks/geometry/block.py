@@ -124,13 +124,7 @@ class Block(Sealed):
             given.wrong(name, f"along is {along!r}; x, y or z is needed")
         if not low < high:
             given.wrong(name, f"between is ({low:g}, {high:g}); the lesser place comes first")
-        u, v = points.T
-        turn = float(u @ np.roll(v, -1) - v @ np.roll(u, -1)) * (-1.0 if along == "y" else 1.0)
-        points, n = points[::-1] if turn > 0.0 else points, len(points)
-        sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
-        faces = (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
-        vertices = np.insert(np.tile(points, (2, 1)), AXES.index(along), np.repeat([low, high], n), axis=1)
-        return cls(name, vertices, faces, unit_weight)
+        return cls(name, *polyhedron.prism(points, low, high, AXES.index(along)), unit_weight)
 
     def __repr__(self) -> str:
         return f"<block {self.name!r}: size {self.size:.4g} m, volume {self.volume:.4g} m3>"

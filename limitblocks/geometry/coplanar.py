@@ -63,11 +63,15 @@ def divided(points: Array, faces: Faces) -> Faces:
             continue
         corners = points[list(face)]
         normal = area_vectors(corners, (tuple(range(len(face))),))[0]
-        # the two axes nearest to the plane, in the order that keeps the sense of rotation
-        k = int(np.abs(normal).argmax())
-        axes = [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
-        planar += [tuple(face[v] for v in trio) for trio in triangulate([corners[:, axes]]).tolist()]
+        trios = triangulate([corners[:, axes_along(normal)]])
+        planar += [tuple(face[v] for v in trio) for trio in trios.tolist()]
     return tuple(planar)
+
+
+def axes_along(normal: Array) -> list[int]:
+    """Return the two axes nearest to the plane of a normal, in the order that keeps the sense of rotation."""
+    k = int(np.abs(normal).argmax())
+    return [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
 
 
 def area_vectors(points: Array, faces: Faces) -> Array:

@@ -94,8 +94,14 @@ def sides_of(loops: Faces) -> tuple[Indices, Indices]:
     return np.array(sides, dtype=np.int64).reshape(-1, 2), owner
 
 
+def edges_of(sides: Indices) -> tuple[Indices, Indices, Indices]:
+    """Return the edges (q, 2), the edge (e,) of each of the sides (e, 2), and how many sides (q,) it has."""
+    edges, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    return edges, edge.reshape(-1), uses
+
+
 def open_sides(loops: Faces) -> Indices:
     """Return the sides (q, 2) that belong to one face only."""
     sides, _ = sides_of(loops)
-    _, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return np.asarray(sides[uses[edge.reshape(-1)] == 1])
+    _, edge, uses = edges_of(sides)
+    return np.asarray(sides[uses[edge] == 1])

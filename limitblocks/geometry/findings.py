@@ -43,11 +43,11 @@ class Overlap:
         Of two convex blocks the least translation that separates them. Otherwise the mean thickness of the
         common part, twice its volume over its surface; of several parts the largest, m.
     volume : float
-        Common volume, m3; nan when it cannot be told.
+        Common volume, m3.
     tolerance : float
         Depth that would be tolerated, m.
     share : float
-        Common volume over that of the smaller block; nan when it cannot be told.
+        Common volume over that of the smaller block.
     """
 
     block_i: str

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from limitblocks.arrays import Array, Sealed
 from limitblocks.geometry.polygon import areas
+
+#: What a file keeps of an interface beside its joint.
+PLACE = ("block_i", "block_j", "centroid", "axes", "polygon")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -36,6 +41,11 @@ class Interface(Sealed):
 
     def __repr__(self) -> str:
         return f"<interface {self.name!r}: area {areas(self.polygon):.4g} m2>"
+
+    @property
+    def corners(self) -> Array:
+        """Vertices in global axes, m, shape (n, 3)."""
+        return np.asarray(self.centroid + self.polygon @ self.axes[:2])
 
     @property
     def name(self) -> str:

@@ -13,7 +13,7 @@ from limitblocks.arrays import Array, Indices, tied
 from limitblocks.errors import GeometryError
 from limitblocks.geometry import coplanar
 from limitblocks.geometry.block import Block
-from limitblocks.geometry.cracks import closed, clusters, open_sides, renumbered, sides_of, tidy
+from limitblocks.geometry.cracks import closed, clusters, edges_of, open_sides, renumbered, sides_of, tidy
 from limitblocks.geometry.given import wrong
 from limitblocks.geometry.polyhedron import PLANE_TOLERANCE, Faces, odd_places
 from limitblocks.geometry.twisted import Twisted, fitted, triangulated, warps
@@ -140,9 +140,9 @@ def _welded(
 def _outward(name: str, points: Array, loops: Faces, notes: list[str]) -> Faces:
     """Return the faces turned outward, after a check that they enclose one solid."""
     sides, owner = sides_of(loops)
-    edges, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
+    edges, edge, uses = edges_of(sides)
     _refuse_open(name, points, edges, uses)
-    first, second = np.argsort(edge.reshape(-1), kind="stable").reshape(-1, 2).T
+    first, second = np.argsort(edge, kind="stable").reshape(-1, 2).T
     f, g, m = owner[first], owner[second], len(loops)
     turned = np.where(sides[first, 0] == sides[second, 0], m, 0)
     # each face appears twice, as given and turned: what is tied together has one sense

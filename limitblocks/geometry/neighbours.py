@@ -12,9 +12,13 @@ from limitblocks.arrays import Array, Indices
 
 def neighbours(points: Sequence[Array], tolerance: float) -> Indices:
     """Return the pairs (p, 2) of bodies, (n, 3) each, whose bounds, widened by `tolerance`, overlap."""
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
+    low, high = bounds_of(points)
     return overlapping_boxes(low - tolerance, high + tolerance)
+
+
+def bounds_of(points: Sequence[Array]) -> tuple[Array, Array]:
+    """Return the least and the greatest corner (b, 3) of bodies, (n, 3) each."""
+    return np.array([body.min(axis=0) for body in points]), np.array([body.max(axis=0) for body in points])
 
 
 def overlapping_boxes(low: Array, high: Array) -> Indices:

@@ -11,6 +11,7 @@ from limitblocks.geometry.accuracy import Tolerances, block_length, millimetres
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.ends import ends_of
 from limitblocks.geometry.interface import Interface
+from limitblocks.geometry.neighbours import bounds_of
 
 
 def off_faces(blocks: Sequence[Block], interfaces: Sequence[Interface], used: Tolerances) -> tuple[str, ...]:
@@ -53,9 +54,6 @@ def _nearest(
 
 def _outside(blocks: Sequence[Block], interfaces: Sequence[Interface], ends: Indices) -> Array:
     """How far corners of each interface lie outside the bounds of both its blocks, m, shape (2 m,)."""
-    corners = [one.centroid + one.polygon @ one.axes[:2] for one in interfaces]
-    least, most = (np.array([bound(each, axis=0) for each in corners])[:, None] for bound in (np.min, np.max))
-    low, high = (
-        np.array([bound(one.vertices, axis=0) for one in blocks])[ends] for bound in (np.min, np.max)
-    )
+    least, most = (bound[:, None] for bound in bounds_of([one.corners for one in interfaces]))
+    low, high = (bound[ends] for bound in bounds_of([one.vertices for one in blocks]))
     return np.asarray(np.maximum(low - least, most - high).max(axis=2).ravel())

@@ -7,12 +7,11 @@ from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.findings import Overlap
+from limitblocks.geometry.neighbours import bounds_of
 
 _CHUNK = 2_000_000  # distances held in memory at once
 _FEW = 1000  # pairs of edges that are tried before a common part is made
@@ -62,11 +61,10 @@ def find_overlaps(
             depth = min(depth, _edge_depth(first, second, limit))
         if depth <= limit:
             continue
-        if convex:
-            volume = _common_volume(first, second)
-        else:
-            depth, volume = _thickness(solid(i) ^ solid(j), limit)
+        common = solid(i) ^ solid(j)
+        depth = depth if convex else _thickness(common, limit)
         if depth > limit:
+            volume = float(common.volume())
             share = volume / min(blocks[i].volume, blocks[j].volume)
             overlaps.append(Overlap(blocks[i].name, blocks[j].name, depth, volume, limit, share))
     return tuple(overlaps)
@@ -78,23 +76,21 @@ def _solid(block: Block, points: Array) -> Any:
     return Manifold(Mesh64(np.array(points), block.triangles.astype(np.uint64)))
 
 
-def _thickness(common: Any, limit: float) -> tuple[float, float]:
-    """Return the largest mean thickness of the pieces of a solid, m, and its volume, m3.
+def _thickness(common: Any, limit: float) -> float:
+    """Return the largest mean thickness of the pieces of a solid, m.
 
     Faces that touch leave sheets without volume, which tie pieces together and count in their surface; what
     a solid has in common with itself a little aside has none.
     """
     parts = (common ^ common.translate((_ASIDE * limit).tolist())).decompose()
-    depth = max(
+    return max(
         (2.0 * part.volume() / part.surface_area() for part in parts if part.volume() > 0.0), default=0.0
     )
-    return depth, float(common.volume())
 
 
 def _bounds_depths(points: Sequence[Array], pairs: Indices) -> Array:
     """Return how deep the bounds of pairs of blocks overlap, (p,), m."""
-    low = np.array([body.min(axis=0) for body in points])
-    high = np.array([body.max(axis=0) for body in points])
+    low, high = bounds_of(points)
     i, j = pairs.T
     return np.asarray(np.minimum(high[i] - low[j], high[j] - low[i]).min(axis=1))
 
@@ -153,21 +149,3 @@ def _edge_depth(first: _Body, second: _Body, enough: float) -> float:
         if least <= enough:
             break
     return least
-
-
-def _common_volume(first: _Body, second: _Body) -> float:
-    """Return the volume common to two bodies that overlap, m3; nan when it cannot be told."""
-    normals = np.concatenate([first.normals, second.normals])
-    offsets = np.concatenate([first.offsets, second.offsets])
-    # the largest inscribed ball gives the interior point that Qhull needs, and the scale
-    rows = np.column_stack([normals, np.ones(len(normals))])
-    ball = linprog([0.0, 0.0, 0.0, -1.0], rows, offsets, bounds=(None, None))
-    if ball.x is None or ball.x[3] <= 0.0:
-        return float("nan")
-    centre, radius = ball.x[:3], float(ball.x[3])
-    try:
-        halfspaces = np.column_stack([normals, (normals @ centre - offsets) / radius])
-        corners = HalfspaceIntersection(halfspaces, np.zeros(3)).intersections
-        return float(ConvexHull(corners).volume) * radius**3
-    except QhullError:
-        return float("nan")

@@ -10,6 +10,7 @@ import shapely
 from limitblocks.arrays import Array, Indices
 from limitblocks.geometry.faces import FaceTable, projected
 from limitblocks.geometry.pieces import convex_pieces
+from limitblocks.geometry.polygon import axes_of
 
 #: Least area of an interface, relative to the block length squared and to the smaller of the two faces.
 SLIVER = 1e-3
@@ -48,10 +49,7 @@ def patches(faces: FaceTable, a: Indices, b: Indices, length: float) -> Patches:
     """Return the areas common to regions `a` and `b`, projected on the plane midway between them."""
     normal = faces.normal[a] - faces.normal[b]
     normal /= np.linalg.norm(normal, axis=1)[:, None]
-    t1 = np.cross(np.eye(3)[np.abs(normal).argmin(axis=1)], normal)
-    t1 /= np.linalg.norm(t1, axis=1)[:, None]
-    frame = np.stack([t1, np.cross(normal, t1), normal], axis=1)
-    origin = faces.middle[a]
+    frame, origin = axes_of(normal), faces.middle[a]
     first, second = (projected(faces, face, origin, frame) for face in (a, b))
     least = SLIVER * np.minimum(length**2, np.minimum(faces.area[a], faces.area[b]))
     bounds = np.stack([shapely.bounds(first), shapely.bounds(second)])

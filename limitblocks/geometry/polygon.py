@@ -111,6 +111,13 @@ def _neighbours(owner: Indices) -> tuple[Indices, Indices]:
     return before, after
 
 
+def axes_of(normals: Array) -> Array:
+    """Return right-handed axes s1, s2, n, rows (..., 3, 3), of unit normals (..., 3)."""
+    s1 = np.cross(np.eye(3)[np.abs(normals).argmin(axis=-1)], normals)
+    s1 /= np.linalg.norm(s1, axis=-1, keepdims=True)
+    return np.stack([s1, np.cross(normals, s1), normals], axis=-2)
+
+
 def longest_side(polygons: Array, planes: Array) -> Indices:
     """Return the index k (m,) of the longest side, from vertex k to vertex k + 1, of each polygon.
 

@@ -49,6 +49,19 @@ class Shape(NamedTuple):
     area_vectors: Array
 
 
+def prism(outline: Array, low: float, high: float, axis: int) -> tuple[Array, Faces]:
+    """Return vertices and faces of the prism of an outline (n, 2), turning either way, along an axis.
+
+    The outline is in the other two axes in their order.
+    """
+    u, v = outline.T
+    turn = float(u @ np.roll(v, -1) - v @ np.roll(u, -1)) * (-1.0 if axis == 1 else 1.0)
+    points, n = outline[::-1] if turn > 0.0 else outline, len(outline)
+    sides = ((k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n))
+    vertices = np.insert(np.tile(points, (2, 1)), axis, np.repeat([low, high], n), axis=1)
+    return vertices, (tuple(range(n)), tuple(reversed(range(n, 2 * n))), *sides)
+
+
 @lru_cache(maxsize=1024)
 def mesh(faces: Faces) -> Mesh:
     """Return the half-edges of `faces` (vertex indices, counter-clockwise seen from outside)."""

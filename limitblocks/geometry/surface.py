@@ -7,6 +7,7 @@ import shapely
 
 from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.neighbours import overlapping_boxes
+from limitblocks.geometry.polygon import axes_of
 from limitblocks.geometry.polyhedron import Mesh
 
 #: Sine of the turn at a corner, and height over size, that count as nothing.
@@ -73,9 +74,7 @@ def _loop(edges: Mesh, face: int) -> Indices:
 
 def _flat(points: Array, normal: Array) -> Array:
     """Return points (n, 3) in a right-handed frame of the plane square to `normal`, (n, 2)."""
-    t1 = np.cross(np.eye(3)[np.abs(normal).argmin()], normal)
-    t1 /= np.linalg.norm(t1)
-    return np.asarray((points - points[0]) @ np.column_stack([t1, np.cross(normal, t1)]))
+    return np.asarray((points - points[0]) @ axes_of(normal)[:2].T)
 
 
 def _piercing(points: Array, edges: Mesh, sides: tuple[Indices, Indices], size: float) -> str:

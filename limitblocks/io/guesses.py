@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array
+from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.shown import many
 
 #: Words for blocks that do not move, in names and layers: parts of words, and whole words with their plurals.
@@ -43,9 +44,8 @@ class Boxes(NamedTuple):
     @classmethod
     def of(cls, vertices: Sequence[Array], words: Sequence[tuple[str, str]]) -> Boxes:
         """Return the boxes of solids with these vertices, and (name, layer)."""
-        low, high = (np.array([f(points, axis=0) for points in vertices]) for f in (np.min, np.max))
         named = [any(SUPPORT_WORDS.search(word) for word in pair) for pair in words]
-        return cls(low, high, np.array(named))
+        return cls(*bounds_of(vertices), np.array(named))
 
     @property
     def size(self) -> float:

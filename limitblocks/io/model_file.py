@@ -17,7 +17,7 @@ from limitblocks.geometry import Block, Contacts, Interface, Tolerances, find_co
 from limitblocks.geometry.given_interfaces import interface_faults
 from limitblocks.io import faults, strict_json
 from limitblocks.io.materials import joint_of, materials_of, refuse_jointless
-from limitblocks.io.open_joints import tied
+from limitblocks.io.open_joints import joined
 from limitblocks.io.registry import TERMS
 from limitblocks.io.solid import WORDS
 from limitblocks.io.units import in_si
@@ -106,7 +106,7 @@ def _model(document: ModelDocument) -> Model:
     if contacts is None:
         model = Model(blocks, document.supports, *rest)
     else:
-        model = tied(contacts, blocks, document.supports, *rest)
+        model = joined(contacts, blocks, document.supports, *rest)
         for line in contacts.warnings:
             _log.warning("%s", line)
     refuse_jointless(model)

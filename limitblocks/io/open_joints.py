@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
+from limitblocks.arrays import tied
 from limitblocks.errors import ModelError, few
 from limitblocks.geometry import Block, Contacts, Interface, find_contacts
 from limitblocks.geometry.accuracy import millimetres
+from limitblocks.geometry.ends import ends_of
 from limitblocks.model import Model
 from limitblocks.shown import many
 
@@ -39,7 +40,7 @@ def open_joints(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
     return []
 
 
-def tied(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
+def joined(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
     """Return the model; where it is wrong, the error tells of the joints that are drawn open, too."""
     try:
         return Model(blocks, *rest)
@@ -50,13 +51,11 @@ def tied(contacts: Contacts, blocks: Sequence[Block], *rest: Any) -> Model:
 
 def _open_beds(contacts: Contacts, blocks: Sequence[Block]) -> list[str]:
     """Return the line that names joints drawn open between groups of blocks that touch; none if none are."""
-    places = {block.name: k for k, block in enumerate(blocks)}
-    i, j = ([places[getattr(one, end)] for one in contacts.interfaces] for end in ("block_i", "block_j"))
-    links = sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(blocks), len(blocks)))
-    groups, own = sparse.csgraph.connected_components(links, directed=False)
-    for gap in _WIDER * (groups > 1):
+    own = tied(ends_of(blocks, contacts.interfaces), len(blocks))
+    for gap in _WIDER * bool(own.any()):
         wide = find_contacts(blocks, None, gap=gap, width=contacts.tolerances.width)
-        across = [one for one in wide.interfaces if own[places[one.block_i]] != own[places[one.block_j]]]
+        i, j = own[ends_of(blocks, wide.interfaces)].T
+        across = [wide.interfaces[k] for k in np.flatnonzero(i != j)]
         if across:
             names, apart = few([one.name for one in across]), _distance(across, blocks)
             return [

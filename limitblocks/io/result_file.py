@@ -132,10 +132,8 @@ def _refuse_copies(said: Any, made: Any, place: str = "") -> None:
 def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
     if model and digest and digest != model.digest:
         said = f"belongs to model {digest[:12]}, not to this model {model.digest[:12]}"
-        saved, own = (
-            stated.get("limitblocks") if isinstance(stated, dict) else None,
-            versions()["limitblocks"],
-        )
+        saved = stated.get("limitblocks") if isinstance(stated, dict) else None
+        own = versions()["limitblocks"]
         if saved and saved != own:
             said += (
                 f"; it was saved by limitblocks {saved}, this is limitblocks {own}, which may know the same "

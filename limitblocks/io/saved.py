@@ -26,8 +26,8 @@ from limitblocks.evidence.residuals import Residual, Residuals
 from limitblocks.io.model_file import model_from
 from limitblocks.kinds import KINDS, Kind, named
 from limitblocks.model import Model
+from limitblocks.shown import KEYS
 
-_KEYS = {"digest": "model_digest", "limit": "backward_error_limit"}  # where the key is not the field's name
 #: What null stands for where it is not NaN.
 _NULL = {"associated": inf, "upper": inf, "lower": -inf, "stress_limit": inf, "multiplier_limit": inf}
 #: And in arrays that may have it.
@@ -110,7 +110,7 @@ def made(kind: Any, data: Any) -> Any:
     hints = get_type_hints(kind)
     said: dict[str, Any] = {}
     for field in fields(kind):
-        key = _KEYS.get(field.name, field.name)
+        key = KEYS.get(field.name, field.name)
         if field.name == "from_file":
             said[field.name] = True
         elif hints[field.name] is Residuals:

@@ -9,8 +9,9 @@ import numpy.typing as npt
 
 from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.coplanar import area_vectors
-from limitblocks.geometry.cracks import clusters, renumbered, sides_of
+from limitblocks.geometry.cracks import clusters, edges_of, renumbered, sides_of
 from limitblocks.geometry.mend import WELD
+from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.geometry.polyhedron import Faces
 from limitblocks.io.solid import Solid
 
@@ -86,7 +87,8 @@ def _groups(name: str, points: Array, loops: Faces) -> list[list[int]]:
 
 def _parts(loops: Faces) -> tuple[list[list[int]], npt.NDArray[np.bool_]]:
     """Return the faces that edges tie together, and whether each edge of them belongs to two of them."""
-    edge, owner, uses = _edges(loops)
+    sides, owner = sides_of(loops)
+    _, edge, uses = edges_of(sides)
     order = np.argsort(edge, kind="stable")
     same = np.flatnonzero(np.diff(edge[order]) == 0)
     part = tied(np.column_stack([owner[order[same]], owner[order[same + 1]]]), len(loops))
@@ -98,16 +100,10 @@ def _parts(loops: Faces) -> tuple[list[list[int]], npt.NDArray[np.bool_]]:
     return [group.tolist() for group in members], closed
 
 
-def _edges(loops: Faces) -> tuple[Indices, Indices, Indices]:
-    """Return the edge and the face of each side of the faces, and how many sides each edge has."""
-    sides, owner = sides_of(loops)
-    _, edge, uses = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return edge.reshape(-1), owner, uses
-
-
 def _by_order(loops: Faces) -> list[list[int]]:
     """Return the runs of faces that close one after the other; nothing where the last stays open."""
-    edge, owner, _ = _edges(loops)
+    sides, owner = sides_of(loops)
+    _, edge, _ = edges_of(sides)
     starts = np.flatnonzero(np.diff(owner, prepend=-1))
     groups: list[list[int]] = [[]]
     rim: set[int] = set()
@@ -123,7 +119,7 @@ def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list
     """Return the groups, those that point inward inside another put to it: they are its cavities."""
     shells = [tuple(loops[k] for k in group) for group in groups]
     bodies = [points[np.unique(np.concatenate(shell))] for shell in shells]
-    low, high = (np.array([f(body, axis=0) for body in bodies]) for f in (np.min, np.max))
+    low, high = bounds_of(bodies)
     volumes = np.array([_flux(points, shell) for shell in shells])
     whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
     for k in np.flatnonzero(volumes < 0.0).tolist():

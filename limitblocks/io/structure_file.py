@@ -15,7 +15,7 @@ from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import is_model_file, read_blocks
 from limitblocks.io.imported import ImportedBlocks, UnitWeight
 from limitblocks.io.materials import read_materials, refuse_jointless
-from limitblocks.io.open_joints import tied
+from limitblocks.io.open_joints import joined
 from limitblocks.io.supports import likely_supports
 from limitblocks.joints import Joint, Materials
 from limitblocks.mechanics import Load
@@ -141,7 +141,7 @@ def model_of(
     contacts.require()
     loads = self_weight() if dead is None else dead
     rest = (contacts.interfaces, loads, live, name, contacts.tolerances, imported.left_out)
-    model = tied(contacts, blocks, names, *rest)
+    model = joined(contacts, blocks, names, *rest)
     refuse_jointless(model)
     return model, contacts, vain
 

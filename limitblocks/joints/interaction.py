@@ -121,16 +121,6 @@ def effective_half_sides(l1: Any, l2: Any, N: Any, M1: Any, M2: Any) -> Array:
     return np.where(beyond, 0.0, np.maximum(sides - e, 0.0))
 
 
-def effective_stress(l1: Any, l2: Any, N: Any, M1: Any, M2: Any) -> Array:
-    """Uniform compressive stress on the effective rectangle, Pa, positive: |N| / (4 l1e l2e), Eq. (21).
-
-    Infinite at a hinge. The printed Eq. (21) has N^2 where it must be |N|^3.
-    """
-    area = 4 * effective_half_sides(l1, l2, N, M1, M2).prod(axis=-1)
-    with np.errstate(divide="ignore"):
-        return np.asarray(np.abs(N) / area)
-
-
 def rectangle_torsion_bending(l1: Any, l2: Any, friction: float, N: Any, M1: Any, M2: Any) -> Array:
     """Torsion strength of a rectangle under N, M1, M2 by the effective rectangle, N m (Fig. 8b).
 
@@ -204,24 +194,6 @@ def _torsion_constant_or_limit(area: Any) -> float:
     x1, x2, y1, y2 = (area.bounds[i] for i in (0, 2, 1, 3))
     length = float(np.hypot(x2 - x1, y2 - y1))
     return torsion_constant(area) if area.area > 10 * HINGE * length**2 else length / 4
-
-
-def torsion_shear_bending(
-    polygon: Region, friction: float, N: float, M1: float, M2: float, centres: Any
-) -> Array:
-    """Limit states (V1, V2, T), (..., 3), of the effective area for twisting centres (..., 2) (Section 3.2).
-
-    T is about the centroid of the whole polygon, N and N m. ModelError where no effective area is left.
-    """
-    shape = as_region(polygon)
-    area = effective_areas(shape, eccentricity(N, M1, M2)).item()
-    if area.area < 10 * HINGE * shape.area:
-        raise ModelError(
-            f"N = {N:g} N, M1 = {M1:g}, M2 = {M2:g} N m is at or beyond a hinge: no effective area"
-        )
-    twists = torsion_integrals(area, centres, shapely.get_coordinates(shape.centroid)[0])
-    per_unit = np.stack([twists.V1, twists.V2, twists.T_reference], axis=-1)
-    return np.asarray(shear_strength(friction, N) / area.area * per_unit)
 
 
 # ----------------------------------------------------------------------------------------- compression

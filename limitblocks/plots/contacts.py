@@ -13,7 +13,6 @@ from limitblocks.drawing.ties import has_area, tie_lines
 from limitblocks.errors import ModelError
 from limitblocks.evidence import interface_states as states
 from limitblocks.evidence.load_path_result import LoadPath
-from limitblocks.geometry import Interface
 from limitblocks.joints import Guide
 from limitblocks.model import Model
 from limitblocks.plots.drawing import Canvas
@@ -179,7 +178,7 @@ def interface_states(
     drawn = canvas(model, ax, plane)
     _pale(drawn, model)
     ties, drawable = tie_lines(model), has_area(model)
-    shapes = {k: _corners(one) for k, one in enumerate(model.interfaces) if drawable[k]}
+    shapes = {k: one.corners for k, one in enumerate(model.interfaces) if drawable[k]}
     guides = {k for k, one in enumerate(model.interfaces) if isinstance(one.joint, Guide)}
     counted = Counter(state for k, state in enumerate(interfaces.state) if k not in guides)
     for state in sorted(counted, key=[*COLOURS, *sorted(counted)].index):
@@ -201,10 +200,6 @@ def interface_states(
         drawn.plot(hinges, "o", color=BLACK, markersize=2.5, zorder=2e4, label="thrust at a hinge")
     drawn.legend()
     return drawn.ax
-
-
-def _corners(interface: Interface) -> Array:
-    return np.asarray(interface.centroid + interface.polygon @ interface.axes[:2])
 
 
 def _pale(drawn: Canvas, model: Model) -> None:

@@ -11,7 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from limitblocks.errors import LimitBlocksError, ModelError, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.results import Nonassociated
-from limitblocks.model import Model, checked_model
+from limitblocks.model import Model, checked_model, refuse_other
 from limitblocks.plots.style import (
     BLACK,
     BLUE,
@@ -107,8 +107,7 @@ def load_path(
     """
     checked_model(model)
     refuse_kind(path, LoadPath, "path")
-    if path.collapse.digest != model.digest:
-        raise LimitBlocksError("this LoadPath belongs to another model; give the model it is a result of")
+    refuse_other(model, path)
     names = [one.name for one in model.blocks]
     k, axis = _measured(path, names, block, component)
     x, loads = path.curve(k, axis)

@@ -9,9 +9,9 @@ from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
 from limitblocks.arrays import Array
-from limitblocks.errors import LimitBlocksError, refuse_kind
+from limitblocks.errors import refuse_kind
 from limitblocks.evidence.sensitivity_result import Sensitivities
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.plots.style import EDGE, PALE, SUPPORT, number
 from limitblocks.plots.views import canvas
 
@@ -45,8 +45,7 @@ def sensitivity(
         If the sensitivities belong to another model.
     """
     refuse_kind(sensitivities, Sensitivities, "sensitivities")
-    if sensitivities.digest != model.digest:
-        raise LimitBlocksError("these sensitivities belong to another model; give the model they are of")
+    refuse_other(model, sensitivities)
     drawn = canvas(model, ax, plane)
     blocks, joints = (
         np.where(np.abs(values) > ROUNDING * abs(sensitivities.load_factor), values, 0.0)
@@ -59,10 +58,9 @@ def sensitivity(
     largest = float(np.abs(joints).max(initial=0.0))
     for interface, value, colour in zip(model.interfaces, joints, _colours(joints), strict=True):
         share = abs(value) / largest if largest else 0.0
-        corners = interface.centroid + interface.polygon @ interface.axes[:2]
         matters = share > NONE
         style = {"facecolors": colour, "edgecolors": colour if matters else EDGE}
-        drawn.polygons([corners], linewidths=0.4 + (WIDEST - 0.4) * share, **style)
+        drawn.polygons([interface.corners], linewidths=0.4 + (WIDEST - 0.4) * share, **style)
     drawn.frame(np.concatenate(points))
     most = [number(float(np.abs(v).max(initial=0.0))) for v in (blocks, joints)]
     drawn.title(

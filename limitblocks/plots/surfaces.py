@@ -179,14 +179,9 @@ def _with_normal_force(
 
 
 def _side(joint: Queries, interface: Interface, direction: Array, given: Array) -> float:
-    """Strength with N at its limits, where rounding may put the state a hair outside."""
-    for share in (1.0, 1.0 - 1e-9):
-        try:
-            t = joint.strength(interface, direction, share * given)
-        except ModelError:
-            continue
-        return t if t < LONG * max(float(np.abs(given).max()), 1.0) else np.nan
-    return 0.0
+    """Strength along a direction; NaN where there is no limit."""
+    t: float = joint.strength(interface, direction, given)
+    return t if t < LONG * max(float(np.abs(given).max()), 1.0) else np.nan
 
 
 def _exact(joint: Queries, interface: Interface, names: tuple[str, str], N: float) -> Array:

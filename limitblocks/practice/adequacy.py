@@ -20,7 +20,7 @@ from limitblocks.joints import Dowel, Guide, Joint, Tie
 from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.partial_factors import PartialFactors
-from limitblocks.shown import Result, many
+from limitblocks.shown import Result, kept, many
 
 FRICTION = "friction"
 SYMBOLS = {FRICTION: "mu", "cohesion": "c", "tensile_strength": "f_t", "compressive_strength": "f_cef"}
@@ -91,26 +91,18 @@ class Adequacy(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return factors, values and results as numbers and text."""
-        names = ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S")
         return {
             "analysis": "adequacy",
-            "model_digest": self.digest,
-            "factors": {name: getattr(self.factors, name) for name in names},
-            "values": self.rows(),
+            **kept(self, "digest", "factors", "values"),
             "adequacy_factor": self.factor,
-            "satisfied": self.satisfied,
-            "model": self.model.to_dict(),
-            "characteristic": self.characteristic.to_dict(),
-            "bounds": self.bounds.to_dict(),
-            "result": self.result.to_dict() if self.result else None,
+            **kept(self, "satisfied", "model", "characteristic", "bounds", "result"),
         }
 
     def __str__(self) -> str:
         flow = "without dilatancy" if self.result else "associated"
         least = "at least one" if self.satisfied else "LESS than one"
         given = f"characteristic load factor {self.characteristic.lower:.6g}, associated"
-        said = "".join(f"; {one}" for one in self.remarks)
-        return f"adequacy factor {self.factor:.6g} ({flow}), {least}; {given}{said}{self._as_read}"
+        return self._line(f"adequacy factor {self.factor:.6g} ({flow}), {least}", given, *self.remarks)
 
 
 def adequacy(model: Model, factors: PartialFactors, *, without_dilatancy: bool = True) -> Adequacy:

@@ -9,6 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError
+from limitblocks.evidence.relative_rates import largest_rate
 from limitblocks.geometry import Block
 from limitblocks.joints import Backfill, Dowel, Guide, Tie
 from limitblocks.joints.base import joint_of, refuse_nameless_strength
@@ -162,10 +163,7 @@ def _parted(assembly: Assembly, sliding: list[bool], least: float) -> tuple[Asse
 def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:
     """Which corners of each contact are closed and stay so, and which contacts slide."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
-    sizes = np.array([block.size for block in assembly.model.blocks])
-    least = STILL * float(
-        (np.linalg.norm(rates[:, :3], axis=1) + sizes * np.linalg.norm(rates[:, 3:], axis=1)).max()
-    )
+    least = STILL * largest_rate(assembly.model, rates)
     held, sliding = [], []
     for own in assembly.contacts:
         speeds = [

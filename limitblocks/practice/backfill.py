@@ -10,11 +10,12 @@ import numpy as np
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Backfill
 from limitblocks.mechanics.loads import Fill
 from limitblocks.mechanics.loads.load import number, unit_vector
 from limitblocks.model import Model, checked_model
-from limitblocks.practice.elements import CORNERS, Element, axes_of
+from limitblocks.practice.elements import CORNERS, Element
 
 STEEP = 1e-9  # slope of a face along the deck that counts as none
 

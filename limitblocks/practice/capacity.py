@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from typing import Any
 
 import numpy as np
@@ -89,7 +89,7 @@ def capacity_curve(
     refuse_left_behind("capacity curve", model, ("dead", "live"))
     first = nonassociated(model)
     point = _control(model, first, control)
-    points, ended = gathered(_curve(model, first, point, steps, largest), CapacityPoint, progress)
+    points, ended = gathered(_curve(model, first, point, steps, largest), progress)
     points = points or [CapacityPoint(0.0, first.load_factor, 0.0, model, first, ())]
     zero = None if ended else zero_of(points)
     return CapacityCurve(tuple(points), point, zero, ended or f"load factor zero at {zero:.6g} m")
@@ -97,8 +97,8 @@ def capacity_curve(
 
 def _curve(
     model: Model, first: Nonassociated, control: Control, steps: int, largest: float
-) -> Iterator[CapacityPoint | str]:
-    """The points of the curve, then why it ends unless at zero."""
+) -> Generator[CapacityPoint, None, str | None]:
+    """Yield the points of the curve; return why it ends unless at zero."""
     assembly, scale = moving.assembly_of(model), first.load_factor
     assembly = pressed_in(assembly, list(range(len(model.interfaces))), first.stress_resultants)
     end = min(largest, whole := assembly.size)
@@ -108,29 +108,26 @@ def _curve(
         yield point
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
-            return  # below it where it jumps through zero
+            return None  # below it where it jumps through zero
         if point.displacement >= end * (1.0 - 1e-12):
             size = "" if largest <= whole else ", the size of the structure,"
-            yield f"the displacement {end:g} m{size} is reached"
-            return
+            return f"the displacement {end:g} m{size} is reached"
         if not (pace := _pace(assembly, control, point.result.displacement_rates)) > STILL:
-            yield (
+            return (
                 f"the control point of block {control.block!r} moves along the live load no more at "
                 f"{point.displacement:.6g} m; take one that goes on with the mechanism"
             )
-            return
         # no block moves farther than that, however slow the control point is
         next_step = min(_next_step(assembly, before, point, steps), whole / steps * min(pace, 1.0))
         step = min(next_step, end - point.displacement)
         found = _ahead(assembly, control, point, step, scale, to_zero(before, point))
         small = point.load_factor <= SMALL * scale and to_zero(before, point) <= EVENT * assembly.size
         if isinstance(found, str) and small:
-            return  # it ends at the last checked point, on the safe side of the zero
+            return None  # it ends at the last checked point, on the safe side of the zero
         if isinstance(found, str) or still:
-            yield found if isinstance(found, str) else stopped(point.displacement)
-            return
+            return found if isinstance(found, str) else stopped(point.displacement)
         before, (assembly, control, point) = point, found
-    yield f"{MOST * steps} points do not lead to an end"
+    return f"{MOST * steps} points do not lead to an end"
 
 
 def _ahead(
@@ -156,11 +153,8 @@ def _ahead(
         beyond = -to_zero(point, found[2]) if way > 0.0 else abs(way)  # the zero lies as far behind
         if left >= -ZERO * scale or min(abs(way), beyond) <= JUMP * assembly.size or found[2].snapped:
             return found
-        step, most = (
-            (way if way > 0.0 else step)
-            * max(HALVING, min(most, point.load_factor / (point.load_factor - left))),
-            HALVING,
-        )
+        part = max(HALVING, min(most, point.load_factor / (point.load_factor - left)))
+        step, most = part * (way if way > 0.0 else step), HALVING
 
 
 def _next_step(assembly: Assembly, before: CapacityPoint | None, point: CapacityPoint, steps: int) -> float:

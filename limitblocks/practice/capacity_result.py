@@ -12,7 +12,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
-from limitblocks.shown import Result, many
+from limitblocks.shown import Result, kept, many
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,16 +72,8 @@ class CapacityPoint:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the point with its model and its answer as numbers and text."""
-        return {
-            "displacement": self.displacement,
-            "load_factor": self.load_factor,
-            "shift": self.shift,
-            "changes": list(self.changes),
-            "across": list(self.across),
-            "snapped": self.snapped,
-            "model": self.model.to_dict(),
-            "result": self.result.to_dict(),
-        }
+        names = ("displacement", "load_factor", "shift", "changes", "across", "snapped", "model", "result")
+        return kept(self, *names)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -147,25 +139,16 @@ class CapacityCurve(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the curve as numbers and text."""
-        control = self.control
-        return {
-            "analysis": "capacity curve",
-            "model_digest": self.digest,
-            "control": {"block": control.block, "point": control.point.tolist(),
-                        "direction": control.direction.tolist()},
-            "points": [point.to_dict() for point in self.points],
-            "zero": self.zero,
-            "ended": self.ended,
-        }  # fmt: skip
+        return {"analysis": "capacity curve"} | kept(self, "digest", "control", "points", "zero", "ended")
 
     def __str__(self) -> str:
         first = self.points[0].load_factor
         filled = self.points[len(self.points) - 1].displacement > self.proven_to
         beyond = f"; beyond {self.proven_to:.4g} m joints press across their gaps" if filled else ""
-        return (
+        return self._line(
             f"capacity curve of {many(len(self.points), 'point')} from load factor {first:.6g}: "
-            f"{self.ended}{beyond}{''.join(f'; {one}' for one in self.remarks)}"
-            f"{self._as_read}"
+            f"{self.ended}{beyond}",
+            *self.remarks,
         )
 
 

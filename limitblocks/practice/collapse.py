@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -92,7 +92,7 @@ def settlement_to_collapse(
 
     first = SettlementPoint(0.0, found(model), ())
     lengths = min(step, FIRST * size), step, accuracy, largest
-    points, end = gathered(_way(assembly, control, first, found, lengths), SettlementPoint, progress)
+    points, end = gathered(_way(assembly, control, first, found, lengths), progress)
     falls, ended = (None, end) if isinstance(end, str) else end
     return SettlementCurve(tuple(points or [first]), falls, ended)
 
@@ -103,8 +103,8 @@ def _way(
     point: SettlementPoint,
     found: Callable[[Model], Settlement],
     lengths: tuple[float, float, float, float],
-) -> Iterator[SettlementPoint | tuple[float | None, str]]:
-    """The points, then the settlement at which it falls, or None, and why the way ends."""
+) -> Generator[SettlementPoint, None, tuple[float | None, str]]:
+    """Yield the points; return the settlement at which it falls, or None, and why the way ends."""
     step, longest, accuracy, largest = lengths
     falls: float | None = None
     end = min(largest, whole := assembly.size)
@@ -112,21 +112,18 @@ def _way(
         yield point
         if point.displacement >= end * (1.0 - 1e-12):
             size = "" if largest <= whole else ", the size of the structure,"
-            yield None, f"the settlement {end:g} m{size} is reached"
-            return
+            return None, f"the settlement {end:g} m{size} is reached"
         if not (
             point.reaction > CLOSED * point.found.settling.unit or _bears(assembly, control, point.found)
         ):
-            yield None, f"nothing rests on the support any more at {point.displacement:.6g} m"
-            return
+            return None, f"nothing rests on the support any more at {point.displacement:.6g} m"
         while True:
             step = min(step, end - point.displacement)
             at = point.displacement + step
             try:
                 there = advanced(assembly, control, _rates(point.found), step)
                 if there is None:
-                    yield None, stopped(point.displacement)
-                    return
+                    return None, stopped(point.displacement)
                 at = point.displacement + float((there.control.point - control.point) @ control.direction)
                 answer, why = found(there.assembly.model), ""
                 break
@@ -136,8 +133,7 @@ def _way(
                 until = "" if falls is None else f" until it falls at {falls:.9g} m"
                 why = f"no checked answer beyond {point.displacement:.6g} m{until}: {error}"
             if at - point.displacement <= accuracy:
-                yield falls, why
-                return
+                return falls, why
             step = (at - point.displacement) / 2.0
         there, point = _settled(there, at, answer, found)
         assembly, control = there.assembly, there.control

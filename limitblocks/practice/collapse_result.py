@@ -11,7 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array, read_only
 from limitblocks.model import Model
 from limitblocks.practice.settlement import Settlement
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,12 +48,7 @@ class SettlementPoint:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the point with its evidence as numbers and text."""
-        return {
-            "displacement": self.displacement,
-            "found": self.found.to_dict(),
-            "changes": list(self.changes),
-            "across": list(self.across),
-        }
+        return kept(self, "displacement", "found", "changes", "across")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -136,18 +131,10 @@ class SettlementCurve(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the curve as numbers and text."""
-        return {
-            "analysis": "settlement until collapse",
-            "model_digest": self.digest,
-            "support": self.support,
-            "direction": self.direction.tolist(),
-            "points": [point.to_dict() for point in self.points],
-            "stands_to": self.stands_to,
-            "falls": self.falls,
-            "ended": self.ended,
-        }
+        names = ("digest", "support", "direction", "points", "stands_to", "falls", "ended")
+        return {"analysis": "settlement until collapse"} | kept(self, *names)
 
     def __str__(self) -> str:
         first, last = self.reactions[[0, -1]].tolist()
         said = f"{self.support!r} settles from a reaction of {first:.6g} N to {last:.6g} N"
-        return f"{said}: {'; '.join((self.ended, *self.filled, *self.remarks))}{self._as_read}"
+        return self._line(f"{said}: {self.ended}", *self.filled, *self.remarks)

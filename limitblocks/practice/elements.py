@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.geometry import Interface
-from limitblocks.geometry.polygon import areas
+from limitblocks.geometry.polygon import areas, axes_of
 from limitblocks.joints import Dowel, Tie
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics import Load
@@ -227,11 +227,3 @@ def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie |
             interface.block_i, interface.block_j, point, interface.axes, read_only(side * CORNERS), joint
         )
     )
-
-
-def axes_of(normal: Array) -> Array:
-    """Right-handed axes s1, s2, n with the given unit normal."""
-    across = np.eye(3)[int(np.abs(normal).argmin())]
-    s1 = np.cross(across, normal)
-    s1 /= np.linalg.norm(s1)
-    return np.stack([s1, np.cross(normal, s1), normal])

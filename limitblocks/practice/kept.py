@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from typing import Any, Protocol, TypeVar
 
 from limitblocks.errors import NotConverged
@@ -31,17 +31,16 @@ def solved(analysis: Callable[..., A], *given: Any) -> A:
         raise
 
 
-def gathered(way: Iterator[Any], kind: type[P], progress: Callable[[P], None] | None) -> tuple[list[P], Any]:
-    """The points of a way and what it ends with: None at its own end, a sentence where the user stops it."""
+def gathered(way: Generator[P, None, A], progress: Callable[[P], None] | None) -> tuple[list[P], A | str]:
+    """The points of a way and what it returns at its end; a sentence where the user stops it."""
     points: list[P] = []
     try:
-        for one in way:
-            if not isinstance(one, kind):
-                return points, one
-            points.append(one)
+        while True:
+            points.append(next(way))
             if progress:
-                progress(one)
+                progress(points[-1])
+    except StopIteration as end:
+        return points, end.value
     except KeyboardInterrupt:
         at = points[-1].displacement if points else 0.0
         return points, f"interrupted beyond {at:.6g} m"
-    return points, None

@@ -12,6 +12,7 @@ from scipy.sparse.linalg import lsmr
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.geometry import find_contacts
+from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.overlap import find_overlaps
 from limitblocks.joints import Dowel
 from limitblocks.model import Model
@@ -60,10 +61,8 @@ def _closed(assembly: Assembly, wanted: Truths, scale: Array, barred: Array) -> 
         if left == 0.0 or left > last / 2.0:  # rounding is reached
             break
         rows = rows_of(assembly)[wanted.ravel()] @ sparse.diags_array(scale.ravel())
-        rows, lack = (
-            sparse.vstack([rows, sparse.csr_array(barred)]),
-            np.append(-way[wanted], np.zeros(len(barred))),
-        )
+        rows = sparse.vstack([rows, sparse.csr_array(barred)])
+        lack = np.append(-way[wanted], np.zeros(len(barred)))
         step = lsmr(rows, lack, DAMP, atol=1e-15, btol=1e-15, maxiter=20 * rows.shape[1])[0]
         assembly = moved(assembly, (scale.ravel() * step).reshape(-1, 6))
     return assembly, way, left
@@ -94,17 +93,14 @@ def meet(assembly: Assembly) -> bool:
     """Whether blocks that no interface joins overlap."""
     pairs = _apart(assembly, 0.0)
     points = [block.vertices for block in assembly.model.blocks]
-    return len(pairs) > 0 and bool(find_overlaps(assembly.model.blocks, points, pairs, MEETS * assembly.size))
+    return bool(find_overlaps(assembly.model.blocks, points, pairs, MEETS * assembly.size))
 
 
 def _apart(assembly: Assembly, reach: float) -> Indices:
-    """Pairs of blocks (p, 2) that no interface joins and whose boxes come nearer than `reach`, m."""
-    points = [block.vertices for block in assembly.model.blocks]
+    """Pairs of blocks (p, 2) that no interface joins and whose boxes come as near as `reach`, m."""
     joined = {tuple(sorted(own.ends)) for own in assembly.contacts}
-    low, high = (np.array([end(own, axis=0) for own in points]) for end in (np.min, np.max))
-    near = (low[:, None] < high[None] + reach).all(axis=2)
-    found = [pair for pair in np.argwhere(np.triu(near & near.T, 1)).tolist() if tuple(pair) not in joined]
-    return np.array(found, dtype=np.intp).reshape(-1, 2)
+    near = neighbours([block.vertices for block in assembly.model.blocks], reach / 2.0)
+    return near[[tuple(pair) not in joined for pair in near.tolist()]]
 
 
 def slid(assembly: Assembly, sliding: list[bool]) -> tuple[Assembly, tuple[str, ...]]:

@@ -22,7 +22,7 @@ from limitblocks.mechanics.loads.forces import MassProportional
 from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, reinforced
-from limitblocks.shown import Result, coordinates
+from limitblocks.shown import Result, coordinates, kept
 
 AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
 NONE = 1e-6  # of the largest: what is less is left out
@@ -73,23 +73,14 @@ class Repair(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the amounts and both results as numbers and text."""
-        return {
-            "analysis": "repair",
-            "model_digest": self.digest,
-            "required": self.required,
-            "candidates": list(self.candidates),
-            "amounts": self.amounts.tolist(),
-            "total": self.total,
-            "model": self.model.to_dict(),
-            "bounds": self.bounds.to_dict(),
-            "result": self.result.to_dict(),
-        }
+        names = ("digest", "required", "candidates", "amounts", "total", "model", "bounds", "result")
+        return {"analysis": "repair"} | kept(self, *names)
 
     def __str__(self) -> str:
-        return (
+        return self._line(
             f"least reinforcement {self.total:.6g} N: load factor {self.bounds.lower:.6g} associated, "
-            f"{self.result.load_factor:.6g} without dilatancy{''.join(f'; {one}' for one in self.remarks)}"
-            f"{self._as_read}"
+            f"{self.result.load_factor:.6g} without dilatancy",
+            *self.remarks,
         )
 
 

@@ -15,15 +15,16 @@ from limitblocks.errors import ModelError, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Guide
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import JointPressure, force
 from limitblocks.mechanics.loads.load import unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.backfill import fill_at_rest
-from limitblocks.practice.elements import CORNERS, Element, axes_of
+from limitblocks.practice.elements import CORNERS, Element
 from limitblocks.practice.freed import as_before, other_supports, pressed
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 JAMMED = (
     "settlement of {!r}: the structure jams against this motion, so that its reaction has no limit; check "
@@ -64,13 +65,7 @@ class Settling:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the model and its motion as numbers and text."""
-        return {
-            "support": self.support,
-            "direction": self.direction.tolist(),
-            "held": self.held,
-            "unit": self.unit,
-            "model": self.model.to_dict(),
-        }
+        return kept(self, "support", "direction", "held", "unit", "model")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -120,22 +115,13 @@ class Settlement(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the reactions and both results as numbers and text."""
-        return {
-            "analysis": "settlement",
-            "settling": self.settling.to_dict(),
-            "lower": self.lower,
-            "upper": self.upper,
-            "nonassociated": self.nonassociated,
-            "bounds": self.bounds.to_dict(),
-            "result": self.result.to_dict() if self.result else None,
-            "model_digest": self.digest,
-        }
+        names = ("settling", "lower", "upper", "nonassociated", "bounds", "result", "digest")
+        return {"analysis": "settlement"} | kept(self, *names)
 
     def __str__(self) -> str:
         least = f"least reaction of {self.settling.support!r}: {self.lower:.6g} to {self.upper:.6g} N"
         real = "" if self.nonassociated is None else f", {self.nonassociated:.6g} N without dilatancy"
-        said = "".join(f"; {one}" for one in self.remarks)
-        return least + " (associated)" + real + said + self._as_read
+        return self._line(f"{least} (associated){real}", *self.remarks)
 
 
 def settlement(

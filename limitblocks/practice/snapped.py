@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from scipy import optimize, sparse
+from scipy import sparse
 
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
+from limitblocks.evidence.mechanism import PRECISE, linear_program
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
 from limitblocks.practice.rejoined import rows_of
 
-linear_program: Any = optimize.linprog  # its stubs know no sparse matrices
-
 TURN = 0.05  # the largest displacement of a round over the size of its block
 ROUNDS = 100  # of linear programs, each from where the last one led
 FALLS = 1e-6  # power of the dead loads over that of all of them through the largest displacement: none below
 # presolve ends programs of opened joints, whose rows are nearly dependent, with Status 4 or at no optimum
-TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10, "presolve": False}
+TIGHT = PRECISE | {"presolve": False}
 
 
 def held(assembly: Assembly, control: Control, rates: Array, step: float, accuracy: float) -> Advanced | None:

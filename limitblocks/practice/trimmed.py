@@ -39,8 +39,7 @@ def trimmed(own: Contact, blocks: Sequence[Block], size: float) -> list[Contact]
         return []
     if (shapely.distance(corners, shared) <= OFF * size).all():
         return [own]
-    area = own.interface.centroid + own.interface.polygon @ own.interface.axes[:2]
-    whole, least = shapely.Polygon(area @ seen[:2].T), np.array([(OFF * size) ** 2])
+    whole, least = shapely.Polygon(own.interface.corners @ seen[:2].T), np.array([(OFF * size) ** 2])
     (left,) = common_areas(np.array([whole]), np.array([shared]), least, OFF * size)
     parts = np.array([part for part in shapely.get_parts(left) if part.area > least[0]])
     pieces, _ = convex_pieces(parts, np.tile([1.0, 0.0], (len(parts), 1)), np.zeros(len(parts)), OFF * size)

@@ -15,7 +15,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.practice.capacity_result import CapacityCurve, zero_of
 from limitblocks.practice.displacement_check import displacement_check
 from limitblocks.practice.inputs import (
@@ -208,8 +208,7 @@ def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple
     """Spectral displacement over that of the control point, [C8.7.1.4]."""
     if curve.zero is None:
         raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
-    if curve.digest != model.digest:
-        raise ModelError("the capacity curve belongs to another model")
+    refuse_other(model, curve)
     if not isclose(curve.zero, zero := zero_of(curve.points)):
         raise ModelError(
             f"the capacity curve says that it is zero at {curve.zero:g} m; by its last points, at {zero:g} m"

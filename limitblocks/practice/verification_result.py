@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from limitblocks.practice.moving_masses import MovingMass
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 CLAIMED = (
     "The push is along the live load alone: along other directions, also between two that were verified, "
@@ -123,20 +123,11 @@ class Verification(Result):
             "analysis": "verification",
             "quantities": self.rows(),
             "checks": [
-                {"name": one.name, "capacity": one.capacity, "demand": one.demand, "ratio": one.ratio,
-                 "unit": one.unit, "satisfied": one.satisfied, "source": one.source}
+                kept(one, "name", "capacity", "demand", "ratio", "unit", "satisfied", "source")
                 for one in self.checks
             ],
-            "moving": list(self.moving),
-            "masses": [
-                {"name": one.name, "block": one.block, "weight": one.weight, "horizontal": one.horizontal,
-                 "vertical": one.vertical}
-                for one in self.masses
-            ],
-            "left_out": self.left_out,
-            "remarks": list(self.remarks),
-            "model_digest": self.digest,
-        }  # fmt: skip
+            **kept(self, "moving", "masses", "left_out", "remarks", "digest"),
+        }
 
     def __str__(self) -> str:
         checks = (
@@ -144,7 +135,7 @@ class Verification(Result):
             for one in self.checks
         )
         said = (f"a0* = {self['a0*']:.4g} m/s2", *checks, *(self.left_out,) * bool(self.left_out))
-        return "; ".join(said) + self._as_read
+        return self._line(*said)
 
 
 def without_curve(found: Verification, ended: str) -> Verification:

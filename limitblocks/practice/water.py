@@ -60,8 +60,7 @@ def uplift(
             if interfaces is not None:
                 raise ModelError(f"interface {own.name} is of a {own.joint.word}, in which there is no water")
             continue
-        corners = own.centroid + own.polygon @ own.axes[:2]
-        wet, depth = part_where(corners, level - corners[:, 2])
+        wet, depth = part_where(own.corners, level - own.corners[:, 2])
         push, first = integrals(wet - own.centroid, share * weight * depth, own.axes[2])
         if not push > 0.0:
             if interfaces is not None:

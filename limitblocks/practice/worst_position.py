@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from limitblocks.model import Model
 from limitblocks.practice.envelope import Found, search
 from limitblocks.practice.influence import line_of
 from limitblocks.practice.vehicles import Deck, Vehicle, vehicle_load
-from limitblocks.shown import Result, coordinate
+from limitblocks.shown import Result, coordinate, kept
 
 STOPPED = "interrupted: a position that was not tried may be worse"
 
@@ -63,28 +63,19 @@ class WorstPosition(Result):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the envelope and the bounds at the worst position as numbers and text."""
-        return {
-            "analysis": "worst position",
-            "model_digest": self.digest,
-            "positions": self.positions.tolist(),
-            "load_factors": self.load_factors.tolist(),
-            "position": self.position,
-            "bounds": self.bounds.to_dict(),
-            "model": self.model.to_dict(),
-            "vehicle": asdict(self.vehicle),
-            "deck": asdict(self.deck),
-            "complete": self.complete,
-        }
+        names = ("positions", "load_factors", "position", "bounds", "model", "vehicle", "deck", "complete")
+        return {"analysis": "worst position"} | kept(self, "digest", *names)
 
     def __str__(self) -> str:
         acting = -float(self.model.live.on(self.model.free_blocks)[:, 2].sum())
         total = sum(self.vehicle.axles)
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
-        said = "".join(f"; {one}" for one in self.bounds.remarks)
-        return (
+        return self._line(
             f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{beyond}{said}{'' if self.complete else f'; {STOPPED}'}{self._as_read}"
+            f"{self.bounds.lower:.6g}{beyond}",
+            *self.bounds.remarks,
+            *(() if self.complete else (STOPPED,)),
         )
 
 

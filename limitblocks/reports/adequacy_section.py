@@ -5,7 +5,7 @@ from __future__ import annotations
 from limitblocks.model import Model
 from limitblocks.practice import Adequacy
 from limitblocks.reports.document import Table
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import at_least, at_most, rounded_down, with_unit
 
 FACTORED = (
@@ -45,8 +45,7 @@ def adequacy_section(_model: Model, found: Adequacy) -> Section:
             ),
             *real,
         ),
-        checks=checks_of(end.residuals, end.tolerance),
-        tolerance=end.tolerance,
+        judged=(end.residuals, end.tolerance),
         warnings=found.remarks,
         parts=(Table.of("Characteristic and design values", heads, rows, right=(2, 4, 5)),),
     )

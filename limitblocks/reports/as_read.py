@@ -27,6 +27,6 @@ def as_read(made: Section, result: Any) -> Section:
         return replace(made, warnings=(CHECKED, *made.warnings))
     values = (("Answer of the file", made.headline, AS_READ), *made.values)
     title = f"{made.title}, as a file says"
-    made = replace(made, title=title, values=values, checks=(), rates=None)
+    made = replace(made, title=title, values=values, judged=None, rates=None)
     made = replace(made, designs=(), upper=None, compared=())
     return replace(made, headline="not checked", warnings=(NOT_JUDGED,))

@@ -8,7 +8,7 @@ from limitblocks.model import Model
 from limitblocks.practice import CapacityCurve, CapacityPoint
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Table
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import cut
 from limitblocks.shown import coordinates
 
@@ -41,8 +41,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
             ("Control point", coordinates(curve.control.point.tolist()), f"m, on {curve.control.block}"),
             ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),
         ),
-        checks=checks_of(last.result.residuals, last.result.tolerance),
-        tolerance=last.result.tolerance,
+        judged=(last.result.residuals, last.result.tolerance),
         warnings=beyond + curve.remarks,
         curve=_capacity_curve(curve),
         parts=(_points(curve),),

@@ -9,6 +9,7 @@ from typing import Any
 from limitblocks.drawing.elevations import elevations
 from limitblocks.drawing.picture import Picture
 from limitblocks.drawing.ties import tie_lines
+from limitblocks.evidence.residuals import Residuals
 from limitblocks.io.result_file import versions
 from limitblocks.model import Model
 from limitblocks.reports.answer import UNDEMANDED, WARNING, answer, verdict
@@ -118,13 +119,18 @@ def chapter(one: Section, picture: Picture | None, title: str, interfaces: Seque
     if one.curve:
         parts.append(Figure(one.curve.sheet(), one.curve.caption))
     parts += [*interfaces, *one.parts]
-    caption = f"Residuals, recomputed without the solver; each at most {one.tolerance:.1e}"
-    checks = [(c.name, f"{c.value:.1e}", c.meaning, "pass" if c.passed else "FAIL") for c in one.checks]
-    if checks:
-        parts.append(
-            Table.of(caption, ("Residual", "Value", "What it measures", "Check"), checks, right=(1,))
-        )
+    if one.judged:
+        parts.append(_residuals(*one.judged))
     return Chapter(one.title, tuple(parts))
+
+
+def _residuals(residuals: Residuals, tolerance: float) -> Table:
+    caption = f"Residuals, recomputed without the solver; each at most {tolerance:.1e}"
+    rows = [
+        (one.name, f"{one.value:.1e}", one.meaning, "pass" if one.value <= tolerance else "FAIL")
+        for one in residuals.entries
+    ]
+    return Table.of(caption, ("Residual", "Value", "What it measures", "Check"), rows, right=(1,))
 
 
 def _answer(model: Model, sections: Sequence[Section], labels: Labels) -> Chapter:

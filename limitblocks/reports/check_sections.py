@@ -11,7 +11,7 @@ from limitblocks.evidence.stability_result import Stability
 from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.rows import SHOWN, backward, far, loose, number
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import cut
 
 OF_LOADS = "of the largest dead load tied to an interface"
@@ -32,8 +32,7 @@ def check_section(_model: Model, check: Check) -> Section:
             ("Mechanism and multipliers", source, "by which the flow rule was checked"),
             backward(check.backward_error),
         ),
-        checks=checks_of(check.residuals, check.tolerance),
-        tolerance=check.tolerance,
+        judged=(check.residuals, check.tolerance),
         warnings=check.remarks
         + (far(check.backward_error) if check.passed else ())
         + loose(check.tolerance, check.usual),
@@ -58,8 +57,7 @@ def claim_section(model: Model, claim: CheckedClaim) -> Section:
             ("Dilatancy", flow, "tangent of the dilatancy angle"),
             *check.values,
         ),
-        checks=check.checks,
-        tolerance=check.tolerance,
+        judged=check.judged,
         rates=claim.displacement_rates,
         warnings=check.warnings,
         designs=((claim.load_factor, "claimed solution, checked", check.warnings),)
@@ -86,8 +84,7 @@ def stability_section(_model: Model, answer: Stability) -> Section:
             ("Margin", f"{answer.margin:#.4g}", f"{OF_LOADS}; at most 1"),
             ("Blocks that move", few(answer.blocks, SHOWN) or "none", ""),
         ),
-        checks=checks_of(answer.residuals, ARISEN),
-        tolerance=ARISEN,
+        judged=(answer.residuals, ARISEN),
         rates=answer.displacement_rates,
         warnings=answer.remarks,
         own=not answer.stands,

@@ -9,7 +9,7 @@ from limitblocks.model import Model
 from limitblocks.practice import SettlementCurve
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Table
-from limitblocks.reports.section import LEGEND, Section, checks_of
+from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import cut, kilonewtons
 
 FOLLOWING = (
@@ -47,8 +47,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
             ("Reaction at rest", kilonewtons(first.reaction), f"least one, {flow}"),
             ("Reaction at the end", kilonewtons(last.reaction), curve.ended),
         ),
-        checks=checks_of(end.residuals, end.tolerance),
-        tolerance=end.tolerance,
+        judged=(end.residuals, end.tolerance),
         warnings=curve.filled + curve.remarks,
         curve=_curve(curve),
         parts=(_points(curve), _figure(curve)),

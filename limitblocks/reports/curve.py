@@ -133,10 +133,8 @@ def _curve(
     ticks: tuple[Ticks, Ticks],
 ) -> Curve:
     """Draw values through ticks; the first and the last tick, or a value beyond, end an axis."""
-    (x_places, x_ticks), (y_places, y_ticks) = (
-        _axis(values[0], ticks[0], LEFT, WIDTH - RIGHT),
-        _axis(values[1], ticks[1], HEIGHT - BOTTOM, TOP),
-    )
+    x_places, x_ticks = _axis(values[0], ticks[0], LEFT, WIDTH - RIGHT)
+    y_places, y_ticks = _axis(values[1], ticks[1], HEIGHT - BOTTOM, TOP)
     places = list(zip(x_places, y_places, strict=True))
     return Curve(
         *words,

@@ -8,7 +8,7 @@ from typing import Any
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
 from limitblocks.reports.document import Table
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import cut
 
 _LEFT_OUT = ("analysis", "model_digest", "tolerance")
@@ -31,8 +31,7 @@ def plain_section(_model: Model, result: Any) -> Section:
         headline=word if factor is None else cut(factor),
         quantity=str(result) if factor is None else "load factor α",
         values=tuple(_values(said)),
-        checks=checks_of(residuals, tolerance) if residuals else (),
-        tolerance=tolerance,
+        judged=(residuals, tolerance) if residuals else None,
         rates=getattr(result, "displacement_rates", None),
         parts=(_table(rows),) if rows else (),
     )

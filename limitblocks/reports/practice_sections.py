@@ -13,7 +13,7 @@ from limitblocks.practice import Repair, Settlement, WorstPosition
 from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
-from limitblocks.reports.section import LEGEND, Section, checks_of
+from limitblocks.reports.section import LEGEND, Section
 from limitblocks.reports.words import at_least, at_most, cut, kilonewtons
 from limitblocks.shown import coordinate
 
@@ -57,8 +57,7 @@ def settlement_section(_model: Model, found: Settlement) -> Section:
         headline=kilonewtons(least),
         quantity="least reaction" + (" without dilatancy" if found.result else ", associated flow"),
         values=tuple(values),
-        checks=checks_of(end.residuals, end.tolerance),
-        tolerance=end.tolerance,
+        judged=(end.residuals, end.tolerance),
         warnings=found.remarks,
         parts=(Figure(drawn, SETTLED.format(picture.magnification), LEGEND),),
     )
@@ -83,8 +82,7 @@ def repair_section(_model: Model, found: Repair) -> Section:
             ("Associated", at_least(found.bounds.lower), "static load factor of the reinforced structure"),
             ("Without dilatancy", f"{found.result.load_factor:#.7g}", "of the reinforced structure"),
         ),
-        checks=checks_of(found.result.residuals, found.result.tolerance),
-        tolerance=found.result.tolerance,
+        judged=(found.result.residuals, found.result.tolerance),
         warnings=_short_of(found) + found.remarks,
         parts=(Table.of("Reinforcement", ("Candidate", "Least"), rows, right=(1,)),),
     )
@@ -133,8 +131,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
                 f"of {kilonewtons(sum(found.vehicle.axles))}, at load factor one, at the worst position",
             ),
         ),
-        checks=checks_of(found.bounds.residuals, found.bounds.tolerance),
-        tolerance=found.bounds.tolerance,
+        judged=(found.bounds.residuals, found.bounds.tolerance),
         warnings=found.bounds.remarks + (() if found.complete else (STOPPED,)),
         curve=_envelope(x, np.where(np.isfinite(factors), factors, np.nan)),
         parts=parts,

@@ -8,7 +8,7 @@ from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import limits
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import cut
 
 MEANING = (
@@ -51,8 +51,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
             ("Paths", f"{ended} of {tried}", "ended at a solution"),
             ("Mechanisms", f"{led} of {drawn}", "drawn at random, led to one"),
         ),
-        checks=checks_of(shown.check.residuals, result.tolerance) if shown else (),
-        tolerance=result.tolerance,
+        judged=(shown.check.residuals, result.tolerance) if shown else None,
         rates=shown.solution.displacement_rates if shown else None,
         designs=tuple((one.load_factor, "range of load factors", one.solution.remarks) for one in arrived),
         warnings=result.remarks

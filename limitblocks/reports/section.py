@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals
@@ -12,15 +11,6 @@ from limitblocks.reports.document import Part
 
 #: Of drawings of a mechanism.
 LEGEND = (("moving", "moving"), ("still", "standing still"), ("support", "support"), ("ghost", "before"))
-
-
-class Check(NamedTuple):
-    """A recomputed residual and whether it is within the tolerance."""
-
-    name: str
-    value: float
-    meaning: str
-    passed: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,10 +25,8 @@ class Section:
         What counts, large, and what it is; mostly the load factor.
     values : tuple of (str, str, str)
         Quantity, value, and where it comes from.
-    checks : tuple of Check
-        Residuals.
-    tolerance : float
-        Largest residual accepted.
+    judged : (Residuals, float), optional
+        Recomputed residuals, and the largest accepted.
     rates : Array, shape (n, 6), optional
         Displacement rates of the mechanism to draw.
     warnings : tuple of str
@@ -64,8 +52,7 @@ class Section:
     meaning: str
     headline: str
     values: tuple[tuple[str, str, str], ...]
-    checks: tuple[Check, ...]
-    tolerance: float
+    judged: tuple[Residuals, float] | None = None
     rates: Array | None = None
     warnings: tuple[str, ...] = ()
     quantity: str = "load factor α"
@@ -76,9 +63,3 @@ class Section:
     own: bool = False
     judges: bool = False
     compared: tuple[tuple[str, str, str], ...] = ()
-
-
-def checks_of(residuals: Residuals, tolerance: float) -> tuple[Check, ...]:
-    """Return the residuals as checks."""
-    entries = residuals.entries
-    return tuple(Check(one.name, one.value, one.meaning, one.value <= tolerance) for one in entries)

@@ -8,7 +8,7 @@ from typing import Any
 from limitblocks.errors import LimitBlocksError
 from limitblocks.evidence.claim import Claim
 from limitblocks.kinds import KINDS, kind_of, named
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.reports.as_read import as_read
 from limitblocks.reports.section import Section
 
@@ -25,8 +25,7 @@ def section(model: Model, result: Any) -> Section:
     if kind is None:
         known = ", ".join(sorted(one.name for word, one in KINDS.items() if word != "claim"))
         raise LimitBlocksError(f"a report cannot show {type(result).__name__}; expected a result: {known}")
-    if getattr(getattr(result, "collapse", result), "digest", model.digest) != model.digest:
-        raise LimitBlocksError(f"this {kind.name} belongs to another model; give the model it is a result of")
+    refuse_other(model, result)
     made: Section = named(kind.section)(model, result)
     return as_read(made, result)
 

@@ -48,8 +48,6 @@ def sensitivity_section(_model: Model, found: Sensitivities) -> Section:
             ),
             ("Derivatives by friction", "two-sided" if agreed else "in part one-sided", sides),
         ),
-        checks=(),
-        tolerance=0.0,
         warnings=(() if found.unique else (ONE_SIDED,)) + found.remarks,
         parts=_tables(found),
     )

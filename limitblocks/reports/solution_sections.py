@@ -15,7 +15,7 @@ from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
-from limitblocks.reports.section import Section, checks_of
+from limitblocks.reports.section import Section
 from limitblocks.reports.words import at_least, at_most, cut
 from limitblocks.shown import many
 
@@ -44,8 +44,7 @@ def bounds_section(model: Model, bounds: Bounds) -> Section:
             ("Gap", f"{bounds.gap:.1e}", "difference over the load factor"),
             ("Proven", *_proven(bounds.proof)),
         ),
-        checks=checks_of(bounds.residuals, bounds.tolerance),
-        tolerance=bounds.tolerance,
+        judged=(bounds.residuals, bounds.tolerance),
         rates=bounds.displacement_rates,
         warnings=bounds.remarks + loose(bounds.tolerance, OF_BOUNDS),
         upper=bounds.upper,
@@ -74,8 +73,7 @@ def nonassociated_section(model: Model, result: Nonassociated) -> Section:
             backward(result.backward_error),
             *_confirmation(result),
         ),
-        checks=checks_of(result.residuals, result.tolerance),
-        tolerance=result.tolerance,
+        judged=(result.residuals, result.tolerance),
         rates=result.displacement_rates,
         warnings=_remarks(result) + loose(result.tolerance),
         curve=convergence_curve(result.history),
@@ -107,8 +105,7 @@ def path_section(model: Model, path: LoadPath) -> Section:
             ),
             *end.values[1:5],
         ),
-        checks=end.checks,
-        tolerance=end.tolerance,
+        judged=end.judged,
         rates=end.rates,
         warnings=end.warnings,
         parts=(_steps(path),),

@@ -68,8 +68,6 @@ def verification_section(_model: Model, found: Verification) -> Section:
         headline="not complete" if found.left_out else rounded_down(worst.ratio),
         quantity=_quantity(found, worst),
         values=(),
-        checks=(),
-        tolerance=0.0,
         judges=True,
         warnings=found.remarks,
         parts=(

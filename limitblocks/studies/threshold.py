@@ -13,7 +13,7 @@ from limitblocks.analysis.stability import remarked_margin
 from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
-from limitblocks.shown import many
+from limitblocks.shown import kept, many
 from limitblocks.studies.results import Rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
@@ -65,10 +65,11 @@ class Threshold(Rows):
         beside = f" with load factor {self.load_factor:g}" if self.load_factor else ""
         size, width = max(map(abs, self.bracket)), abs(self.falls - self.stands)
         digits = max(6, int(np.ceil(np.log10(size / width))) + 2)  # two of the width: the ends are told apart
-        return (
+        said = (
             f"{self.parameter} {self.stands:.{digits}g} stands, {self.falls:.{digits}g} falls{beside} "
-            f"({many(len(self.trials), 'trial')}){''.join(f'; {one}' for one in self.remarks)}"
+            f"({many(len(self.trials), 'trial')})"
         )
+        return "; ".join((said, *self.remarks))
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each trial, in ascending order."""
@@ -79,17 +80,9 @@ class Threshold(Rows):
 
     def to_dict(self) -> dict[str, Any]:
         """Return the result as plain numbers, lists and text."""
-        return {
-            "analysis": "study",
-            "study": type(self).__name__,
-            "parameter": self.parameter,
-            "value": self.value,
-            "bracket": list(self.bracket),
-            "tolerance": self.tolerance,
-            "load_factor": self.load_factor,
-            "remarks": list(self.remarks),
-            "rows": self.rows(),
-        }
+        names = ("parameter", "value", "bracket", "tolerance", "load_factor", "remarks")
+        kind = {"analysis": "study", "study": type(self).__name__}
+        return kind | kept(self, *names) | {"rows": self.rows()}
 
 
 def minimum(

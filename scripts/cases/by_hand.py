@@ -54,7 +54,7 @@ def least_friction(kind):
 
 def at_upper_edge(interface, depth=1e-3):
     """The strip of that depth, m, along the upper edge of an upright contact."""
-    corners = interface.centroid + interface.polygon @ interface.axes[:2]
+    corners = interface.corners
     top = corners[:, 2].max()
     corners[:, 2] = np.maximum(corners[:, 2], top - depth)
     centre = np.array([*interface.centroid[:2], top - depth / 2])
@@ -130,10 +130,8 @@ def frame_falls(joint):
 def soil_wedge(joint):
     """A wall, 1.2 m x 3 m, that a wedge of soil pushes off; the load is the weight of the wedge."""
     top = -3.0 / math.tan(BACK)
-    wall, soil = (
-        prism("wall", [(0, 0), (1.2, 0), (1.2, 3), (0, 3)], 24e3),
-        prism("soil", [(0, 0), (0, 3), (top, 3)]),
-    )
+    wall = prism("wall", [(0, 0), (1.2, 0), (1.2, 3), (0, 3)], 24e3)
+    soil = prism("soil", [(0, 0), (0, 3), (top, 3)])
     bank = prism("bank", [(0, 0), (top, 3), (top - 1, 3), (-1, 0)], None)
     floor = lb.Block.box("floor", (6, 1, 1), (3, 0, -0.5))
     angles = {"bank": SOIL, "wall": ROUGH}  # of the other side of the wedge

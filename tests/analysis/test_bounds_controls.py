@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 from scipy.linalg import null_space
+from stones import model_of, sloping
 
 import limitblocks as lb
 from limitblocks import structures
@@ -109,8 +110,7 @@ def test_no_equilibrium_names_exactly_the_blocks_that_fall(joint):
         stone("right 2", 2.2, 0.75),
         stone("right 3", 2.71, 1.25),  # its centroid is 0.01 m outside the stone below
     ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((-1, 0, 0)))
+    model = model_of(blocks, ["ground"], joint, (-1, 0, 0))
     with pytest.raises(lb.errors.NoEquilibrium) as caught_error:
         lb.bounds(model)
     assert caught_error.value.blocks == ("right 3",)
@@ -124,22 +124,10 @@ def test_a_stack_that_leans_too_far_falls_whatever_the_live_load(direction):
         lb.bounds(replace(model, live=lb.mass_proportional(direction)))
 
 
-def frictionless_slope(direction):
-    """A block on a frictionless slope: only a force up the slope holds it."""
-    angle = np.arctan2(1.0, 2.0)
-    turn = np.array([(np.cos(angle), 0, np.sin(angle)), (0, 1, 0), (-np.sin(angle), 0, np.cos(angle))])
-    blocks = [
-        lb.Block.box("slope", (4, 1, 0.2), (0, 0, -0.1)).moved(turn, (0, 0, 0)),
-        lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), 20e3).moved(turn, (0, 0, 0)),
-    ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.0))
-    return lb.Model(blocks, ["slope"], interfaces, lb.self_weight(), lb.mass_proportional(direction))
-
-
 @pytest.mark.parametrize("direction", [(1, 0, 0), (0, 1, 0), (-1, 0, 0)])
 def test_a_block_on_a_frictionless_slope_has_no_equilibrium(direction):
     with pytest.raises(lb.errors.NoEquilibrium) as caught_error:
-        lb.bounds(frictionless_slope(direction))
+        lb.bounds(sloping(20e3, lb.PointContact(0.0), direction))
     assert caught_error.value.blocks == ("block",)
 
 

@@ -8,6 +8,7 @@ from unittest.mock import Mock
 import cvxpy as cp
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -62,9 +63,7 @@ def test_an_unlimited_load_has_no_state():
         lb.Block.box("wall", (1.0, 1.0, 1.0), (1.0, 0.0, 0.5)),
         lb.Block.box("cube", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), 16.0),
     ]
-    touching = lb.find_interfaces(blocks, joint)
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    model = lb.Model(blocks, ["floor", "wall"], touching, lb.self_weight(), push)
+    model = model_of(blocks, ["floor", "wall"], joint)
     assert not np.isfinite(Programs(form_of(model.problem)).limit_state(DIRECT).load_factor)
     with pytest.raises(lb.errors.UnlimitedLoad):
         lb.bounds(model)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
+from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
@@ -33,8 +34,7 @@ def flat_block(joint):
         lb.Block.box("base", (3.0, 3.0, 0.2), (0, 0, -0.1)),
         lb.Block.box("stone", (1.0, 1.0, 0.5), (0, 0, 0.25), 20e3),
     ]
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    return lb.Model(stones, ["base"], lb.find_interfaces(stones, joint), lb.self_weight(), push)
+    return model_of(stones, ["base"], joint)
 
 
 def lintel(kind):
@@ -83,8 +83,7 @@ def test_rounding_leaves_no_friction_limit_below_zero(monkeypatch):
         lb.Block.box("base", (3, 3, 0.2), (0, 0, -0.1)),
         lb.Block.box("stone", (0.5, 1, 1), (0, 0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(stones, lb.PointContact(0.8))
-    model = lb.Model(stones, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], lb.PointContact(0.8))
     found = lb.nonassociated(model)
     assert found.load_factor == pytest.approx(0.5)
     problem, none = model.problem, (np.zeros(6), np.zeros(len(model.problem.g)))
@@ -120,14 +119,7 @@ def test_every_answer_is_confirmed(kind, turning):
 
 def test_confirmation_of_one_of_many_solutions():
     """Jammed without preload: every load factor from mu on is a solution, and the associated one is none."""
-    stones = [
-        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
-        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
-    ]
-    interfaces = lb.find_interfaces(stones, lb.PointContact(friction=0.3))
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    model = lb.Model(stones, ["floor", "ceiling"], interfaces, lb.self_weight(), push)
+    model = jammed(lb.PointContact(friction=0.3))
     for method in ("path", "fixed point"):
         found = lb.nonassociated(model, method=method)
         assert found.load_factor >= 0.3 - 1e-8

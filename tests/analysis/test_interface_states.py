@@ -259,7 +259,7 @@ def test_turned_model_has_the_same_states():
 def test_result_of_another_model_is_refused():
     model = model_of([GROUND, stone()], lb.OrdunaLourenco(friction=0.5), lb.mass_proportional((1, 0, 0)))
     other = model_of([GROUND, stone()], lb.OrdunaLourenco(friction=0.4), lb.mass_proportional((1, 0, 0)))
-    with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         interface_states(other, lb.bounds(model))
     with pytest.raises(lb.LimitBlocksError, match="Claim has no mechanism"):
         interface_states(model, lb.results.Claim(0.5, np.zeros((1, 6))))

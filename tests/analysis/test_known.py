@@ -9,6 +9,7 @@ from dataclasses import replace
 import cvxpy as cp
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.analysis.direct import Programs
@@ -25,8 +26,7 @@ def column(push=(1.0, 0.0, 0.0)):
         lb.Block.box("base", (2.0, 2.0, 0.2), (0, 0, -0.1)),
         lb.Block.box("stone", (0.5, 0.8, 1.0), (0, 0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(stones, joint)
-    return lb.Model(stones, ["base"], interfaces, lb.self_weight(), lb.mass_proportional(push))
+    return model_of(stones, ["base"], joint, push)
 
 
 @pytest.fixture

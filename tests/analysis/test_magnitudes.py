@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -256,8 +257,7 @@ def test_fill_on_both_faces_of_a_roof_is_not_given_twice():
     outline = [(0.0, 0.0), (2.0, 0.0), (1.0, 1.0)]
     gable = lb.Block.prism("block", outline, (0.0, 1.0), unit_weight=20e3)
     ground = lb.Block.box("ground", size=(2.0, 1.0, 0.2), at=(1.0, 0.5, -0.1))
-    joints = lb.find_interfaces([gable, ground], lb.PointContact(0.6))
-    model = lb.Model([gable, ground], ["ground"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of([gable, ground], ["ground"], lb.PointContact(0.6))
     fill = passive_fill(model, 2.0, unit_weight=18e3, coefficient=3.0)
     assert len(fill) == 2
     assert questions(reinforced(model, *fill)) == []
@@ -269,19 +269,15 @@ def test_coordinates_that_rounding_changes_are_asked_about(off, asked):
         lb.Block.box("ground", (1.0, 1.0, 1.0), (off, 0.0, -0.5)),
         lb.Block.box("block", (0.5, 1.0, 1.0), (off, 0.0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    said = questions(lb.Model(stones, ["ground"], interfaces, lb.self_weight(), push))
+    said = questions(model_of(stones, ["ground"], lb.PointContact(0.6)))
     assert len(said) == asked
     assert all("5e+12 m off the origin, where coordinates are rounded to 0.001 m" in one for one in said)
 
 
 def test_a_force_on_a_block_without_a_unit_weight():
     blocks = [lb.Block.box("ground", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5))]
-    down, push = (
-        lb.loads.force("stone", (0, 0, -1e5), (0, 0, 1)),
-        lb.loads.force("stone", (1, 0, 0), (0, 0, 1)),
-    )
+    down = lb.loads.force("stone", (0, 0, -1e5), (0, 0, 1))
+    push = lb.loads.force("stone", (1, 0, 0), (0, 0, 1))
     model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, lb.PointContact(0.9)), down, push)
     assert lb.report(model, lb.bounds(model)).text
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import jammed
 
 import limitblocks as lb
 from limitblocks import structures
@@ -52,13 +53,7 @@ def test_no_answer_can_be_continuous_at_zero_dilatancy_where_blocks_jam():
     ceiling force balances any live load. So there is no solution at any dilatancy above zero.
     """
     joint = lb.PointContact(friction=0.3)
-    stones = [
-        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
-        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
-    ]
-    live = lb.mass_proportional((1, 0, 0))
-    model = lb.Model(stones, ["floor", "ceiling"], lb.find_interfaces(stones, joint), lb.self_weight(), live)
+    model = jammed(joint)
     assert np.isfinite(lb.nonassociated(model).load_factor)
     with pytest.raises(lb.errors.UnlimitedLoad):
         lb.nonassociated(model, dilatancy=0.3)

@@ -128,7 +128,7 @@ def test_restart_converges_at_once(reference):
 @pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
 def test_a_start_from_another_model_is_refused(kind, reference, analysis):
     other = wall(kind, unit_weight=21e3)
-    with pytest.raises(lb.ModelError, match="start belongs to model"):
+    with pytest.raises(lb.ModelError, match="belongs to model"):
         analysis(other, start=reference[1])
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -154,9 +155,7 @@ def test_a_friction_that_stresses_do_not_agree_on_has_a_kink(joint):
     """A beam that slides on three supports: the one in the middle carries anything from nothing to all."""
     stones = [lb.Block.box(f"support {x}", (0.5, 1.0, 1.0), (x, 0.0, -0.5)) for x in (-2.0, 0.0, 2.0)]
     stones.append(lb.Block.box("beam", (4.5, 1.0, 0.4), (0.0, 0.0, 0.2), unit_weight=2e4))
-    push = lb.mass_proportional(direction=(1.0, 0.0, 0.0))
-    found = lb.find_interfaces(stones, joint(0.3))
-    model = lb.Model(stones, [one.name for one in stones[:3]], found, lb.self_weight(), push)
+    model = model_of(stones, [one.name for one in stones[:3]], joint(0.3))
     slides = of(model)
     assert slides.unique
     assert not slides.agreed.any()
@@ -208,9 +207,8 @@ def test_a_mechanism_that_is_not_the_only_one_is_told():
         lb.Block.box(n, (0.5, 1.0, 1.0), (x, 0.0, 0.5), unit_weight=2e4) for n, x in (("a", -1.0), ("b", 1.0))
     ]
     joint = lb.PointContact(2.0)
-    push = lb.mass_proportional(direction=(1.0, 0.0, 0.0))
     for chosen, unique in ((stones, False), (stones[:2], True)):
-        model = lb.Model(chosen, ["base"], lb.find_interfaces(chosen, joint), lb.self_weight(), push)
+        model = model_of(chosen, ["base"], joint)
         found = of(model)
         assert found.unique is unique
         assert ("not unique" in str(found)) is not unique
@@ -254,9 +252,9 @@ def test_governing_joints_and_stones_come_first():
 
 def test_bounds_of_another_model_are_refused():
     model, other = block(lb.PointContact(0.3)), block(lb.PointContact(0.4))
-    with pytest.raises(ModelError, match="bounds belong to model"):
+    with pytest.raises(ModelError, match="this Bounds belongs to model"):
         lb.sensitivities(model, lb.bounds(other))
-    with pytest.raises(LimitBlocksError, match="another model"):
+    with pytest.raises(LimitBlocksError, match="belongs to model"):
         lb.plots.sensitivity(model, of(other))
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.analysis import stability as answers
@@ -21,8 +22,7 @@ JOINTS = [lb.OrdunaLourenco, lb.PointContact]
 
 
 def model(blocks, supports, joint, live=(1, 0, 0)):
-    interfaces = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, supports, interfaces, lb.self_weight(), lb.mass_proportional(live))
+    return model_of(blocks, supports, joint, live)
 
 
 def prism(name, section, unit_weight=None, move=lambda corners: corners):

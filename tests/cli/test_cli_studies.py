@@ -2,6 +2,7 @@ import csv
 import json
 
 import pytest
+from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -18,9 +19,7 @@ def file(tmp_path):
         lb.Block.box("ground", (4, 4, 0.2), (0, 0, -0.1)),
         lb.Block.box("block", (1.0, 1.6, 2.0), (0, 0, 1), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(2.0))
-    live = lb.mass_proportional((1, 0, 0))
-    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), live).save(tmp_path / "block.json")
+    return model_of(blocks, ["ground"], lb.PointContact(2.0)).save(tmp_path / "block.json")
 
 
 def test_directions_are_printed_and_written(file, tmp_path):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from attacking import attack
+from stones import sloping
 from true_claims import DEPTH, MU, UNIT_WEIGHT, B, H, claimed, true
 
 import limitblocks as lb
@@ -34,14 +35,7 @@ def a_stack_that_leans_too_far(joint):
 @attack("standing", circle=(lb.OrdunaLourenco(0.4),), points=(lb.PointContact(0.4),))
 def a_block_on_a_slope_too_steep(joint):
     """Slope 1:2 and friction .4."""
-    angle = np.arctan2(1.0, 2.0)
-    turn = np.array([(np.cos(angle), 0, np.sin(angle)), (0, 1, 0), (-np.sin(angle), 0, np.cos(angle))])
-    blocks = [
-        lb.Block.box("slope", (4, 1, 0.2), (0, 0, -0.1)).moved(turn, (0, 0, 0)),
-        lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), UNIT_WEIGHT).moved(turn, (0, 0, 0)),
-    ]
-    found = lb.find_interfaces(blocks, joint)
-    return fallen(lb.Model(blocks, ["slope"], found, lb.self_weight(), lb.mass_proportional(DOWN)))
+    return fallen(sloping(UNIT_WEIGHT, joint, DOWN))
 
 
 @attack("standing")

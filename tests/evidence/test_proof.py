@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from lintels import JOINTS, lintel
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.certified import RESERVE
-from limitblocks.evidence.proof import Proof, proof_of
+from limitblocks.evidence.proof import Proof, Prover, acting_at, proof_of
 from limitblocks.problem import State
 
 
@@ -44,6 +45,23 @@ def test_bounds_are_proven_to_1e_8(model, pair):
     assert f"proven are {proof.lower:.17g} and {proof.upper:.17g}" in told
 
 
+def test_units_of_force_change_no_digit_of_a_proof():
+    """Powers of two, block by block: the room at a joint is measured by what acts there."""
+    model = structures.wall(lb.OrdunaLourenco(0.6), length=2.0, courses=6)
+    pair, problem = lb.bounds(model), model.problem
+    shift = 2.0 ** np.random.default_rng(1).integers(-9, 10, len(problem.blocks))
+    given = state_of(model, pair), pair.dead_load_stresses
+    other = problem.measured(problem.units.block_force * shift)
+    assert proof_of(other, *given, reserve=1.5) == proof_of(problem, *given, reserve=1.5)
+    ways = [spanning_tree_of(p, *given) for p in (problem, other)]
+    np.testing.assert_array_equal(*ways)
+
+
+def spanning_tree_of(problem, si, dead):
+    acting = acting_at(problem, problem.dimensionless(si))
+    return Prover(problem, dead / problem.stress_units, acting).static.tree.interface
+
+
 @pytest.mark.parametrize("mu", [0.125, 0.5, 0.625])
 @pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
 def test_interval_contains_an_exact_load_factor(joint, mu):
@@ -52,8 +70,7 @@ def test_interval_contains_an_exact_load_factor(joint, mu):
         lb.Block.box("floor", (3.0, 3.0, 1.0), (0.5, 0.5, -0.5), 16.0),
         lb.Block.box("cube", (1.0, 1.0, 1.0), (0.5, 0.5, 0.5), 16.0),
     ]
-    touching = lb.find_interfaces(blocks, joint(mu))
-    model = lb.Model(blocks, ["floor"], touching, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+    model = model_of(blocks, ["floor"], joint(mu))
     found = lb.bounds(model)
     assert found.proven
     assert found.lower <= mu <= found.upper
@@ -132,9 +149,7 @@ def wedged(joint):
         lb.Block.box("right", (1.0, 1.0, 1.0), (1.5, 0.5, 0.5), 2e4),
         lb.Block.box("floor", (1.0, 1.0, 1.0), (0.5, 0.5, -0.5), 2e4),
     ]
-    touching = lb.find_interfaces(blocks, joint)
-    live = lb.mass_proportional((0.0, 0.0, -1.0))
-    return lb.Model(blocks, ["left", "right", "floor"], touching, lb.self_weight(), live)
+    return model_of(blocks, ["left", "right", "floor"], joint, (0.0, 0.0, -1.0))
 
 
 def test_opening_mechanism_exists_where_nothing_can_be_wedged():

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -95,8 +96,7 @@ def test_units_of_a_state_that_ran_away_do_not_warn():
 def test_an_interface_is_pressed_by_what_is_tied_to_it_and_not_by_a_stone_beside(weights):
     stones = [lb.Block.box(f"{x}", (1, 1, 1), (x, 0, 0.5), w) for x, w in zip((-2, 2), weights, strict=True)]
     blocks = [lb.Block.box("ground", (6, 1, 1), (0, 0, -0.5)), *stones]
-    found = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    problem = lb.Model(blocks, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0))).problem
+    problem = model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6)).problem
     at_rest = State(0.0, *(np.zeros(size) for size in (problem.C.shape[0], 12, len(problem.g))))
     pressed = Measure(problem, at_rest).pressed * problem.units.interface_force
     assert pressed == pytest.approx(weights)

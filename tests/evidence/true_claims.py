@@ -7,8 +7,9 @@ import numpy as np
 from scipy.optimize import nnls
 
 import limitblocks as lb
+from limitblocks.evidence.backward_error import backward_error
 from limitblocks.evidence.claim import claim_of
-from limitblocks.problem import Flow, State, Turning
+from limitblocks.problem import Flow, State, Turning, turning_of
 
 MU, B, H, DEPTH = 0.3, 2.0, 1.0, 1.5  # the sliding block
 UNIT_WEIGHT = 20e3
@@ -37,6 +38,14 @@ def state_of(model, claim):
     u = np.concatenate([rates[name] for name in model.problem.blocks])
     si = State(claim.load_factor, claim.generalised_stresses, u, claim.flow_multipliers)
     return model.problem.dimensionless(si)
+
+
+def flow_of(model, claim):
+    return Flow(model.problem, claim.dilatancy, turning_of(claim.turning))
+
+
+def error_of(model, claim):
+    return backward_error(flow_of(model, claim), state_of(model, claim))
 
 
 def changed(model, claim, **parts):

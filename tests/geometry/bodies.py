@@ -15,10 +15,7 @@ SQUARE = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) / 2
 
 def extruded(name, outline, low=0.0, high=1.0):
     """Prism along Z over a counter-clockwise outline (n, 2)."""
-    n = len(outline)
-    points = np.concatenate([np.column_stack([outline, np.full(n, z)]) for z in (low, high)])
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    return Block(name, points, [tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides])
+    return Block.prism(name, outline, (low, high), along="z")
 
 
 def ring(name, outer, inner, low=0.0, high=1.0):

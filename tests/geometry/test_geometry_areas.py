@@ -22,15 +22,10 @@ def area(interface):
     return float(polygon.areas(interface.polygon))
 
 
-def placed(interface):
-    """The polygon in global axes, (n, 3)."""
-    return interface.centroid + interface.polygon @ interface.axes[:2]
-
-
 def check_pieces(result, whole):
     """The interfaces are convex, do not overlap, and fill the plane area `whole` in X and Y."""
     assert interface_faults(result) == []
-    flat = [shapely.Polygon(placed(one)[:, :2]) for one in result]
+    flat = [shapely.Polygon(one.corners[:, :2]) for one in result]
     assert sum(piece.area for piece in flat) == pytest.approx(whole.area, rel=1e-6)
     assert shapely.union_all(flat).symmetric_difference(whole).area < 1e-6 * whole.area
 
@@ -147,7 +142,7 @@ def test_rectangles_turned_about_their_normal(turn):
 
 def shapes_of(result):
     """Each interface as its corners in global axes, sorted, whichever block comes first."""
-    return sorted(np.round(placed(one), 6)[np.lexsort(np.round(placed(one), 6).T)].tolist() for one in result)
+    return sorted(np.round(one.corners, 6)[np.lexsort(np.round(one.corners, 6).T)].tolist() for one in result)
 
 
 NEST = [ring("b", 2 * SQUARE, SQUARE, 0, 1), *decks(L, "c", "a"), extruded("d", PLUS, -1, 0)]
@@ -164,9 +159,9 @@ def test_division_moves_with_the_blocks(blocks, form, seed, far):
     after_blocks, rotation, translation = moved(blocks, seed, far)
     after = find_interfaces(after_blocks, None)
     assert [(i.block_i, i.block_j) for i in after] == [(i.block_i, i.block_j) for i in before]
-    back = [(placed(one) - translation) @ rotation for one in after]
+    back = [(one.corners - translation) @ rotation for one in after]
     for old, new in zip(before, back, strict=True):
-        distance = np.linalg.norm(placed(old)[:, None] - new[None], axis=2)
+        distance = np.linalg.norm(old.corners[:, None] - new[None], axis=2)
         assert distance.min(axis=0).max() < 1e-8
         assert distance.min(axis=1).max() < 1e-8
 

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from bodies import moved
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, Voronoi
@@ -58,13 +59,6 @@ def arch(n, inner, outer, width):
 
     angles = np.linspace(0, np.pi, n + 1)
     return [hexahedron(f"v{k}", radial(angles[k]), radial(angles[k + 1])) for k in range(n)]
-
-
-def moved(blocks, seed, shift=0.0):
-    rng = np.random.default_rng(seed)
-    rotation = Rotation.from_quat(rng.normal(size=4)).as_matrix()
-    translation = rng.uniform(-10, 10, 3) + shift
-    return [block.moved(rotation, translation) for block in blocks], rotation, translation
 
 
 @settings(max_examples=40, deadline=None)

@@ -22,7 +22,7 @@ def test_l_block(shift):
     assert block.volume == pytest.approx(2 * 2 - 1, rel=1e-8)
     middle = (4 * 1 - 1 * 1.5) / 3
     assert block.centroid - (shift, -shift, shift) == pytest.approx([middle, middle, 0.5], abs=1e-8)
-    assert block.areas == pytest.approx([3, 3, 2, 1, 1, 1, 1, 2])
+    assert sorted(block.areas) == pytest.approx([1, 1, 1, 1, 2, 2, 3, 3])
 
 
 @pytest.mark.parametrize("shift", [0.0, FAR])

@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from reading import read_or_refused
+from stones import portal_stones
 
 import limitblocks as lb
 from limitblocks.mechanics.loads import JointPressure, LoadTerm
@@ -33,12 +34,7 @@ TERMS = {
 
 
 def portal(load):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box("lintel", (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
+    blocks = portal_stones()
     interfaces = lb.find_interfaces(blocks, lb.PointContact(0.6))
     return lb.Model(blocks, ["ground"], interfaces, lb.self_weight() + load, 0.5 * load)
 

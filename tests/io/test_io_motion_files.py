@@ -10,6 +10,7 @@ import meshio
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.evidence.load_path_result import LoadPath, PathStep
@@ -246,8 +247,7 @@ def test_cells_stay_in_order_where_faces_have_different_numbers_of_corners(tmp_p
         1.0,
     )
     blocks = [lb.Block.box("ground", (1, 1, 1), (0.5, 0.5, -0.5)), prism]
-    interfaces = lb.find_interfaces(blocks, joint)
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ground"], joint)
     mesh = meshio.read(lb.files.write_vtu(model, tmp_path / "two.vtu")[0])
     cells = [tuple(cell) for run in mesh.cells for cell in run.data.tolist()]
     starts = {"ground": 0, "prism": 8}

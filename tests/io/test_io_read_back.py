@@ -188,7 +188,7 @@ def test_a_check_and_a_stability_that_were_read_prove_nothing(tmp_path):
         made = lb.report(MODEL, lb.read_result(SAVED[kind].save(tmp_path / f"{kind}.json")))
         (said,) = made.sections
         assert said.headline == "not checked"
-        assert not said.checks
+        assert not said.judged
         assert said.rates is None
     failed = changed(tmp_path / "check.json", passed=False)
     with pytest.raises(lb.ModelError, match="passed is False, but by what else the file says it is True"):

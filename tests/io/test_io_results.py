@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.evidence.claim import claim_of
@@ -21,14 +22,8 @@ PAGE = Path(__file__).parents[2] / "docs" / "result-file.md"
 
 
 def portal(joint, name="lintel"):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    blocks = portal_stones(lintel=name)
+    return model_of(blocks, ["ground"], joint)
 
 
 def associated(model, dilatancy, turning=Turning.CENTROID):
@@ -287,8 +282,7 @@ def test_file_on_the_page_is_a_solution(tmp_path):
         lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
         lb.Block.box("stone", (1, 1, 2), (0, 0, 1), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.3))
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ground"], lb.OrdunaLourenco(0.3))
     assert lb.check_mcp(model, lb.read_result(written(tmp_path / "claim.json", text), model)).passed
 
 

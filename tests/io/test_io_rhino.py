@@ -93,11 +93,9 @@ def test_block_that_is_not_convex(tmp_path):
 
 def test_polysurfaces_extrusions_layers_and_what_is_hidden(tmp_path):
     drawing = Drawing("Millimeters")
-    support, stone, hidden = (
-        drawing.layer("Support"),
-        drawing.layer("stone"),
-        drawing.layer("x", visible=False),
-    )
+    support = drawing.layer("Support")
+    stone = drawing.layer("stone")
+    hidden = drawing.layer("x", visible=False)
     north, below = drawing.layer("north", above=stone), drawing.layer("below", above=hidden)
     drawing.add(box((0, 0, -100), (1000, 1000, 0)), "ground", support)
     drawing.add(extrusion([(0, 0), (1000, 0), (500, 1000)], 500), "wedge", north)

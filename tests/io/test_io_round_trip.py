@@ -7,6 +7,7 @@ from pathlib import Path
 import jsonschema
 import numpy as np
 import pytest
+from stones import portal_stones
 
 import limitblocks as lb
 
@@ -20,12 +21,7 @@ def rotation(axis, angle):
 
 
 def portal(joint, live, dead=None, turn=None):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box("lintel", (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
+    blocks = portal_stones()
     if turn is not None:
         blocks = [block.moved(turn, (0.1, 1 / 3, -7.7)) for block in blocks]
     return lb.Model(

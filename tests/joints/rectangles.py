@@ -37,3 +37,17 @@ def finite_differences(functions, Q):
     steps = np.array([1e-4, 1e-4, 1e-4, 1e-5, 1e-5, 1e-5])
     central = [functions(Q + h) - functions(Q - h) for h in np.diag(steps)]
     return (np.array(central) / (2 * steps[:, None])).T
+
+
+def yield_functions(Q, shear=None):
+    """Eqs (23)-(30) and (36) of a rectangle, as printed; the largest of each mode."""
+    V1, V2, n, M1, M2, T = np.asarray(Q).T
+    octagon = np.max([abs(V1), abs(V2), (abs(V1) + abs(V2)) / np.sqrt(2)], axis=0)
+    V = octagon if shear is None else shear(V1, V2)
+    return {
+        "twist": abs(T) / C_T + MU * n,
+        "slip": V + MU * n,
+        "slip-twist": abs(T) / C_T + V + 1.3 * MU * n,
+        "moment-twist": abs(T) / (L1 + L2) + MU / 2 * ((abs(M1) + abs(M2)) / (L1 + L2) + n),
+        "hinge": np.max([abs(M1) / L2 + n, abs(M2) / L1 + n], axis=0),
+    }

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from rectangles import L1, L2, MU, RECTANGLE, SQUARE, N
 from scipy.optimize import brentq
 
 import limitblocks as lb
@@ -10,9 +11,6 @@ from limitblocks.joints.interaction import rectangle_torsion_bending, torsion_be
 from limitblocks.joints.limit_surface import limit_points
 from limitblocks.joints.torsion import rectangle_torsion_constant, torsion_constant
 
-L1, L2, MU, N = 0.15, 0.10, 0.7, -240.0
-SQUARE = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
-RECTANGLE = SQUARE * [L1, L2]
 COMPRESSION = np.array([0, 0, N, 0, 0, 0])
 TURN = np.array([(0.8, 0.6), (-0.6, 0.8)])
 POLYGONS = {
@@ -173,10 +171,8 @@ def test_stack_of_shapes_is_the_single_ones_scaled():
 
 
 def test_the_set_is_convex():
-    interface, joint = (
-        lb.joints.interface(POLYGONS["trapezium"], None),
-        lb.joints.ExactTorsion(MU, fineness=2),
-    )
+    interface = lb.joints.interface(POLYGONS["trapezium"], None)
+    joint = lb.joints.ExactTorsion(MU, fineness=2)
     rng = np.random.default_rng(3)
     held, surface = np.array([0, 0, -1.0, 0, 0, 0]), []
     for _ in range(40):
@@ -189,10 +185,8 @@ def test_the_set_is_convex():
 
 
 def test_flow_has_no_dilatancy_and_turns_about_the_point_of_action():
-    joint, interface = (
-        lb.joints.ExactTorsion(MU, fineness=1, compressive_strength=1e5),
-        lb.joints.interface(RECTANGLE, None),
-    )
+    joint = lb.joints.ExactTorsion(MU, fineness=1, compressive_strength=1e5)
+    interface = lb.joints.interface(RECTANGLE, None)
     Q = np.add(COMPRESSION, [5, 3, 0, 8.0, -12.0, 2.0])
     flow = joint.flow_directions(interface, Q, turning="centre of pressure")
     rows = joint.yield_rows(RECTANGLE[None])

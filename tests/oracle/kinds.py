@@ -210,10 +210,8 @@ def beside(draw):
     )
     reach = max(block.vertices[:, 0].max() for block in first.blocks)
     reach -= min(block.vertices[:, 0].min() for block in second.blocks)
-    first, second = (
-        named("p ", first),
-        named("q ", moved(second, np.eye(3), np.array([1.1 * reach, 0.0, 0.0]))),
-    )
+    first = named("p ", first)
+    second = named("q ", moved(second, np.eye(3), np.array([1.1 * reach, 0.0, 0.0])))
     carried = first.carried + second.carried if first.carried and second.carried else None
     return Parts(
         first.blocks + second.blocks,

@@ -201,7 +201,7 @@ def test_curves_of_something_else_are_refused_by_name():
 
 
 def test_load_path_of_another_model_is_refused():
-    with pytest.raises(lb.LimitBlocksError, match="another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         lb.plots.load_path(arch(), path())
 
 

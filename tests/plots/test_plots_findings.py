@@ -1,5 +1,6 @@
 import pytest
 from plotted import corner, inked
+from stones import model_of
 
 import limitblocks as lb
 
@@ -14,9 +15,7 @@ def with_findings():
         lb.Block.box("beside", UNIT, (1.004, 0, 0.5), 20e3),
         lb.Block.box("far", UNIT, (2.7, 0, 5.0)),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.6))
-    live = lb.mass_proportional((1, 0, 0))
-    return lb.Model(blocks, ["ground", "far"], interfaces, lb.self_weight(), live)
+    return model_of(blocks, ["ground", "far"], lb.PointContact(0.6))
 
 
 @pytest.mark.parametrize("plane", ["xz", "3d"])

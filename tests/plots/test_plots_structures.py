@@ -14,6 +14,7 @@ from matplotlib.quiver import Quiver
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 from mpl_toolkits.mplot3d.proj3d import proj_transform
 from plotted import arch, bounds, corner, inked, path, rocking
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.drawing.painter import painting_order, placed
@@ -211,7 +212,7 @@ def test_wrong_scale_is_refused(scale):
 
 @pytest.mark.parametrize("name", [*DRAWINGS[1:], "thrust_line"])
 def test_result_of_another_model_is_refused(name):
-    with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         getattr(lb.plots, name)(rocking(), bounds(arch))
 
 
@@ -264,8 +265,6 @@ def test_the_title_of_a_drawing_in_space_is_between_it_and_the_edge(draw):
 def test_a_thin_wall_far_from_the_origin_has_a_tick_on_its_thickness():
     stones = [lb.Block.box("base", (3.0, 0.3, 0.2), (0.0, 12.55, -0.1))]
     stones += [lb.Block.box("wall", (3.0, 0.3, 1.0), (0.0, 12.55, 0.5), 20e3)]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((0, 1, 0))
-    ax = lb.plots.structure(lb.Model(stones, ["base"], found, lb.self_weight(), push), plane="3d")
+    ax = lb.plots.structure(model_of(stones, ["base"], lb.PointContact(0.6), (0, 1, 0)), plane="3d")
     (tick,) = ax.yaxis.get_major_locator()()
     assert 12.4 <= tick <= 12.7

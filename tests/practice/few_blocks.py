@@ -1,5 +1,7 @@
 """Blocks that slide or rock, for tests of capacity curves."""
 
+from stones import model_of
+
 import limitblocks as lb
 
 H = 1.0
@@ -17,5 +19,4 @@ def sliding_block(friction=0.1, size=1.0):
         lb.Block.box("base", (size, size, 0.2), (0, 0, -0.1)),
         lb.Block.box("block", (size, size, 0.3), (0, 0, 0.15), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(friction))
-    return lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["base"], lb.PointContact(friction))

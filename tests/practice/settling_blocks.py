@@ -1,5 +1,7 @@
 """Arches and beams whose supports settle, for tests of settlements until collapse."""
 
+from stones import model_of
+
 import limitblocks as lb
 
 WEIGHT = 20e3
@@ -22,5 +24,4 @@ def beam_on(supports, ends, joint):
     stones = [lb.Block.box(name, (b - a, 1, 1), ((a + b) / 2, 0, -0.5)) for name, (a, b) in supports.items()]
     a, b = ends
     stones.append(lb.Block.box("beam", (b - a, 1, 0.5), ((a + b) / 2, 0, 0.25), WEIGHT))
-    joints = lb.find_interfaces(stones, joint)
-    return lb.Model(stones, list(supports), joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, list(supports), joint)

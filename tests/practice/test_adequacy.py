@@ -4,6 +4,7 @@ import json
 from dataclasses import dataclass, replace
 
 import pytest
+from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -116,8 +117,7 @@ def wall(prestress=0.0):
         lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
         lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.8))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["ground"], lb.PointContact(0.8))
     rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=8e7, prestress=prestress)
     return reinforced(model, rod)
 
@@ -211,9 +211,7 @@ def test_what_stands_with_characteristic_values_alone_is_said_to():
     pair.append(
         lb.Block.prism("stone", [(2, 0.4), (3, 0.6), (2.8, 1.6), (1.8, 1.4)], (0, 1), unit_weight=20e3)
     )
-    push = lb.mass_proportional((1, 0, 0))
-    interfaces = lb.find_interfaces(pair, lb.PointContact(0.3))
-    model = lb.Model(pair, ["slope"], interfaces, lb.self_weight(), push)
+    model = model_of(pair, ["slope"], lb.PointContact(0.3))
     assert lb.stability(model).stands
     with pytest.raises(
         lb.errors.NoEquilibrium, match="with design values the dead loads alone cannot stand: stone"

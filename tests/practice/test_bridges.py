@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from planar_bridge import Bridge, least_pulls, load_factor, measures
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.geometry.polygon import areas
@@ -147,8 +148,7 @@ def test_passive_fill_of_faces_askew_and_on_both_sides():
     corners = np.array([(0.0, 0, 0), (3.0, 0, 0), (0.0, 2, 0), (0.5, 0.4, 1.5)])
     faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
     stones = [lb.Block.box("ground", (9, 9, 1), (0, 0, -0.5)), lb.Block("stone", corners, faces, 20e3)]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["ground"], lb.PointContact(0.6))
     d, level, K, gamma = np.array([0.8, 0.6, 0]), 2.0, 3.0, 18e3
     fill = passive_fill(model, level, unit_weight=gamma, coefficient=K, along=d)
     assert len(fill) == 3

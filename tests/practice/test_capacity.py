@@ -7,6 +7,7 @@ import pytest
 from few_blocks import sliding_block, toe_corner
 from scipy.optimize import brentq
 from scipy.spatial.transform import Rotation
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
@@ -68,8 +69,7 @@ def test_block_that_slides_keeps_its_load_factor_until_half_of_it_is_off():
         lb.Block.box("base", (5, 1, 0.2), (1.0, 0, -0.1)),
         lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
     ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], JOINTS[0])
     curve = capacity_curve(model, largest=0.5)
     assert curve.load_factors == pytest.approx(0.6, rel=1e-9)
     assert curve.ended == "the displacement 0.5 m is reached"
@@ -84,8 +84,7 @@ def test_block_that_slides_off_its_base_tips_over_the_edge():
         lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
         lb.Block.box("block", (1, 1, h), (0, 0, h / 2), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(friction))
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], lb.PointContact(friction))
     curve = capacity_curve(model, steps=8, control=("block", (0, 0, h)), largest=0.48)
     tips = 0.5 - friction * h / 2
     slid = curve.displacements < tips

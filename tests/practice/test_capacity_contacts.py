@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from few_blocks import sliding_block, toe_corner
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
@@ -64,10 +65,7 @@ def beside_a_wall():
     """The flat block beside a long wall that it slides along."""
     base, block = sliding_block().blocks
     wall = lb.Block.box("wall", (5, 1, 1), (0, 1, 0.5))
-    found = lb.find_interfaces([base, wall, block], lb.PointContact(0.1))
-    return lb.Model(
-        [base, wall, block], ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0))
-    )
+    return model_of([base, wall, block], ["base", "wall"], lb.PointContact(0.1))
 
 
 def test_a_block_that_slides_onto_another_rests_on_both():
@@ -93,13 +91,9 @@ def test_a_block_that_slides_onto_another_rests_on_both():
 def test_a_contact_in_two_parts_keeps_two_as_it_slides():
     """A table on two feet of 1 m x 1 m: each keeps its own area, and none counts twice."""
     outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
-    n = len(outline)
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    faces = [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *(side[::-1] for side in sides)]
-    table = lb.Block("table", [(x, y, z) for y in (0, 1) for x, z in outline], faces, 20e3)
+    table = lb.Block.prism("table", outline, (0, 1), 20e3)
     stones = [lb.Block.box("base", (9, 3, 1), (1.5, 0.5, -0.5)), table]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], JOINTS[0])
     there, _ = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])
     centres = sorted(own.interface.centroid[0] for own in there.contacts)
     assert centres == pytest.approx([1.0, 3.0])
@@ -134,8 +128,7 @@ def test_a_corner_inside_a_face_rests_on_that_face_whichever_way_it_slides(slide
         lb.Block.box("base", (3, 1, 1), (0, 0, -0.5)),
         lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
     ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], JOINTS[0])
     there = moved(turned_about_its_toe(model, 0.1), np.array([[0.0] * 6, [slide, 0, 0, 0, 0, 0]]))
     assert np.sort(np.abs(there.contacts[0].ways[:, 2]))[:2] == pytest.approx([0.0, 0.0], abs=1e-12)
 
@@ -181,8 +174,7 @@ def test_an_opened_joint_partly_off_keeps_what_both_faces_share(across_by):
         lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
         lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
     ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], JOINTS[0])
     way = np.zeros((2, 6))
     way[1, 1] = across_by
     there, said = slid_on(moved(turned_about_its_toe(model, phi := 0.1), way), [True])
@@ -211,8 +203,7 @@ def test_what_opens_at_second_order_opens():
         lb.Block.box("column", (1, 1, 0.4), (-0.5, 0.5, 0.2), 1.0),
         lb.Block.box("top", (1, 2, 0.4), (-0.5, 0, 0.6), 1.0),
     ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["ground"], JOINTS[0])
     phi, rates = 0.01, np.zeros((4, 6))
     for k in (2, 3):
         rates[k] = *np.cross((0, 1, 0), stones[k].centroid), 0, 1, 0
@@ -233,9 +224,8 @@ def test_a_joint_narrowed_to_its_closed_corners():
     shut = own.ways[:, 2] < 1e-9
     width, depth = np.sort(np.ptp(strip.polygon, axis=0))
     assert (width, depth) == pytest.approx((0.01 * np.abs(own.interface.polygon).max(), 1.0), rel=1e-9)
-    corners = strip.centroid + strip.polygon @ strip.axes[:2]
     for corner in own.on_j[shut]:
-        assert np.linalg.norm(corners - corner, axis=1).min() < 1e-12
+        assert np.linalg.norm(strip.corners - corner, axis=1).min() < 1e-12
     assert abs(strip.polygon.mean(axis=0)).max() < 1e-12
     assert abs(strip.polygon[0] - strip.polygon[-1])[1] < 1e-12  # its longest side lies along the first axis
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from few_blocks import sliding_block, toe_corner
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
@@ -30,9 +31,7 @@ B, H = 0.2, 1.0
 def test_a_curve_that_never_falls_ends_at_the_size_of_the_structure():
     """From one corner of a square to the other, a way longer than its side: it slides for ever."""
     stones = [lb.Block.box("base", (10, 10, 0.2), (4.5, 4.5, -0.1)), sliding_block().blocks[1]]
-    found = lb.find_interfaces(stones, lb.PointContact(0.1))
-    push = lb.mass_proportional((0.5**0.5, 0.5**0.5, 0))
-    curve = capacity_curve(lb.Model(stones, ["base"], found, lb.self_weight(), push), steps=2)
+    curve = capacity_curve(model_of(stones, ["base"], lb.PointContact(0.1), (0.5**0.5, 0.5**0.5, 0)), steps=2)
     assert curve.load_factors == pytest.approx(0.1, rel=1e-8)
     assert (curve.zero, curve.ended) == (None, "the displacement 10 m, the size of the structure, is reached")
 
@@ -78,8 +77,7 @@ def test_blocks_that_meet_stop_the_curve():
         lb.Block.box("block", (B, 1, H), (0, 0, H / 2), 20e3),
         lb.Block.box("wall", (0.3, 1, 2.0), (B / 2 + 0.05 + 0.15, 0, 1.0)),
     ]
-    found = lb.find_interfaces(stones, JOINT)
-    model = lb.Model(stones, ["base", "wall"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base", "wall"], JOINT)
     curve = capacity_curve(model, control=("block", toe_corner(model)), steps=4)
     assert curve.zero is None
     assert curve.ended.startswith("contacts that close, or blocks that meet, stop the mechanism at 0.05")
@@ -103,6 +101,13 @@ def test_a_curve_that_rises_goes_on_by_longer_steps():
     assert capacity._next_step(assembly_of(model), before, point, 20) == pytest.approx(0.01)
 
 
+def ahead_of(there, displacement, load_factor, step, secant):
+    """A point of a block that slides, and the one that a step leads to."""
+    point = CapacityPoint(displacement, load_factor, 0.0, there.model, lb.nonassociated(there.model), ())
+    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    return point, capacity._ahead(there, control, point, step, 1.0, secant)[2]
+
+
 def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
     """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
     there = assembly_of(sliding_block())
@@ -112,9 +117,7 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
         return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0, np.inf)
+    _, found = ahead_of(there, 0.0, 1e-3, 0.4, np.inf)
     assert 0.15 <= found.displacement < 0.3
 
 
@@ -167,9 +170,7 @@ def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(mo
         return assembly, control, replace(point, displacement=at, load_factor=1.0 - at)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
+    point, found = ahead_of(there, 0.2, 0.8, 0.8, 0.8)
     assert tried == [0.8]
     assert zero_of([point, found]) == pytest.approx(1.0, abs=1e-12)
     assert found.displacement > 1.0 + 5e-7
@@ -185,9 +186,7 @@ def test_a_zero_that_is_not_answered_is_not_approached_by_halves(monkeypatch):
         return assembly, control, replace(point, displacement=1.0 - at, load_factor=at)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
+    _, found = ahead_of(there, 0.2, 0.8, 0.8, 0.8)
     assert found.load_factor == pytest.approx(0.008, rel=1e-9)
 
 
@@ -219,8 +218,7 @@ def test_curve_ends_where_the_control_point_turns_back():
         lb.Block.box("ground", (2, 1, 1), (0, 0, -0.5)),
         lb.Block.box("stone", (3, 1, 2), (0, 0, 1), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["ground"], lb.PointContact(2.0))
     curve = capacity_curve(model, control=("stone", (1.5, 0, 0.05)), steps=20)
     most, leans = np.hypot(0.5, 0.05), np.arctan2(0.05, 0.5)
     assert curve.zero is None

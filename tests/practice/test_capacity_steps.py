@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
@@ -73,13 +74,7 @@ def test_a_round_of_a_fall_is_a_twentieth_of_a_block(monkeypatch):
             lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
             lb.Block.box("block", (1, 1, 0.3), (beyond, 0, 0.15), 20e3),
         ]
-        model = lb.Model(
-            stones,
-            ["base"],
-            lb.find_interfaces(stones, JOINT),
-            lb.self_weight(),
-            lb.mass_proportional((0, 1, 0)),
-        )
+        model = model_of(stones, ["base"], JOINT, (0, 1, 0))
         there = pressed_in(assembly_of(model), [0], -np.ones((1, 6)))
         assert falls(there) == (beyond == 0.6)
         way = steepest(there)[0] / [*[stones[1].size] * 3, 1, 1, 1]
@@ -99,7 +94,6 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
         lb.Block.box("base", (9, 1, 0.2), (4, 0, -0.1)),
         lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.1))
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["base"], lb.PointContact(0.1))
     curve = capacity_curve(model, steps=2)
     assert (curve.zero, curve.ended) == (None, "4 points do not lead to an end")

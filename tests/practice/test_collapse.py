@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq
 from settling_blocks import SPREAD, arch, beam_on
 from spreading_arch import beside_the_crown, first_hinge, fourth_hinge, half_ring, three_hinged
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.arrays import read_only
@@ -154,8 +155,7 @@ def test_a_beam_slides_off_the_edge_that_it_rests_on(friction):
         lb.Block.box("right", (1, 1, 1), (4.5, 0, -0.5)),
         lb.Block.box("beam", (5, 1, 0.3), (2.0, 0, 0.15), unit_weight=20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(friction))
-    beam = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    beam = model_of(stones, ["left", "right"], lb.PointContact(friction))
     curve = settlement_to_collapse(beam, "right", (0, 0, -1), step=0.5, accuracy=1e-2)
     lows = [point.model.blocks[2].vertices[:, [0, 2]] for point in curve.points[1:]]
     x = np.array([low[low[:, 1].argmin(), 0] for low in lows])  # of the end
@@ -184,8 +184,7 @@ def test_a_ladder_whose_head_slides_down_a_wall_and_whose_foot_then_slides(slope
         lb.Block.box("wall", (1, 2, 4), (2.5, 0, 2)),
         lb.Block.prism("ladder", [(0, 0), foot, (2.0, 2.7), head], (-0.5, 0.5), 20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(friction))
-    model = lb.Model(stones, ["floor", "wall"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(stones, ["floor", "wall"], lb.PointContact(friction))
     ladder = stones[2]
     arm, mass = head - foot, ladder.centroid[[0, 2]] - foot
 

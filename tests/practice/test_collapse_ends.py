@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 from settling_blocks import SPREAD, arch, beam_on
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
@@ -41,9 +42,7 @@ def test_a_beam_that_climbs_by_associated_flow_ends_at_the_size_of_the_structure
         lb.Block.box("right", (1, 1, 1), (4, 0, -0.5)),
         lb.Block.box("beam", (5, 1, 0.5), (2, 0, 0.25), 20e3),
     ]
-    interfaces = lb.find_interfaces(stones, lb.PointContact(0.5))
-    push = lb.mass_proportional((1, 0, 0))
-    model = lb.Model(stones, ["left", "right"], interfaces, lb.self_weight(), push)
+    model = model_of(stones, ["left", "right"], lb.PointContact(0.5))
     curve = settlement_to_collapse(
         model, "right", (1, 0, -1), step=5.0, accuracy=0.5, without_dilatancy=False
     )

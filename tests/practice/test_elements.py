@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from facades import ARM, FLOOR, OWN, H, T, facade
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.analysis.scales import frictional
@@ -248,8 +249,7 @@ def test_an_anchor_counts_as_on_its_block_within_a_thousandth_of_the_blocks(size
     cubes = [
         lb.Block.box(name, (size,) * 3, (0, 0, z * size), 2e4) for name, z in (("low", -0.5), ("top", 0.5))
     ]
-    contacts = lb.find_interfaces(cubes, lb.PointContact(0.6))
-    model = lb.Model(cubes, ["low"], contacts, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(cubes, ["low"], lb.PointContact(0.6))
     near, far = (
         tie("top", (-size * (0.5 + off), 0, size / 2), "low", (-9 * size, 0, 0), area=1e-4, strength=2e8)
         for off in (0.5e-3, 2e-3)
@@ -266,8 +266,7 @@ def test_an_anchor_in_the_hollow_of_a_block_is_off_it():
         lb.Block.box("ground", (4, 1, 0.4), (0, 0, -0.2)),
         lb.Block.prism("u", outline, (-0.5, 0.5), 2e4),
     ]
-    contacts = lb.find_interfaces(blocks, lb.PointContact(0.6))
-    model = lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ground"], lb.PointContact(0.6))
     with pytest.raises(lb.ModelError, match="m off block 'u'"):
         reinforced(model, tie("u", (0, 0, 1.4), "ground", (-6, 0, 1.4), area=1e-4, strength=2e8))
 

@@ -4,6 +4,7 @@ import json
 
 import facades
 import pytest
+from stones import model_of
 from typer.testing import CliRunner
 
 import limitblocks as lb
@@ -162,8 +163,7 @@ def tied(tmp_path):
         lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
         lb.Block.box("wall", (0.5, 1, 5), (0, 0, 2.5), 18e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    wall = model_of(stones, ["ground"], lb.PointContact(0.6))
     rod = tie("wall", (-0.25, 0, 4.5), "ground", (-6, 0, 4.5), area=1e-4, strength=2e8)
     return reinforced(wall, rod).save(tmp_path / "tied.json").read_text()
 

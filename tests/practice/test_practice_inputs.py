@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.practice import Deck, Vehicle, element_acceleration, uplift, vehicle_load
@@ -16,8 +17,7 @@ GROUND = lb.Block.box("ground", (8, 2, 1), (0, 0, -0.5))
 
 def slabs():
     stones = [GROUND, *SLABS]
-    found = lb.find_interfaces(stones, lb.PointContact(0.6))
-    return lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["ground"], lb.PointContact(0.6))
 
 
 @pytest.mark.parametrize(("at", "left"), [(0.25, 0.25), (0.0, 0.5), (-0.25, 0.75), (0.75, 0.0)])

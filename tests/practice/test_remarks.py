@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import studies
@@ -31,8 +32,7 @@ def pier():
     joint = lb.OrdunaLourenco(0.9, compressive_strength=20e3 * 4.0 / SHARE)
     ground = lb.Block.box("ground", (6, 6, 0.4), (0, 0, -0.2))
     blocks = [ground, lb.Block.box("pier", (1, 1, 4), (0, 0, 2), 20e3)]
-    contacts = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["ground"], contacts, lb.self_weight(), lb.mass_proportional(DIAGONAL))
+    return model_of(blocks, ["ground"], joint, DIAGONAL)
 
 
 def begun(pier):
@@ -88,10 +88,8 @@ def leaning(b):
     """A square column of side 1 whose load F acts at (b, b), crushed to a tenth of its strength."""
     joint, F = lb.OrdunaLourenco(0.9, compressive_strength=1e6), 1e5
     blocks = [lb.Block.box("ground", (3, 3, 1), (0, 0, -0.5)), lb.Block.box("column", (1, 1, 2), (0, 0, 1))]
-    dead, live = (
-        lb.loads.force("column", (0, 0, -F), (b, b, 2)),
-        lb.loads.force("column", (1, 0, 0), (0, 0, 1)),
-    )
+    dead = lb.loads.force("column", (0, 0, -F), (b, b, 2))
+    live = lb.loads.force("column", (1, 0, 0), (0, 0, 1))
     return lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, joint), dead, live)
 
 

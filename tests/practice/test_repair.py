@@ -2,8 +2,10 @@
 
 from dataclasses import replace
 
+import facades
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.practice import (
@@ -34,8 +36,7 @@ def wall():
         lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
         lb.Block.box("wall", (T, 1, H), (0, 0, H / 2), WEIGHT),
     ]
-    found = lb.find_interfaces(stones, JOINT)
-    return lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["ground"], JOINT)
 
 
 def rod(height, capacity=1e5):
@@ -120,8 +121,7 @@ def test_uplift_in_an_inclined_joint_acts_at_the_centre_of_pressure():
     base = lb.Block.box("base", (2, 1, 1), (0, 0, -0.5))
     top = lb.Block.box("top", (2, 1, 1), (0, 0, 0.5), 20e3)
     stones = [lb.Block(s.name, s.vertices @ turn.T, s.faces, s.unit_weight) for s in (base, top)]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["base"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    model = model_of(stones, ["base"], lb.PointContact(2.0), (0, 1, 0))
     load = uplift(model, 1.0, unit_weight=1.0).on(model.free_blocks)[0]
     below = 2.0**3 / 12 * np.sin(a) / 2.0  # I sin / (A depth), depth one
     way = below * np.array([np.cos(a), 0, -np.sin(a)])
@@ -138,8 +138,7 @@ def test_uplift_in_a_joint_that_crosses_the_level(share):
         lb.Block.box("left", (1, b, height), (-0.5, 0, height / 2)),
         lb.Block.box("right", (1, b, height), (0.5, 0, height / 2), 20e3),
     ]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["left"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    model = model_of(stones, ["left"], lb.PointContact(2.0), (0, 1, 0))
     load = uplift(model, h, unit_weight=gamma, share=share).on(model.free_blocks)[0]
     push = np.array([share * gamma * h**2 / 2 * b, 0, 0])
     at = np.array([0, 0, h / 3])
@@ -151,13 +150,8 @@ def test_uplift_in_a_radial_joint_that_crosses_the_level():
     """A plane at 45 degrees, wet to the depth h: length h sqrt 2, centre of pressure at a third of it."""
     h, gamma = 0.4, 1.0
     sections = {"left": [(-1, 0), (0, 0), (1, 1), (-1, 1)], "right": [(0, 0), (2, 0), (2, 1), (1, 1)]}
-    faces = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-    stones = [
-        lb.Block(name, np.array([(x, y, z) for y in (0, 1) for x, z in section], dtype=float), faces, 20e3)
-        for name, section in sections.items()
-    ]
-    found = lb.find_interfaces(stones, lb.PointContact(2.0))
-    model = lb.Model(stones, ["left"], found, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
+    stones = [lb.Block.prism(name, section, (0, 1), 20e3) for name, section in sections.items()]
+    model = model_of(stones, ["left"], lb.PointContact(2.0), (0, 1, 0))
     load = uplift(model, h, unit_weight=gamma).on(model.free_blocks)[0]
     push = gamma * h**2 / 2 * np.array([1, 0, -1])  # the lower face of the right block is free
     at = np.array([h / 3, 0.5, h / 3])
@@ -185,14 +179,7 @@ def test_no_water_in_ties_strips_dowels_and_passive_fill():
 
 def beam():
     """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
-    stones = [
-        lb.Block.box("left", (0.5, 1, 1), (0.25, 0, -0.5)),
-        lb.Block.box("right", (0.5, 1, 1), (2.75, 0, -0.5)),
-        lb.Block.box("beam", (4.0, 1, 0.5), (2.0, 0, 0.25), 20e3),
-    ]
-    found = lb.find_interfaces(stones, JOINT)
-    live = lb.mass_proportional((1, 0, 0))
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), live)
+    return facades.beam(JOINT)
 
 
 def test_worst_position_is_the_end_of_the_overhang():
@@ -286,8 +273,7 @@ def wedge(sign=1.0):
     points = np.concatenate([np.insert(outline, 1, y, axis=1) for y in (-0.5, 0.5)])
     faces = [(0, 1, 2), (5, 4, 3), (0, 3, 4, 1), (1, 4, 5, 2), (2, 5, 3, 0)]
     stones = [lb.Block.box("ground", (3, 1, 0.4), (0.5, 0, -0.2)), lb.Block("wedge", points, faces, 20e3)]
-    found = lb.find_interfaces(stones, lb.PointContact(0.2))
-    return lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((sign, 0, 0)))
+    return model_of(stones, ["ground"], lb.PointContact(0.2), (sign, 0, 0))
 
 
 def test_passive_fill_holds_a_block_that_moves_into_it_only():

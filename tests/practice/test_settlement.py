@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.practice import (
@@ -32,8 +33,7 @@ def lintel(joint, turn=UPRIGHT):
         lb.Block.box("lintel", (LENGTH, 1, DEPTH), (LENGTH / 2, 0, DEPTH / 2), WEIGHT),
     ]
     stones = [lb.Block(s.name, s.vertices @ turn.T, s.faces, s.unit_weight) for s in stones]
-    found = lb.find_interfaces(stones, joint)
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["left", "right"], joint)
 
 
 @pytest.mark.parametrize("joint", JOINTS, ids=["point contact", "paper"])
@@ -201,8 +201,7 @@ def two_stones(a, t):
         lb.Block.box("one", (a, 1, t), (-a / 2, 0, t / 2), WEIGHT),
         lb.Block.box("two", (a, 1, t), (a / 2, 0, t / 2), WEIGHT),
     ]
-    found = lb.find_interfaces(stones, JOINTS[0])
-    return lb.Model(stones, ["left", "right"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(stones, ["left", "right"], JOINTS[0])
 
 
 def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():

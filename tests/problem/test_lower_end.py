@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -31,17 +32,10 @@ SQUARE = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
 PENTAGON = [(2.0, 0.0), (1.0, 1.2), (-0.8, 1.0), (-1.0, -0.7), (0.6, -1.4)]
 
 
-def prism(name, polygon, low, high, unit_weight=None):
-    n = len(polygon)
-    corners = [(x, y, z) for z in (low, high) for x, y in polygon]
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    return lb.Block(name, corners, [tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides], unit_weight)
-
-
 def problem_of(joint, polygon):
-    blocks = [prism("base", polygon, -0.2, 0.0), prism("stone", polygon, 0.0, 1.0, 20e3)]
-    interfaces = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0))).problem
+    base = lb.Block.prism("base", polygon, (-0.2, 0.0), along="z")
+    blocks = [base, lb.Block.prism("stone", polygon, (0.0, 1.0), 20e3, along="z")]
+    return model_of(blocks, ["base"], joint).problem
 
 
 def pressing(problem):
@@ -116,8 +110,7 @@ def stone(joint):
         lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
         lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    return lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(blocks, ["base"], joint)
 
 
 def test_the_lower_end_is_claimed_where_it_is_one():
@@ -148,8 +141,7 @@ def test_glue_holds_a_stone_without_shear():
         lb.Block.box("ceiling", (1, 1, 0.2), (0, 0, 1.1)),
         lb.Block.box("stone", (1, 1, 1), (0, 0, 0.5), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    model = lb.Model(blocks, ["ceiling"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ceiling"], joint)
     result = lb.nonassociated(model)
     assert result.load_factor == pytest.approx(1.5 - MU)
     assert result.frictionless == pytest.approx(0.0, abs=1e-9)
@@ -175,9 +167,7 @@ def test_a_ledge_resists_without_friction(joint):
         lb.Block.box("ledge", (0.2, 1, 0.5), (0.6, 0, 0.25)),
         lb.Block.box("stone", (1, 1, 2), (0, 0, 1), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, joint)
-    push = lb.mass_proportional((1, 0, 0))
-    found = lb.nonassociated(lb.Model(blocks, ["base", "ledge"], interfaces, lb.self_weight(), push))
+    found = lb.nonassociated(model_of(blocks, ["base", "ledge"], joint))
     assert found.frictionless == pytest.approx(1.0, rel=1e-6)
     assert found.load_factor > 1.0
 
@@ -198,9 +188,7 @@ def test_a_stone_on_a_slope_has_no_lower_end(monkeypatch, spoilt):
     turn = np.array([(np.cos(angle), 0, np.sin(angle)), (0, 1, 0), (-np.sin(angle), 0, np.cos(angle))])
     model = stone(lb.OrdunaLourenco(MU))
     blocks = [block.moved(turn, (0, 0, 0)) for block in model.blocks]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(MU))
-    across = lb.mass_proportional((0, 1, 0))  # along X a push up the slope would carry it
-    result = lb.nonassociated(lb.Model(blocks, ["base"], interfaces, lb.self_weight(), across))
+    result = lb.nonassociated(model_of(blocks, ["base"], lb.OrdunaLourenco(MU), (0, 1, 0)))
     assert np.isnan(result.frictionless)
     said = (
         "the load factor without friction was not"

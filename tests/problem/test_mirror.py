@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 from scipy.spatial.transform import Rotation
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -105,8 +106,7 @@ def pair_of_columns(joint, gap=0.0):
     for name, side in (("left", -1.0), ("right", 1.0)):
         at = (side * (0.25 + gap / 2), 0.0, 1.0)
         stones.append(lb.Block.box(name, (0.5, 1.0, 2.0), at, unit_weight=2e4))
-    push = lb.mass_proportional(direction=(0.0, 1.0, 0.0))
-    return lb.Model(stones, ["ground"], lb.find_interfaces(stones, joint), lb.self_weight(), push)
+    return model_of(stones, ["ground"], joint, (0.0, 1.0, 0.0))
 
 
 @pytest.mark.parametrize("name", ["points", "octagon", "circle"])

@@ -31,7 +31,7 @@ from limitblocks.practice import (
     verification,
     worst_position,
 )
-from limitblocks.shown import Result
+from limitblocks.shown import Result, kept
 
 MODEL = facades.beam()
 
@@ -55,16 +55,10 @@ class Heaviest(Result):
         ]
 
     def to_dict(self):
-        return {
-            "analysis": "heaviest blocks",
-            "names": list(self.names),
-            "weights": self.weights.tolist(),
-            "total": self.total,
-            "model_digest": self.digest,
-        }
+        return {"analysis": "heaviest blocks"} | kept(self, "names", "weights", "total", "digest")
 
     def __str__(self):
-        return f"{self.total:.6g} N on {len(self.names)} blocks{self._as_read}"
+        return self._line(f"{self.total:.6g} N on {len(self.names)} blocks")
 
 
 def heaviest(model):
@@ -139,7 +133,7 @@ def test_an_unknown_kind_and_a_part_of_a_known_one_are_refused(toy, tmp_path):
         lb.LimitBlocksError, match=r"a report cannot show dict; expected a result: .*Heaviest"
     ):
         lb.report(MODEL, {})
-    with pytest.raises(lb.LimitBlocksError, match="this Heaviest belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="this Heaviest belongs to model"):
         lb.report(MODEL, replace(toy, digest="0" * 64))
 
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from browsers import FLAGS, FOUND, SOFTWARE, needed, watch
+from stones import model_of, portal_stones
 from viewer_page import Image, card, drawn, shades, show, slide
 
 import limitblocks as lb
@@ -21,16 +22,8 @@ FORMULA = "=cmd|A1"
 
 @pytest.fixture(scope="module")
 def model():
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box(FORMULA, (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(HOSTILE, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    return lb.Model(
-        blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)), HOSTILE
-    )
+    blocks = portal_stones(FORMULA, HOSTILE)
+    return model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6), name=HOSTILE)
 
 
 @pytest.fixture(scope="module")

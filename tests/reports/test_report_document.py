@@ -9,6 +9,7 @@ from io import BytesIO
 import numpy as np
 import pytest
 from markupsafe import escape
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
@@ -145,8 +146,7 @@ def test_large_numbers_are_never_rounded_up(capsys):
             lb.Block.box("ground", (3, 1, 1), (0, 0, -0.5)),
             lb.Block.box("stone", (2, 1, 1), (0, 0, 0.5), 2e4),
         ]
-        joints = lb.find_interfaces(stone, lb.OrdunaLourenco(friction))
-        model = lb.Model(stone, ["ground"], joints, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+        model = model_of(stone, ["ground"], lb.OrdunaLourenco(friction))
         solved = lb.nonassociated(model)
         made = lb.report(model, solved, demand=2 * friction)
         assert made.to_dict()["chapters"][0]["parts"][0]["headline"]["number"] == said
@@ -264,13 +264,7 @@ def test_a_saved_result_is_reported(house, results, tmp_path):
 def test_joints_that_move_most_come_first():
     """A block that slides by 1 and turns by w about Z: its corners move by |(1, 0) + w x r|."""
     blocks = [lb.Block.box("ground", (4, 4, 1), (0, 0, -0.5)), lb.Block.box("a", (1, 1, 1), (0, 0, 0.5), 1e3)]
-    model = lb.Model(
-        blocks,
-        ["ground"],
-        lb.find_interfaces(blocks, lb.PointContact(0.5)),
-        lb.self_weight(),
-        lb.mass_proportional((1, 0, 0)),
-    )
+    model = model_of(blocks, ["ground"], lb.PointContact(0.5))
     w = 0.3
     rates = np.array([np.zeros(6), [1, 0, 0, 0, 0, w]])
     corners = [np.hypot(1.0 - w * y, w * x) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
@@ -311,9 +305,7 @@ def test_a_load_factor_is_not_shown_without_the_self_stress_that_it_needs():
         lb.Block.box("right", (1, 1, 1), (1, 0, 0)),
         lb.Block.box("held", (1, 1, 1), (0, 0, 0), unit_weight=20e3),
     ]
-    joints = lb.find_interfaces(stones, lb.PointContact(0.6))
-    push = lb.mass_proportional((0, 1, 0))
-    model = lb.Model(stones, ["left", "right"], joints, lb.self_weight(), push)
+    model = model_of(stones, ["left", "right"], lb.PointContact(0.6), (0, 1, 0))
     chapter = lb.report(model, lb.stability(model)).text
     assert "stands only by self-stress" in chapter[:600]
     assert "with a margin of 1 of the largest dead load tied to an interface" in " ".join(chapter.split())

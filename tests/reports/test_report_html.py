@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.drawing import painter, picture
@@ -18,16 +19,8 @@ from limitblocks.reports.words import at_most
 
 
 def portal(name="lintel", joint=None):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
-    interfaces = lb.find_interfaces(blocks, joint or lb.OrdunaLourenco(0.6))
-    return lb.Model(
-        blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)), f"Portal {name}"
-    )
+    blocks = portal_stones(lintel=name)
+    return model_of(blocks, ["ground"], joint or lb.OrdunaLourenco(0.6), name=f"Portal {name}")
 
 
 def grid(across, up, slide):
@@ -38,8 +31,7 @@ def grid(across, up, slide):
         for i in range(across)
         for k in range(up)
     ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
-    model = lb.Model(blocks, ["base"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["base"], lb.PointContact(0.5))
     rates = np.zeros((len(blocks), 6))
     rates[1:, 0] = slide
     return model, rates
@@ -251,7 +243,7 @@ def test_save_replaces_only_our_own_files(model, bounds, tmp_path):
 def test_unknown_results_and_results_of_other_models_are_refused(model, bounds):
     with pytest.raises(lb.LimitBlocksError, match="cannot show str; expected a result: Adequacy, Bounds"):
         lb.report(model, bounds, "bounds")
-    with pytest.raises(lb.LimitBlocksError, match="another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         lb.report(portal("beam"), bounds)
 
 
@@ -261,8 +253,7 @@ def test_blocks_that_nearly_touch_are_warned_of():
         lb.Block.box("left", (1, 1, 1), (-0.502, 0, 0.5), 2e4),
         lb.Block.box("right", (1, 1, 1), (0.502, 0, 0.5), 2e4),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
-    model = lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    model = model_of(blocks, ["ground"], lb.PointContact(0.5))
     (warning,) = facts(model)["warnings"]
     assert "left|right" in warning
     assert facts(portal())["warnings"] == []

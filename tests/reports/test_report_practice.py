@@ -197,9 +197,9 @@ def test_a_mechanism_that_the_viewer_does_not_play_is_on_the_screen_too(facade, 
 def test_answers_of_another_model_are_refused(facade, beam, answers, settled, vehicle):
     for model, own in ((beam, answers[1:]), (facade, (settled, vehicle))):
         for answer in own:
-            with pytest.raises(lb.LimitBlocksError, match=f"this {type(answer).__name__} belongs to another"):
+            with pytest.raises(lb.LimitBlocksError, match=f"this {type(answer).__name__} belongs to model"):
                 lb.report(model, answer)
-    with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+    with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
         lb.report(replace(facade, live=2.0 * facade.live), answers[1])
 
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of, portal_stones
 
 import limitblocks as lb
 from limitblocks.evidence.backward_error import unknown
@@ -19,14 +20,8 @@ from limitblocks.reports.words import at_most
 
 
 def portal(name="lintel"):
-    blocks = [
-        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
-        lb.Block.box("left <leg>", (0.5, 1, 2), (-1, 0, 1), 20e3),
-        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
-        lb.Block.box(name, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
-    ]
-    interfaces = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    blocks = portal_stones("left <leg>", name)
+    return model_of(blocks, ["ground"], lb.OrdunaLourenco(0.6))
 
 
 MODEL = portal()
@@ -162,7 +157,7 @@ def test_failed_check_is_told_apart():
 
 def test_results_of_other_models_are_refused():
     for result in (RESULT, PATH):
-        with pytest.raises(lb.LimitBlocksError, match="belongs to another model"):
+        with pytest.raises(lb.LimitBlocksError, match="belongs to model"):
             lb.report(portal("beam"), result)
     with pytest.raises(
         lb.LimitBlocksError,

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks.drawing.chains import chains
@@ -59,8 +60,7 @@ def test_a_survey_far_from_the_origin_is_the_same_picture():
     def stones(offset):
         boxes = [((4.0, 1.0, 0.2), (0.0, 0.0, -0.1)), ((0.5, 1.0, 2.0), (0.125, 0.0, 1.0))]
         blocks = [lb.Block.box(str(k), size, np.add(at, offset), 20e3) for k, (size, at) in enumerate(boxes)]
-        push = lb.mass_proportional((1, 0, 0))
-        return lb.Model(blocks, ["0"], lb.find_interfaces(blocks, JOINT), lb.self_weight(), push)
+        return model_of(blocks, ["0"], JOINT)
 
     offset = np.array([512345.0, 5398765.0, 312.0])  # m
     near, far = stones(np.zeros(3)), stones(offset)

@@ -141,10 +141,8 @@ def test_arch_geometry():
 @pytest.mark.parametrize("embrace", [2 * np.pi / 3, np.radians(157.5), np.pi])
 def test_arch_is_symmetrical(embrace):
     model = structures.arch(JOINT, radius=5.0, thickness=0.9, voussoirs=8, embrace=embrace)
-    left, right = (
-        lb.bounds(model).lower,
-        lb.bounds(replace(model, live=lb.mass_proportional((-1, 0, 0)))).lower,
-    )
+    left = lb.bounds(model).lower
+    right = lb.bounds(replace(model, live=lb.mass_proportional((-1, 0, 0)))).lower
     assert left == pytest.approx(right, rel=1e-6)
 
 

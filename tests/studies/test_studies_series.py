@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import model_of
 
 import limitblocks as lb
 from limitblocks import studies
@@ -36,8 +37,7 @@ def slab(overhang=1.5, half=1.0):
         lb.Block.box("ground", (2 * half, 1, 1), (0, 0, -0.5)),
         lb.Block.box("slab", (2 * (half + overhang), 1, 0.2), (0, 0, 0.1), 20e3),
     ]
-    interfaces = lb.find_interfaces(blocks, lb.PointContact(0.5))
-    return lb.Model(blocks, ["ground"], interfaces, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    return model_of(blocks, ["ground"], lb.PointContact(0.5))
 
 
 @pytest.mark.parametrize("analysis", ["bounds", "nonassociated"])
@@ -105,9 +105,7 @@ def test_the_line_says_what_the_least_answer_remarks():
     """Pushed along the diagonal Eq. (39) has 1 - n, the triangle of the stress block 1 - 2/3 sqrt(2 n)."""
     n, ground = 0.2, lb.Block.box("ground", (6, 6, 1), (0, 0, -0.5))
     pier = lb.Block.box("pier", (1, 1, 4), (0, 0, 2), 20e3)
-    contacts = lb.find_interfaces([ground, pier], lb.OrdunaLourenco(0.9, compressive_strength=80e3 / n))
-    push = lb.mass_proportional((1, 0, 0))
-    model = lb.Model([ground, pier], ["ground"], contacts, lb.self_weight(), push)
+    model = model_of([ground, pier], ["ground"], lb.OrdunaLourenco(0.9, compressive_strength=80e3 / n))
     over = (1 - n) / (1 - 2 / 3 * np.sqrt(2 * n))
     assert f"carries {over:.2f} times the moment" in str(studies.directions(model, [(1, 1, 0)]))
     assert "moment" not in str(studies.directions(model, [(1, 0, 0)]))

@@ -18,19 +18,3 @@ def leaves(joint, between, b=0.12, height=2.4):
     if between is not None:
         kept += [replace(i, joint=between) for i in interfaces if {i.block_i, i.block_j} == vertical]
     return lb.Model(blocks, ["base"], kept, lb.self_weight(), lb.mass_proportional((0, 1, 0)))
-
-
-def jammed(joint):
-    """A block between a floor and a ceiling."""
-    blocks = [
-        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
-        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
-        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
-    ]
-    return lb.Model(
-        blocks,
-        ["floor", "ceiling"],
-        lb.find_interfaces(blocks, joint),
-        lb.self_weight(),
-        lb.mass_proportional((1, 0, 0)),
-    )

@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from boxes import jammed, leaves
+from boxes import leaves
+from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -97,13 +98,7 @@ def tilted(model, angle):
     turn = np.array([(c, 0, s), (0, 1, 0), (-s, 0, c)])
     blocks = [block.moved(turn, (0, 0, 0)) for block in model.blocks]
     joint = model.interfaces[0].joint
-    return lb.Model(
-        blocks,
-        model.supports,
-        lb.find_interfaces(blocks, joint),
-        lb.self_weight(),
-        lb.mass_proportional(turn @ (1, 0, 0)),
-    )
+    return model_of(blocks, model.supports, joint, turn @ (1, 0, 0))
 
 
 @pytest.mark.parametrize("angle", [0.1, 0.2])

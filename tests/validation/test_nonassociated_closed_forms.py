@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from boxes import jammed, leaves
+from boxes import leaves
+from stones import jammed
 
 import limitblocks as lb
 from limitblocks import structures

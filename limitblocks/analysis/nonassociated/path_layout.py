@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
-from limitblocks.analysis.elimination import Factors, rates_in_order
 from limitblocks.arrays import Array, Indices, owned
+from limitblocks.evidence.elimination import Factors, rates_in_order
 from limitblocks.evidence.factors import diagonal_factors
 from limitblocks.problem import Flow, LimitProblem
 

@@ -20,7 +20,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.known import known
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.problem import Flow, LimitProblem, State, Turning, checked_dilatancy, turning_of
 
 NOISE = 1e-9  # of the associated load factor, or of the dead loads: a frictionless one below it is zero
@@ -186,10 +186,7 @@ def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:
 
 def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if isinstance(start, Nonassociated | Bounds):
-        if start.digest != model.digest:
-            raise ModelError(
-                f"start belongs to model {start.digest[:12]}, not to this model {model.digest[:12]}"
-            )
+        refuse_other(model, start)
         return np.asarray(start.generalised_stresses / problem.stress_units)
     stresses = np.asarray(start, dtype=float)
     if stresses.shape == (len(model.interfaces), 6):

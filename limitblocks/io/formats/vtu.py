@@ -14,12 +14,11 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.drawing.motion import displaced, motion
 from limitblocks.errors import ModelError
-from limitblocks.evidence.claim import refuse_other
 from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.geometry import Block
 from limitblocks.io.colours import parts_of
 from limitblocks.io.packages import package
-from limitblocks.model import Model
+from limitblocks.model import Model, refuse_other
 from limitblocks.written import refuse_existing, write
 
 _RESULTANTS = ("V1", "V2", "N", "M1", "M2", "T")
@@ -135,7 +134,7 @@ def _labels(blocks: Sequence[Block]) -> dict[str, Any]:
 def _interfaces(model: Model, path: Path, resultants: Array | None) -> tuple[Path, bytes]:
     """Return path and VTU file of the interfaces with their stress resultants (m, 6)."""
     parts = model.interfaces
-    points = [part.centroid + part.polygon @ part.axes[:2] for part in parts]
+    points = [part.corners for part in parts]
     ends = np.cumsum([0, *map(len, points)]).tolist()
     polygons = [np.arange(*span) for span in pairwise(ends)]
     cells: dict[str, Any] = {"interface": np.arange(len(parts))}

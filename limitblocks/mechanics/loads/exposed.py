@@ -17,12 +17,6 @@ _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not 
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
-def boxes(blocks: Sequence[Block]) -> tuple[Array, Array]:
-    """Return the lowest and the highest coordinates of each block, shapes (n, 3)."""
-    points = [block.vertices for block in blocks]
-    return np.array([p.min(axis=0) for p in points]), np.array([p.max(axis=0) for p in points])
-
-
 def open_to_the_sky(
     corners: Array,
     block: Block,
@@ -44,7 +38,7 @@ def open_to_the_sky(
     blocks : sequence of Block
         What may cover it: the part of each above the plane of the face; of its own block if not convex.
     bounds : tuple of Array
-        :func:`boxes` of these blocks.
+        Least and greatest corners of these blocks.
     """
     if len(corners) < 3:
         return

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import shapely
 
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.accuracy import ANGLE, GAP
+from limitblocks.geometry.distance import beside
 from limitblocks.geometry.faces import surfaces_of
 from limitblocks.geometry.regions import regions
 
@@ -55,7 +55,7 @@ def faces_through(block: Block, point: Sequence[float]) -> Indices:
     """
     at, near = np.asarray(point, dtype=float), _NEAR * block.size
     level = np.flatnonzero(np.abs(block.normals @ at - block.offsets) <= near)
-    faces = np.array([k for k in level.tolist() if _off(block, k, at) <= near], dtype=int)
+    faces = np.array([k for k in level.tolist() if beside(block, k, at) <= near], dtype=int)
     plane = _planes(block)
     if len(faces) and (plane[faces] == plane[faces[0]]).all():
         return np.flatnonzero(plane == plane[faces[0]])
@@ -67,13 +67,6 @@ def _planes(block: Block) -> Indices:
     """Number the plane regions of the faces, shape (m,), as contacts do: faces in one plane are one."""
     flat = GAP / 2.0 * float(np.cbrt(block.volume))
     return regions(surfaces_of([block], [block.vertices - block.centroid]), flat, ANGLE / 2.0)
-
-
-def _off(block: Block, face: int, point: Array) -> float:
-    """Distance of a point in the plane of a face, convex or not, from the face."""
-    plane = np.linalg.svd(block.normals[[face]])[2][1:]
-    outline = block.vertices[list(block.faces[face])] @ plane.T
-    return float(shapely.distance(shapely.Polygon(outline), shapely.Point(plane @ point)))
 
 
 def part_where(corners: Array, values: Array) -> tuple[Array, Array]:

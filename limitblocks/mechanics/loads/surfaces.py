@@ -10,7 +10,8 @@ import numpy as np
 from limitblocks.arrays import Array, Indices
 from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Block
-from limitblocks.mechanics.loads.exposed import boxes, open_to_the_sky
+from limitblocks.geometry.neighbours import bounds_of
+from limitblocks.mechanics.loads.exposed import open_to_the_sky
 from limitblocks.mechanics.loads.faces import faces_through, faces_towards, integrals, part_where
 from limitblocks.mechanics.loads.load import (
     Load,
@@ -143,7 +144,7 @@ class Fill:
     def on_faces(self, blocks: Sequence[Block]) -> Iterator[tuple[int, int, float, Array]]:
         """Yield block, upward face, weight on it (N), and its first moments about the centroid (N m)."""
         named = [position(name, blocks) for name in dict.fromkeys(self.blocks)]
-        bounds = boxes(blocks)
+        bounds = bounds_of([block.vertices for block in blocks])
         for k in named or range(len(blocks)):
             block = blocks[k]
             for face in np.flatnonzero(block.normals[:, 2] > 1e-6).tolist():

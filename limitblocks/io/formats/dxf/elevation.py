@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.geometry.polyhedron import prism
 from limitblocks.io import faults
 from limitblocks.io.formats.dxf import reader as dxf
 from limitblocks.io.formats.dxf.outlines import Outline, outline_of
@@ -116,19 +116,11 @@ def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
         )
     names = _labelled(outlines, labels)
     solids = [
-        Solid(name, outline.part.layer, *_prism(outline.corners, 1.0))
+        Solid(name, outline.part.layer, *prism(outline.corners, -0.5, 0.5, 1))
         for name, outline in zip(names, outlines, strict=True)
     ]
     gone = (*dropped, *dxf.hidden_of(left_out))
     return Contents(solids, notes=[*notes, *dxf.notes_on(left_out)], wrong=wrong, left_out=gone)
-
-
-def _prism(corners: Array, depth: float) -> tuple[Array, list[tuple[int, ...]]]:
-    n = len(corners)
-    x, z = np.tile(corners, (2, 1)).T
-    y = np.repeat([-depth / 2, depth / 2], n)
-    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
-    return np.column_stack([x, y, z]), [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *sides]
 
 
 def _labelled(outlines: Sequence[Outline], labels: Sequence[Part]) -> list[str]:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial.transform import Rotation
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
@@ -18,7 +19,7 @@ from limitblocks.io.colours import of_linear
 from limitblocks.io.imported import foreign, one_line, read_bytes, refuse_many
 from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, placed
 
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -50,7 +51,7 @@ def contents(path: Path) -> Contents:
                 points, triangles = _geometry(document, buffers, mesh)
                 refuse_many(len(bodies), faces := faces + len(triangles))
                 refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
-                points = points @ placement[:3, :3].T + placement[:3, 3]
+                points = placed(points, placement)
                 words = _words(document, node, mesh)
                 found = solids(str(name), words["layer"], points, triangles)
                 bodies += [solid._replace(**words) for solid in found]
@@ -141,10 +142,8 @@ def _local(node: dict[str, Any]) -> Array:
     """Return the placement (4, 4) of a node in its parent."""
     if "matrix" in node:
         return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
-    x, y, z, w = np.array(node.get("rotation", (0, 0, 0, 1)), dtype=np.float64)
     placement = np.eye(4)
-    twist = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    turn = np.eye(3) + 2.0 * (w * twist + twist @ twist) / (x * x + y * y + z * z + w * w)
+    turn = Rotation.from_quat(node.get("rotation", (0, 0, 0, 1))).as_matrix()
     placement[:3, :3] = turn * np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)
     placement[:3, 3] = node.get("translation", (0, 0, 0))
     return placement

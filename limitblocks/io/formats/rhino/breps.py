@@ -10,6 +10,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
+from limitblocks.geometry.coplanar import axes_along
 from limitblocks.io.imported import refuse_many
 from limitblocks.io.shells import soup
 
@@ -115,9 +116,7 @@ def _with_holes(rings: list[Array], normal: Array) -> list[Array]:
 
     rings = sorted(rings, key=lambda ring: -_area(ring, normal))
     rings = [rings[0], *(ring[::-1] for ring in rings[1:])]
-    k = int(np.abs(normal).argmax())
-    axes = [(k + 1) % 3, (k + 2) % 3][:: 1 if normal[k] > 0.0 else -1]
-    corners = np.concatenate(rings)
+    corners, axes = np.concatenate(rings), axes_along(normal)
     return [corners[trio] for trio in triangulate([ring[:, axes] for ring in rings])]
 
 

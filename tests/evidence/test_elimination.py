@@ -5,7 +5,7 @@ import pytest
 from scipy import sparse
 
 import limitblocks as lb
-from limitblocks.analysis.elimination import Entries, Factors, elimination, factors_in_order, numbered, placed
+from limitblocks.evidence.elimination import Entries, Factors, elimination, factors_in_order, numbered, placed
 from limitblocks.evidence.factors import diagonal_factors
 
 

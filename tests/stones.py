@@ -1,0 +1,57 @@
+"""Models of stones put together by hand."""
+
+import numpy as np
+
+import limitblocks as lb
+
+
+def model_of(stones, supports, joint, direction=(1, 0, 0), name=""):
+    """Stones with one joint wherever they touch, under their weight, pushed along `direction`."""
+    found = lb.find_interfaces(stones, joint)
+    return lb.Model(stones, supports, found, lb.self_weight(), lb.mass_proportional(direction), name)
+
+
+def portal_stones(left="left", lintel="lintel"):
+    """A lintel on two legs on the ground."""
+    return [
+        lb.Block.box("ground", (4, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box(left, (0.5, 1, 2), (-1, 0, 1), 20e3),
+        lb.Block.box("right", (0.5, 1, 2), (1, 0, 1), 20e3),
+        lb.Block.box(lintel, (2.5, 1, 0.4), (0, 0, 2.2), 24e3),
+    ]
+
+
+def jammed(joint):
+    """A block between a floor and a ceiling."""
+    stones = [
+        lb.Block.box("floor", (3.0, 1.0, 0.2), (0, 0, -0.1)),
+        lb.Block.box("ceiling", (3.0, 1.0, 0.2), (0, 0, 1.1)),
+        lb.Block.box("block", (1.0, 1.0, 1.0), (0, 0, 0.5), 20e3),
+    ]
+    return model_of(stones, ["floor", "ceiling"], joint)
+
+
+def sloping(stone, joint, direction):
+    """A block of a unit weight on a slope of 1:2, pushed along `direction`."""
+    angle = np.arctan2(1.0, 2.0)
+    turn = np.array([(np.cos(angle), 0, np.sin(angle)), (0, 1, 0), (-np.sin(angle), 0, np.cos(angle))])
+    blocks = [
+        lb.Block.box("slope", (4, 1, 0.2), (0, 0, -0.1)).moved(turn, (0, 0, 0)),
+        lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), stone).moved(turn, (0, 0, 0)),
+    ]
+    return model_of(blocks, ["slope"], joint, direction)
+
+
+def imbalance(model, load_factor, stress_resultants):
+    """Forces and moments on the free blocks about their centroids, (n, 6), joint by joint."""
+    loads = model.dead.on(model.free_blocks) + load_factor * model.live.on(model.free_blocks)
+    left = dict(zip((block.name for block in model.free_blocks), loads, strict=True))
+    centroid = {block.name: block.centroid for block in model.free_blocks}
+    for interface, Q in zip(model.interfaces, stress_resultants, strict=True):
+        f, m = interface.axes.T @ Q[:3], interface.axes.T @ Q[3:]
+        # N < 0 in compression and n points out of block i: +Q acts on block i, -Q on block j
+        for name, sign in ((interface.block_i, 1.0), (interface.block_j, -1.0)):
+            if name in left:
+                arm = interface.centroid - centroid[name]
+                left[name] = left[name] + sign * np.concatenate([f, m + np.cross(arm, f)])
+    return np.array(list(left.values()))
