@@ -57,12 +57,17 @@ class Rows(Saved):
         return write(Path(file), stream.getvalue(), overwrite)
 
 
+FALLS = "NoEquilibrium"
+NO_MODEL = ("ModelError", "GeometryError", "ValueError")  # of the maker, or of what it gives
+
+
 def unanswered(load_factors: Array, errors: Sequence[str]) -> str:
-    """Return in words how many load factors are unlimited, fall or are missing, with why the first is."""
-    fallen = np.array([error.startswith("NoEquilibrium") for error in errors])
-    lost, unlimited = np.isnan(load_factors) & ~fallen, int(np.isinf(load_factors).sum())
+    """Return in words how many are unlimited, fall, are no model or have no answer, with why the first is."""
+    fallen, refused = (np.array([error.startswith(kind) for error in errors]) for kind in (FALLS, NO_MODEL))
+    lost, unlimited = np.isnan(load_factors) & ~fallen & ~refused, int(np.isinf(load_factors).sum())
     words = [f"{unlimited} unlimited"] if unlimited else []
     words += [f"{fallen.sum()} that fall ({errors[int(fallen.argmax())]})"] if fallen.any() else []
+    words += [f"{refused.sum()} without a model ({errors[int(refused.argmax())]})"] if refused.any() else []
     words += [f"{lost.sum()} without an answer ({errors[int(lost.argmax())]})"] if lost.any() else []
     return "".join(f"; {word}" for word in words)
 

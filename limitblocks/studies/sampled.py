@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from inspect import Signature, signature
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -74,11 +75,13 @@ def study(
     Raises
     ------
     ModelError
-        If a parameter, the sampler or a number is wrong, or the file is one of another study.
+        If a parameter, the sampler, a name or a number is wrong, or the file is one of another study.
     """
     if analysis not in ANALYSES:
         raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
     checked_count("n", n, 1)
+    _fits("the maker", signature(maker), (), parameters)
+    _fits(f"study, with {analysis}", signature(ANALYSES[analysis]), (None,), settings)
     names, values = sampled_values(parameters, n, sampler, seed, indices)
     head = _head(parameters, values, sampler, seed, analysis, settings, indices)
     store = Path(file) if file is not None else None
@@ -108,6 +111,15 @@ def study(
         samples=n,
         indices=indices,
     )
+
+
+def _fits(who: str, takes: Signature, first: tuple[None, ...], given: Mapping[str, Any]) -> None:
+    """ModelError where a function does not take what is given by name, before anything is analysed."""
+    try:
+        takes.bind(*first, **given)
+    except TypeError as error:
+        words = ", ".join(list(takes.parameters)[len(first) :])
+        raise ModelError(f"{who} is given {', '.join(given)} ({error}); it takes {words}") from None
 
 
 def _head(

@@ -9,6 +9,7 @@ from scipy import stats
 import limitblocks as lb
 from limitblocks.studies import SampledStudy, sampled
 from limitblocks.studies.pool import failed
+from limitblocks.studies.results import unanswered
 
 
 def block(friction=0.5, width=1.0):
@@ -159,10 +160,23 @@ def test_what_is_below_a_quantile_is_its_share_on_average(n):
     assert high == pytest.approx(1 - expected, abs=2e-3)
 
 
+def test_a_parameter_that_the_maker_needs_is_named_before_any_sample(monkeypatch):
+    monkeypatch.setattr(sampled, "one_row", None)
+    with pytest.raises(lb.ModelError, match="the maker is given friction .*'scale'.; it takes friction, scale"):
+        lb.study(product, {"friction": (0.2, 0.6)}, 4)
+
+
+def test_impossible_models_are_told_from_lost_answers():
+    values = np.array([0.3, np.nan, np.nan, np.nan])
+    errors = ("", "GeometryError: overlap", "NotConverged: lost", "ModelError: no support")
+    said = unanswered(values, errors)
+    assert said == "; 2 without a model (GeometryError: overlap); 1 without an answer (NotConverged: lost)"
+
+
 def test_a_study_without_an_answer_prints():
     none = lb.study(falls_where_slippery, {"friction": (0.1, 0.2)}, 2)
     assert str(none) == (
-        "2 analyses of friction, no load factor; 2 without an answer (ModelError: too slippery)"
+        "2 analyses of friction, no load factor; 2 without a model (ModelError: too slippery)"
     )
 
 
@@ -204,6 +218,8 @@ def test_on_a_local_cluster():
         ({"n": 0}, "n is 0"),
         ({"sampler": "dice"}, "sampler is 'dice'"),
         ({"analysis": "x"}, "analysis is 'x'"),
+        ({"parameters": {"fricton": (0.2, 0.6)}}, "the maker is given fricton .*; it takes friction, width$"),
+        ({"wide": 2}, "with bounds is given wide .*; it takes tolerance, progress$"),
         ({"n": 6, "indices": True}, "n is 6, expected a power of two"),
     ],
 )
