@@ -57,9 +57,7 @@ def main(folder="output"):
 
 def prism(name, section, unit_weight=None):
     """A body of depth 1 m above the four corners of a section in X and Z."""
-    corners = [(x, y, z) for y in (-0.5, 0.5) for x, z in section]
-    faces = [(0, 1, 2, 3), (7, 6, 5, 4), *((k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4))]
-    return lb.Block(name, np.array(corners), faces, unit_weight)
+    return lb.Block.prism(name, section, (-0.5, 0.5), unit_weight)
 
 
 def structure(blocks, supports):

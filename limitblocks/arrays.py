@@ -124,7 +124,9 @@ def same_rows(values: Array, within: float = 0.0) -> tuple[Indices, Indices]:
     first = np.unique(label, return_index=True)[1]
     off = values[first[label]]
     off -= values
-    odd = ~(np.abs(off, out=off).max(axis=1, initial=0.0) <= within)
-    label[odd] = len(first) + np.arange(int(odd.sum()))
+    odd = np.flatnonzero(~(np.abs(off, out=off).max(axis=1, initial=0.0) <= within))
+    if not len(odd):
+        return first, label
+    label[odd] = len(first) + np.arange(len(odd))
     _, first, label = np.unique(label, return_index=True, return_inverse=True)
     return np.asarray(first), np.asarray(label).ravel()

@@ -18,10 +18,11 @@ from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
 from limitblocks.geometry.ends import floating
 from limitblocks.geometry.given_interfaces import interface_faults
+from limitblocks.geometry.interface import PLACE
 from limitblocks.joints.base import joints_of
 from limitblocks.mechanics import Load, limit_problem
 from limitblocks.problem import LimitProblem
-from limitblocks.shown import Viewed, many
+from limitblocks.shown import Viewed, kept, many
 from limitblocks.written import tagged, write
 
 SCHEMA_VERSION = 1
@@ -150,17 +151,7 @@ class Model(Viewed):
             ],
             "supports": list(self.supports),
             "joints": joints,
-            "interfaces": [
-                {
-                    "block_i": interface.block_i,
-                    "block_j": interface.block_j,
-                    "centroid": interface.centroid.tolist(),
-                    "axes": interface.axes.tolist(),
-                    "polygon": interface.polygon.tolist(),
-                    "joint": joint[id(interface.joint)],
-                }
-                for interface in self.interfaces
-            ],
+            "interfaces": [kept(one, *PLACE) | {"joint": joint[id(one.joint)]} for one in self.interfaces],
             **self._loads,
         }
 

@@ -13,11 +13,12 @@ import numpy as np
 
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.polish import polish
-from limitblocks.analysis.repair import PlanarRepair, Repair, planar_repair
+from limitblocks.analysis.programs import remeasured
+from limitblocks.analysis.repair import PlanarRepair, Repair
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array
-from limitblocks.evidence.proof import Proof, Prover, own_units
+from limitblocks.evidence.proof import Proof, Prover, acting_at
 from limitblocks.evidence.reach import Reach
 from limitblocks.evidence.rounding import EPS
 from limitblocks.problem import ASSOCIATED, Flow, LimitProblem, State
@@ -66,26 +67,30 @@ def certified(
     whole : bool
         Whether to make no use of a mirror.
     """
-    own = own_units(problem, state)
-    given, plane = own.dimensionless(problem.in_si(state)), None if whole else in_plane(problem)
-    splitting = splitting or Splitting(scaled(problem if plane is None else plane.problem))
-    repair = Repair(splitting, own) if plane is None else planar_repair(own, plane, splitting)
+    plane = None if whole else in_plane(problem)
+    repair = Repair(splitting or Splitting(scaled(problem if plane is None else plane.problem)))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        mixture = _Mixture(own, repair, dead * problem.stress_units / own.stress_units)
-        found, proof = mixture.proven(given)
+        mixture = _Mixture(
+            problem,
+            repair if plane is None else PlanarRepair(problem, plane, repair),
+            dead,
+            acting_at(problem, state),
+        )
+        found, proof = mixture.proven(state)
         if proof.width > close:
-            closer, better = mixture.proven(_polished(own, plane, given, patience))
+            closer, better = mixture.proven(_polished(problem, plane, state, patience))
             found, proof = (closer, better) if better.width < proof.width else (found, proof)
-    return problem.dimensionless(own.in_si(found)), proof
+    return found, proof
 
 
 @dataclass(frozen=True, eq=False)
 class _Mixture:
-    """States mixed with a little of strictly admissible ones, in units of `own`."""
+    """States mixed with a little of strictly admissible ones; `acting` (m,) as in `acting_at`."""
 
     own: LimitProblem
     repair: Repair | PlanarRepair
     dead: Array
+    acting: Array
     opened: list[tuple[Array, Array]] = field(default_factory=list)  # the mechanism, once it is found
 
     def proven(self, state: State) -> tuple[State, Proof]:
@@ -117,8 +122,7 @@ class _Mixture:
 
     @cached_property
     def prover(self) -> Prover:
-        """In these units: no digit changes in others."""
-        return Prover(self.own, self.inner)
+        return Prover(self.own, self.inner, self.acting)
 
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
@@ -129,16 +133,19 @@ class _Mixture:
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
         return float(parts.max(initial=0.0))
 
-    def _spare(self, load_factor: float, x: Array) -> float:
+    def _spare(self, load_factor: float, x: Array) -> Array:
         """Opening of every joint, the like of which is found in few rounds, that costs next to no width.
 
-        By virtual work multipliers z cost (F x + g).z beyond the load factor, x being the stresses.
+        By virtual work multipliers z cost (F x + g).z beyond the load factor, x being the stresses. It is
+        the less the more acts on the joint.
         """
-        cost = float((self.own.F @ x + self.own.g)[self.own.cones.heads].sum())
+        p = self.own
+        less = 1.0 / self.acting[p.member_interface]
+        cost = float((p.F @ x + p.g)[p.cones.heads] @ less)
         size = max(abs(load_factor), EPS)
-        return SPARE * (size / cost if cost > size else 1.0)
+        return SPARE * (size / cost if cost > size else 1.0) * less
 
-    def _opened(self, reach: Reach, spare: float) -> tuple[float, Array, Array]:
+    def _opened(self, reach: Reach, spare: Array) -> tuple[float, Array, Array]:
         """Part, rates and multipliers of a mechanism that opens every joint by what its multipliers lack.
 
         It opens none by less than `spare`. The part is infinite where there is no such mechanism.
@@ -162,10 +169,16 @@ def _lack(reach: Reach) -> Array:
     return np.where(np.isnan(lack), np.inf, lack)
 
 
-def _polished(own: LimitProblem, plane: Planar | None, state: State, patience: int | None = None) -> State:
-    """The state polished, reduced by the mirror if there is one."""
+def _polished(
+    problem: LimitProblem, plane: Planar | None, given: State, patience: int | None = None
+) -> State:
+    """The state polished in units of what acts in it, reduced by the mirror if there is one."""
+    own = remeasured(problem, given) or problem
+    state = own.dimensionless(problem.in_si(given))
     if plane is None:
-        return polish(Flow(own, ASSOCIATED), state, until=POLISHED, patience=patience)
-    plane = plane.measured(own)
-    flow = Flow(plane.problem, ASSOCIATED)
-    return plane.lifted(polish(flow, plane.averaged(state), until=POLISHED, patience=patience))
+        state = polish(Flow(own, ASSOCIATED), state, until=POLISHED, patience=patience)
+    else:
+        plane = plane.measured(own)
+        flow = Flow(plane.problem, ASSOCIATED)
+        state = plane.lifted(polish(flow, plane.averaged(state), until=POLISHED, patience=patience))
+    return problem.dimensionless(own.in_si(state))

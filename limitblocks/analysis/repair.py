@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.scales import compatible_with
+from limitblocks.analysis.scales import compatible_with, unmoved
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, Indices
 from limitblocks.problem import LimitProblem, State
@@ -23,10 +23,9 @@ EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is ope
 
 @dataclass(frozen=True, eq=False)
 class Repair:
-    """Repairs in the units of a problem, of states in those of another."""
+    """Repairs of states in units of the problem."""
 
     splitting: Splitting
-    own: LimitProblem
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
@@ -55,19 +54,17 @@ class Repair:
         return here.u, here.y
 
     def _there(self, **parts: Any) -> State:
-        """Parts of a state in units of the problem."""
-        own, p = self.own, self.splitting.p
-        return p.of_problem(p.problem.dimensionless(own.in_si(replace(self._nothing, **parts))))
+        """Parts of a state in units of the splitting."""
+        return self.splitting.p.of_problem(replace(self._nothing, **parts))
 
     def _here(self, **parts: Any) -> State:
-        """Parts of a state in units of its own."""
-        p = self.splitting.p
-        return self.own.dimensionless(p.problem.in_si(p.in_problem(replace(self._nothing, **parts))))
+        """Parts of a state in units of the problem."""
+        return self.splitting.p.in_problem(replace(self._nothing, **parts))
 
     @cached_property
     def _nothing(self) -> State:
-        stresses, rates = self.own.C.shape
-        return State(0.0, np.zeros(stresses), np.zeros(rates), np.zeros(len(self.own.g)))
+        p = self.splitting.p
+        return unmoved(p.problem, 0.0, np.zeros(p.C.shape[0]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,9 +126,3 @@ class PlanarRepair:
         share = np.where(np.isfinite(share), share, 0.0)
         kept = plane.multipliers @ (y - share[p.row_interface] * same)
         return np.asarray(kept + share[self.interface] * one)
-
-
-def planar_repair(whole: LimitProblem, plane: Planar, splitting: Splitting) -> PlanarRepair:
-    """Return the repairs in the plane or in one half, in units of the whole problem."""
-    measured = plane.measured(whole)
-    return PlanarRepair(whole, measured, Repair(splitting, measured.problem))

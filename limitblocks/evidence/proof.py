@@ -13,7 +13,7 @@ from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.reach import Kinematic, Reach, Static
 from limitblocks.evidence.rounding import EPS, TINY, UP, scalar_product
 from limitblocks.evidence.spanning_tree import spanning_tree
-from limitblocks.problem import LimitProblem, State
+from limitblocks.problem import LimitProblem, State, power_of_two
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0
     Parameters
     ----------
     problem : LimitProblem
-        ``model.problem``. Its units are powers of two: measured in others, every digit stays.
+        ``model.problem``. Its units are powers of two: measured in others, no digit changes.
     si : State
         Load factor and generalised stresses of the static solution, displacement rates and multipliers of
         the kinematic one, in SI units.
@@ -83,21 +83,26 @@ def proof_of(problem: LimitProblem, si: State, dead: Array, reserve: float = 1.0
     K, every state in equilibrium within yield has a (live.u) <= g.(y + dy) - dead.u. For dx and dy see
     :mod:`limitblocks.evidence.reach`.
     """
-    p = own_units(problem, problem.dimensionless(si))
-    return Prover(p, dead / p.stress_units).proof(p.dimensionless(si), reserve)
+    state = problem.dimensionless(si)
+    return Prover(problem, dead / problem.stress_units, acting_at(problem, state)).proof(state, reserve)
 
 
 @dataclass(frozen=True, eq=False)
 class Prover:
-    """Proofs of states of one problem, dimensionless; `dead` (s,) as in :func:`proof_of`."""
+    """Proofs of states of one problem, dimensionless; `dead` (s,) as in :func:`proof_of`.
+
+    `acting` (m,) is what acts at each interface: its room is measured by it.
+    """
 
     problem: LimitProblem
     dead: Array
+    acting: Array
 
     @cached_property
     def static(self) -> Static:
         """The reach of stresses."""
-        return Static(self.problem, spanning_tree(self.problem, room_of(self.problem, self.dead)))
+        room = room_of(self.problem, self.dead) / self.acting
+        return Static(self.problem, spanning_tree(self.problem, room))
 
     @cached_property
     def kinematic(self) -> Kinematic:
@@ -122,11 +127,13 @@ class Prover:
         )
 
 
-def own_units(problem: LimitProblem, state: State) -> LimitProblem:
-    """Return the problem in units of what acts on each block in the state; no digit changes."""
+def acting_at(problem: LimitProblem, state: State) -> Array:
+    """Return what acts on the lesser block of each interface in the state, to a power of two, (m,)."""
     acting = Measure(problem, state).block
     usable = np.isfinite(acting) & (acting > TINY)
-    return problem.measured(np.where(usable, acting, 1.0) * problem.units.block_force)
+    force = power_of_two(np.where(usable, acting, 1.0) * problem.units.block_force)
+    least = np.where(problem.ends >= 0, force[problem.ends], np.inf).min(axis=1)
+    return np.asarray(least / problem.units.interface_force)
 
 
 def room_of(problem: LimitProblem, x: Array) -> Array:

@@ -65,8 +65,7 @@ class Static:
         """Bound the size of stresses (s,) that carry forces within +-`unbalanced` (n, 6) along the tree."""
         places, right, share, ways = self._ways
         force = size_of(unbalanced)
-        for block, behind, transfer in ways:
-            there = (6 * behind[:, None] + np.arange(6)).ravel()
+        for block, there, transfer in ways:
             more = np.einsum("kij,kj->ki", transfer, force[block]).ravel()
             force = (force + np.bincount(there, more, force.size).reshape(force.shape)) * UP
         change = np.zeros(self.problem.C.shape[0] + 1)
@@ -77,7 +76,7 @@ class Static:
 
     @cached_property
     def _balance(self) -> Products:
-        return Products((self.problem.C.T,))
+        return Products((self.problem.balance,))
 
     @cached_property
     def _rows(self) -> Products:
@@ -87,8 +86,8 @@ class Static:
     def _ways(self) -> tuple[Indices, Array, Array, list[tuple[Indices, Indices, Array]]]:
         """Stresses (n, S) of the tree's interfaces, sizes of what a force on the block needs of them, ways.
 
-        Each of the ways has blocks, those 2^k steps behind, and how much (6, 6) of a force gets there: with T
-        one step, 1 + T + T^2 + ... = (1 + T) (1 + T^2) (1 + T^4) ...
+        Each of the ways has blocks, the equations of those 2^k steps behind, and how much (6, 6) of a force
+        gets there: with T one step, 1 + T + T^2 + ... = (1 + T) (1 + T^2) (1 + T^4) ...
         """
         places, on_block, on_parent = _tree_matrices(self.problem, self.tree)
         right, share = _right_inverse(on_block)  # stresses that put a force on the block
@@ -98,7 +97,7 @@ class Static:
         ways = []
         while (parent >= 0).any():
             k = np.flatnonzero(parent >= 0)
-            ways.append((k, parent[k], transfer[k]))
+            ways.append((k, (6 * parent[k][:, None] + np.arange(6)).ravel(), transfer[k]))
             beyond = np.where(parent >= 0, parent[parent], -1)
             k = np.flatnonzero(beyond >= 0)
             twice = np.zeros_like(transfer)
@@ -187,9 +186,10 @@ def _tree_matrices(problem: LimitProblem, tree: Tree) -> tuple[Indices, Array, A
     size = np.diff(p.C.indptr)
     its = np.repeat(block >= 0, size)  # few of all
     k, column = np.repeat(block, size)[its], p.C.indices[its]
-    there = 1 * (column // 6 != k), k, column % 6, np.repeat(position, size)[its]
+    block, row = np.divmod(column, 6)
     matrices = np.zeros((2, n, 6, places.shape[1]))
-    matrices[there] = p.C.data[its]
+    first = ((block != k) * n + k) * 6 + row
+    matrices.reshape(-1)[first * places.shape[1] + np.repeat(position, size)[its]] = p.C.data[its]
     return places[tree.interface], matrices[0], matrices[1]
 
 

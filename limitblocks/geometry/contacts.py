@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from limitblocks.errors import GeometryError, few
 from limitblocks.geometry.accuracy import Tolerances, millimetres, too_coarse
 from limitblocks.geometry.findings import NearMiss, Overlap, Sliver, Through
-from limitblocks.geometry.interface import Interface
-from limitblocks.shown import Shown, many
+from limitblocks.geometry.interface import PLACE, Interface
+from limitblocks.shown import Shown, kept, many
 
 _SHOWN = 8
 _DEFAULT = Tolerances()
@@ -154,22 +154,12 @@ class Contacts(Shown):
 
     def to_dict(self) -> dict[str, Any]:
         """Return all as plain numbers, lists and text, the interfaces without their joint; SI units."""
-        beside = {
-            name: [asdict(one) for one in getattr(self, name)]
-            for name in ("near_misses", "overlaps", "slivers", "strips", "through")
+        return {
+            "interfaces": [kept(one, *PLACE) for one in self.interfaces],
+            **kept(self, "isolated", "tolerances"),
+            "block_length": self.length,
+            **kept(self, "near_misses", "overlaps", "slivers", "strips", "through"),
         }
-        interfaces = [
-            {
-                "block_i": one.block_i,
-                "block_j": one.block_j,
-                "centroid": one.centroid.tolist(),
-                "axes": one.axes.tolist(),
-                "polygon": one.polygon.tolist(),
-            }
-            for one in self.interfaces
-        ]
-        used = {"tolerances": self.tolerances.to_dict(), "block_length": self.length}
-        return {"interfaces": interfaces, "isolated": list(self.isolated)} | used | beside
 
     def __str__(self) -> str:
         counts = (

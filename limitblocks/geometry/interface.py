@@ -9,6 +9,9 @@ import numpy as np
 from limitblocks.arrays import Array, Sealed
 from limitblocks.geometry.polygon import areas
 
+#: What a file keeps of an interface beside its joint.
+PLACE = ("block_i", "block_j", "centroid", "axes", "polygon")
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Interface(Sealed):

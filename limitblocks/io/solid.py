@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
+
+from limitblocks.arrays import Array
+
 #: What a solid and a block say of themselves beside their shape.
 WORDS = ("layer", "material", "groups", "colour")
 
@@ -23,3 +27,13 @@ class Solid(NamedTuple):
     material: str = ""
     groups: tuple[str, ...] = ()
     colour: str = ""
+
+
+def placed(points: Any, matrix: Array) -> Array:
+    """Return points (n, 3) where a matrix (4, 4) takes them."""
+    return np.asarray(points @ matrix[:3, :3].T + matrix[:3, 3])
+
+
+def turned(faces: Sequence[Sequence[int]], matrix: Array) -> Sequence[Sequence[int]]:
+    """Return faces in the sense they have where a matrix (4, 4) takes them: a mirror image turns them."""
+    return [face[::-1] for face in faces] if np.linalg.det(matrix[:3, :3]) < 0.0 else faces

@@ -13,6 +13,7 @@ from limitblocks.joints.base import YieldRows
 
 FIRST_PLANES = 16  # tangent planes of each cone to start with
 LARGEST = 1e4  # of the given stresses and the direction, both of unit size: more is unlimited
+UNLIMITED = LARGEST * (1 - 1e-6)
 ROUNDS = 60
 FAN = np.linspace(-1.0, 1.0, 9)  # tangent planes about a violated one, of the angle by which it is violated
 # Of the planes, and so of the cones of forces of unit size. HiGHS gives up on some of these programs, whose
@@ -49,19 +50,20 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     cones = F[linear:].reshape(-1, 3, F.shape[1])
     owner = np.repeat(np.arange(len(cones)), FIRST_PLANES)
     angle = np.tile(2 * np.pi * np.arange(FIRST_PLANES) / FIRST_PLANES, len(cones))
-    for _ in range(ROUNDS):
+    for k in range(ROUNDS):
         d = np.column_stack([np.cos(angle), np.sin(angle)])
-        planes = cones[owner, 0] - (d[:, None] @ cones[owner, 1:])[:, 0]
-        solution, tolerance = _solved(
-            np.concatenate([F[:linear], planes]), rows.resultants[0], given, direction
-        )
+        head, shear = cones[owner, 0], (d[:, None] @ cones[owner, 1:])[:, 0]
+        solution, tolerance = _solved(rows, head - shear, given, direction)
         if solution.status == 2:
             return np.nan, np.zeros(0)
+        if k == 0 and solution.x[-1] > UNLIMITED:  # of many solutions none need be within the cones
+            within, _ = _solved(rows, np.cos(np.pi / FIRST_PLANES) * head - shear, given, direction)
+            solution = within if within.status == 0 and within.x[-1] > UNLIMITED else solution
         force = cones @ solution.x[:-1]
         size = np.linalg.norm(force[:, 1:], axis=1)
         bad = np.flatnonzero(size - force[:, 0] > tolerance * max(1.0, solution.x[-1]))
         if not len(bad):
-            t = np.inf if solution.x[-1] > LARGEST * (1 - 1e-6) else float(solution.x[-1])
+            t = np.inf if solution.x[-1] > UNLIMITED else float(solution.x[-1])
             return t, _rates(np.maximum(-solution.ineqlin.marginals, 0.0), rows, owner, d)
         # a plane violated by 1 - cos(a) of ||z|| is off by the angle a
         off = np.arccos(np.clip(force[bad, 0] / size[bad], np.cos(np.pi / FIRST_PLANES), 1.0))
@@ -71,8 +73,12 @@ def farthest(rows: YieldRows, given: Array, direction: Array) -> tuple[float, Ar
     raise SolverFailure(f"strength of point contacts: no answer after {ROUNDS} rounds of tangent planes")
 
 
-def _solved(A: Array, resultants: Array, given: Array, direction: Array) -> tuple[Any, float]:
-    """Answer of HiGHS, and its tolerance: the largest t with A x >= 0, resultants x = given + t direction."""
+def _solved(rows: YieldRows, planes: Array, given: Array, direction: Array) -> tuple[Any, float]:
+    """Answer of HiGHS, and its tolerance: the largest t with A x >= 0, resultants x = given + t direction.
+
+    A are the linear rows and the planes.
+    """
+    A, resultants = np.concatenate([rows.F[0, : rows.linear], planes]), rows.resultants[0]
     program: Any = {
         "c": np.append(np.zeros(A.shape[1]), -1.0),
         "A_ub": np.column_stack([-A, np.zeros(len(A))]),

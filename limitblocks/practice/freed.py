@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
@@ -37,8 +38,7 @@ def as_before(model: Model, freed: Model, support: str, on_support: Array) -> Mo
 def pressed(model: Model, support: str) -> Array:
     """Force of the structure on a support in an admissible state of the dead loads, global axes, N."""
     problem = model.problem
-    x = dead_load_state(problem)
-    Q = (problem.resultants @ x * problem.units.resultants).reshape(-1, 6)
+    Q = resultants_of(problem, dead_load_state(problem))
     total = np.zeros(3)
     for own, stresses in zip(model.interfaces, Q, strict=True):
         on_j = -stresses[:3] @ own.axes

@@ -118,4 +118,5 @@ def spread(cones: Cones, s: Array, y: Array, target: Array) -> float:
         large = half + np.sqrt(np.maximum(half * half - both, 0.0))
         products += [large / aim, both / (large * aim)]
     eigenvalues = np.concatenate(products)
-    return float(np.abs(np.log(eigenvalues)).max(initial=0.0)) if (eigenvalues > 0.0).all() else np.inf
+    least, most = eigenvalues.min(initial=1.0), eigenvalues.max(initial=1.0)
+    return float(max(-np.log(least), np.log(most))) if least > 0.0 else np.inf

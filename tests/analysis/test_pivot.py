@@ -82,3 +82,15 @@ def test_nothing_is_done_where_too_many_rows_are_open():
     flow = Flow(problem)
     early, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance, budget=12)
     assert pivoted(flow, early, largest=0) is early
+
+
+@pytest.mark.parametrize("columns", [1, pivot.COLUMNS, 2 * pivot.COLUMNS + 1])
+def test_as_many_columns_as_there_are_are_solved(columns):
+    problem = lb.structures.wall(lb.PointContact(0.6), length=0.8, courses=3).problem
+    x = permanent_state(problem, problem.compliance)
+    still = State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))
+    linear = pivot._Linearised(Flow(problem), still, 1e-4)
+    J, _ = linear._system
+    right = np.random.default_rng(0).normal(size=(J.shape[0], columns))
+    left = right - J @ linear._refined(right)
+    assert np.abs(left).max() <= 1e-9

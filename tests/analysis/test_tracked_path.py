@@ -20,6 +20,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
     Point,
     inner,
 )
+from limitblocks.analysis.nonassociated.path_record import Progress, winds
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.analysis.polish import defect, polish
@@ -180,6 +181,19 @@ def test_a_path_that_winds_is_given_up():
     assert given_up.factorisations < 250
     falling = start(pushed("cantilever_stair", lb.OrdunaLourenco(0.7), (1, 0, 0)))
     assert track(*falling, seed=1, budget=300, patience=100)[1].closed
+
+
+@pytest.mark.parametrize(
+    ("last", "patience", "given_up"),
+    [(0.5, 20, True), (0.3, 20, False), (0.5, 40, False), (0.5, None, False)],
+)
+def test_theta_has_to_fall_to_a_third_in_as_many_factorisations_as_there_is_patience_for(
+    last, patience, given_up
+):
+    """It was 1 after 10 factorisations; what it grew to since does not count."""
+    thetas = np.array([1.0, last, 1.2])
+    points = list(map(Progress, thetas, 3 * [0.0], 3 * [1.0], (10, 20, 30), np.minimum.accumulate(thetas)))
+    assert winds(points, 35, patience) == given_up
 
 
 def test_a_path_ends_at_the_first_point_that_is_a_solution_as_it_is(monkeypatch):

@@ -10,7 +10,7 @@ from stones import model_of
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.certified import RESERVE
-from limitblocks.evidence.proof import Proof, proof_of
+from limitblocks.evidence.proof import Proof, Prover, acting_at, proof_of
 from limitblocks.problem import State
 
 
@@ -43,6 +43,23 @@ def test_bounds_are_proven_to_1e_8(model, pair):
     assert check.passed
     (told,) = [entry.meaning for entry in check.residuals.entries if entry.name == "proof"]
     assert f"proven are {proof.lower:.17g} and {proof.upper:.17g}" in told
+
+
+def test_units_of_force_change_no_digit_of_a_proof():
+    """Powers of two, block by block: the room at a joint is measured by what acts there."""
+    model = structures.wall(lb.OrdunaLourenco(0.6), length=2.0, courses=6)
+    pair, problem = lb.bounds(model), model.problem
+    shift = 2.0 ** np.random.default_rng(1).integers(-9, 10, len(problem.blocks))
+    given = state_of(model, pair), pair.dead_load_stresses
+    other = problem.measured(problem.units.block_force * shift)
+    assert proof_of(other, *given, reserve=1.5) == proof_of(problem, *given, reserve=1.5)
+    ways = [spanning_tree_of(p, *given) for p in (problem, other)]
+    np.testing.assert_array_equal(*ways)
+
+
+def spanning_tree_of(problem, si, dead):
+    acting = acting_at(problem, problem.dimensionless(si))
+    return Prover(problem, dead / problem.stress_units, acting).static.tree.interface
 
 
 @pytest.mark.parametrize("mu", [0.125, 0.5, 0.625])

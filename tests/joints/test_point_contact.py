@@ -227,3 +227,16 @@ def test_no_flow_in_stress_resultants():
 def test_bad_settings_are_named(settings, message):
     with pytest.raises(lb.ModelError, match=message):
         lb.PointContact(**settings)
+
+
+@pytest.mark.parametrize("sides", [3, 4, 10, 11, "pentagon"])
+def test_compression_has_no_limit_on_any_polygon(sides):
+    """Each corner presses as much as it is asked to, without shear."""
+    if sides == "pentagon":
+        polygon = np.array([(1.7, 0.26), (1.41, 0.64), (-1.69, 0.29), (-0.52, -1.03), (1.4, -0.65)])
+    else:
+        angle = 2 * np.pi * np.arange(sides) / sides
+        polygon = np.column_stack([np.cos(angle), 0.6 * np.sin(angle)])
+    for height in (0.5, 1.0, 5 / 3):
+        interface = lb.joints.interface(polygon * [1, height], None)
+        assert lb.PointContact(0.6).strength(interface, (0, 0, -1, 0, 0, 0)) == np.inf

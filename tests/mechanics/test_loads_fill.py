@@ -96,10 +96,7 @@ def test_a_plate_and_a_stone_that_leans_over_cover_what_is_below_them():
     slab = lb.Block.box("slab", (3, 4, 1), (-0.5, 0, 0.5), 1.0)
     plate = lb.Block.box("plate", (1, 1, 0.05), (-1, 0, 1.025), 1.0)
     assert lb.loads.fill(GAMMA, 2.0, blocks="slab").on([slab, plate])[0, 2] == pytest.approx(-GAMMA * 11)
-    outline = [(2, 0), (3, 0), (0.2, 2), (0, 2)]
-    points = [(x, y, z) for y in (-1, 1) for x, z in outline]
-    faces = [(0, 1, 2, 3), (7, 6, 5, 4), *((k + 4, (k + 1) % 4 + 4, (k + 1) % 4, k) for k in range(4))]
-    stone = lb.Block("stone", points, faces, 1.0)
+    stone = lb.Block.prism("stone", [(2, 0), (3, 0), (0.2, 2), (0, 2)], (-1, 1), 1.0)
     assert lb.loads.fill(GAMMA, 3.0, blocks="slab").on([slab, stone])[0, 2] == pytest.approx(-2 * GAMMA * 10)
 
 
@@ -123,11 +120,7 @@ def test_what_is_above_the_level_covers_nothing():
 
 def test_level_through_a_slope_fills_the_lower_part():
     """Slope from z = 0 at x = 2 to z = 1 at x = 0, level 0.5: a prism 1 long, 0.5 high, 3 deep."""
-    wedge = lb.Block(
-        "wedge",
-        [(0, 0, 0), (2, 0, 0), (0, 0, 1), (0, 3, 0), (2, 3, 0), (0, 3, 1)],
-        [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)],
-    )
+    wedge = lb.Block.prism("wedge", [(0, 0), (2, 0), (0, 1)], (0, 3))
     load = lb.loads.fill(GAMMA, 0.5).on([wedge])[0]
     weight = GAMMA * 3 * 0.5 * 1 * 0.5
     assert load[2] == pytest.approx(-weight)

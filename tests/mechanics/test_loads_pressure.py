@@ -11,12 +11,7 @@ import limitblocks as lb
 WATER = 9.81e3
 WALL = lb.Block.box("wall", (1.0, 3.0, 2.0), (0.5, 0.0, 1.0), 20e3)
 # a wedge with one face that slopes, and an odd tetrahedron
-WEDGE = lb.Block(
-    "wedge",
-    [(0, 0, 0), (2, 0, 0), (0, 0, 1), (0, 3, 0), (2, 3, 0), (0, 3, 1)],
-    [(0, 1, 2), (3, 5, 4), (0, 3, 4, 1), (1, 4, 5, 2), (0, 2, 5, 3)],
-    1.0,
-)
+WEDGE = lb.Block.prism("wedge", [(0, 0), (2, 0), (0, 1)], (0, 3), 1.0)
 TETRAHEDRON = lb.Block(
     "tetra",
     [(0, 0, 0), (1, 0.1, 0), (0.2, 1.3, 0), (0.3, 0.4, 0.9)],

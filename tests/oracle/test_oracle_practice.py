@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from coulomb import truth
 from stones import model_of
@@ -18,9 +17,7 @@ def tower(level, share):
     for k, (low, high) in enumerate(heights):
         tilt = [0.1 * k, 0.1 * (k + 1)]
         section = [(-0.5, low - tilt[0]), (0.5, low), (0.5, high), (-0.5, high - tilt[1])]
-        points = np.array([(x, y, z) for y in (-0.4, 0.4) for x, z in section])
-        faces = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-        stones.append(lb.Block(f"stone {k + 1}", points, faces, 20e3))
+        stones.append(lb.Block.prism(f"stone {k + 1}", section, (-0.4, 0.4), 20e3))
     model = model_of(stones, ["base"], lb.PointContact(0.7), (1, 0.2, 0))
     return replace(model, dead=model.dead + uplift(model, level, share=share))
 

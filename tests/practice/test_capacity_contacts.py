@@ -91,10 +91,7 @@ def test_a_block_that_slides_onto_another_rests_on_both():
 def test_a_contact_in_two_parts_keeps_two_as_it_slides():
     """A table on two feet of 1 m x 1 m: each keeps its own area, and none counts twice."""
     outline = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 0), (3, 0), (3, 2), (0, 2)]
-    n = len(outline)
-    sides = [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
-    faces = [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *(side[::-1] for side in sides)]
-    table = lb.Block("table", [(x, y, z) for y in (0, 1) for x, z in outline], faces, 20e3)
+    table = lb.Block.prism("table", outline, (0, 1), 20e3)
     stones = [lb.Block.box("base", (9, 3, 1), (1.5, 0.5, -0.5)), table]
     model = model_of(stones, ["base"], JOINTS[0])
     there, _ = slid_on(moved(assembly_of(model), np.array([[0.0] * 6, [0.5, 0, 0, 0, 0, 0]])), [True, True])

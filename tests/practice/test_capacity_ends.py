@@ -101,6 +101,13 @@ def test_a_curve_that_rises_goes_on_by_longer_steps():
     assert capacity._next_step(assembly_of(model), before, point, 20) == pytest.approx(0.01)
 
 
+def ahead_of(there, displacement, load_factor, step, secant):
+    """A point of a block that slides, and the one that a step leads to."""
+    point = CapacityPoint(displacement, load_factor, 0.0, there.model, lb.nonassociated(there.model), ())
+    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
+    return point, capacity._ahead(there, control, point, step, 1.0, secant)[2]
+
+
 def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch):
     """Just above zero before .3 m, -1 beyond: the secant alone would creep."""
     there = assembly_of(sliding_block())
@@ -110,9 +117,7 @@ def test_a_load_factor_that_jumps_below_zero_is_approached_by_halves(monkeypatch
         return assembly, control, replace(point, displacement=at, load_factor=1e-3 if at < 0.3 else -1.0)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.0, 1e-3, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.4, 1.0, np.inf)
+    _, found = ahead_of(there, 0.0, 1e-3, 0.4, np.inf)
     assert 0.15 <= found.displacement < 0.3
 
 
@@ -165,9 +170,7 @@ def test_a_zero_that_the_secant_finds_from_beyond_is_not_approached_by_halves(mo
         return assembly, control, replace(point, displacement=at, load_factor=1.0 - at)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
+    point, found = ahead_of(there, 0.2, 0.8, 0.8, 0.8)
     assert tried == [0.8]
     assert zero_of([point, found]) == pytest.approx(1.0, abs=1e-12)
     assert found.displacement > 1.0 + 5e-7
@@ -183,9 +186,7 @@ def test_a_zero_that_is_not_answered_is_not_approached_by_halves(monkeypatch):
         return assembly, control, replace(point, displacement=1.0 - at, load_factor=at)
 
     monkeypatch.setattr(capacity, "_advanced", advanced_to)
-    point = CapacityPoint(0.2, 0.8, 0.0, there.model, lb.nonassociated(there.model), ())
-    control = Control("block", there.model.blocks[1].centroid, read_only(np.array([1.0, 0, 0])))
-    _, _, found = capacity._ahead(there, control, point, 0.8, 1.0, 0.8)
+    _, found = ahead_of(there, 0.2, 0.8, 0.8, 0.8)
     assert found.load_factor == pytest.approx(0.008, rel=1e-9)
 
 

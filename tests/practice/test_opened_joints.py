@@ -39,10 +39,7 @@ def test_a_joint_found_across_a_gap_rests_on_the_face(gap):
 def test_a_step_in_a_face_is_not_part_of_it():
     """Treads of 1 m x 1 m, the upper one higher by a hundredth of the size of the block."""
     outline = [(0, 0), (2, 0), (2, 1.02), (1, 1.02), (1, 1), (0, 1)]
-    n = len(outline)
-    points = [(x, y, z) for y in (0, 1) for x, z in outline]
-    sides = [(k, k + n, (k + 1) % n + n, (k + 1) % n) for k in range(n)]
-    block = lb.Block("step", points, [tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *sides], 1.0)
+    block = lb.Block.prism("step", outline, (0, 1), 1.0)
     plane, up = np.eye(3)[:2], np.array([0.0, 0.0, 1.0])
     for x, z in ((0.5, 1.0), (1.5, 1.02)):
         assert face_at(block, up, np.array([x, 0.5, z]), plane).area == pytest.approx(1.0)

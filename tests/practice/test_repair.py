@@ -150,11 +150,7 @@ def test_uplift_in_a_radial_joint_that_crosses_the_level():
     """A plane at 45 degrees, wet to the depth h: length h sqrt 2, centre of pressure at a third of it."""
     h, gamma = 0.4, 1.0
     sections = {"left": [(-1, 0), (0, 0), (1, 1), (-1, 1)], "right": [(0, 0), (2, 0), (2, 1), (1, 1)]}
-    faces = [(0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]
-    stones = [
-        lb.Block(name, np.array([(x, y, z) for y in (0, 1) for x, z in section], dtype=float), faces, 20e3)
-        for name, section in sections.items()
-    ]
+    stones = [lb.Block.prism(name, section, (0, 1), 20e3) for name, section in sections.items()]
     model = model_of(stones, ["left"], lb.PointContact(2.0), (0, 1, 0))
     load = uplift(model, h, unit_weight=gamma).on(model.free_blocks)[0]
     push = gamma * h**2 / 2 * np.array([1, 0, -1])  # the lower face of the right block is free

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from limitblocks.problem import Cones
-from limitblocks.problem.barrier import central, curvature
+from limitblocks.problem.barrier import central, curvature, spread
 from limitblocks.problem.cones import rays
 
 CONES = Cones(2, ((2, 3), (1, 4)))
@@ -161,3 +161,9 @@ def test_the_nearest_point_leaves_a_rest_in_the_polar_cone(v, size):
 def test_a_large_head_without_flow_is_its_own_nearest_point():
     v = np.array([0.0, 0.0, 9.0, 0.0, 0.0, 9.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0])
     assert (CONES.nearest(v) == v).all()
+
+
+@pytest.mark.parametrize(("product", "off"), [(10.0, 10.0), (0.01, 100.0), (np.nan, np.inf), (-1.0, np.inf)])
+def test_the_spread_is_that_of_the_product_that_is_farthest_off_its_target(product, off):
+    s = np.array([1.0, product])
+    assert spread(Cones(2), s, np.array([4.0, 2.0]), np.full(2, 2.0)) == pytest.approx(np.log(off))

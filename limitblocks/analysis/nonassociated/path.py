@@ -165,7 +165,7 @@ class Walk:
         self.factorisations += 1
         try:
             newton = Newton(self.path, self.z)
-            step, turn = newton.solve(left.negative(), theta_slope(self.path, self.z).negative())
+            step, turn = newton.solve(left, theta_slope(self.path, self.z))
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
             self._retreat()
             return
@@ -201,7 +201,9 @@ class Walk:
 
     def _accept(self, sign: float, base: Base) -> None:
         """Go on from a point near the path."""
-        self.points.append(Progress(self.z.theta, self.z.load_factor, sign, self.factorisations))
+        z = self.z
+        least = min(z.theta, self.points[-1].least) if self.points else z.theta
+        self.points.append(Progress(z.theta, z.load_factor, sign, self.factorisations, least))
         if self.progress is not None:
             self.progress(self.points[-1])
         if self.z.theta > RETURNED:

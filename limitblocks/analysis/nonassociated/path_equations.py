@@ -132,10 +132,6 @@ class Equations:
     slack: Array
     multiplier: Array
 
-    def negative(self) -> Equations:
-        """Return the same with the other sign."""
-        return Equations(-self.flow, -self.balance, -self.work, -self.slack, -self.multiplier)
-
 
 def residuals(path: Path, z: Point) -> Equations:
     """Return the residuals at a point, of which the products are exact."""

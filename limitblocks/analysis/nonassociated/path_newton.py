@@ -47,7 +47,7 @@ class Newton:
         return float(np.prod(np.sign(self.determinants))) * _sign(self.lu.factors)
 
     def solve(self, *sides: Equations) -> list[Point]:
-        """Return the direction d with J d = q for each q, refined far down the path.
+        """Return the direction d with J d = -q for each q, refined far down the path.
 
         Before, the corrector mends what elimination loses; there it is as large as what the path allows.
         """
@@ -57,6 +57,8 @@ class Newton:
         for k, q in enumerate(sides):
             right[:n, k], right[n:-1, k], right[-1, k] = q.flow, q.balance, q.work
             rows[:, k], y[:, k] = q.slack, q.multiplier
+        for part in (right, rows, y):
+            np.negative(part, out=part)
         y += self.fall(rows)
         loads = right.copy()
         loads[:n] += self.GT @ y

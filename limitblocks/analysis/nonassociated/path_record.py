@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -51,12 +52,13 @@ def off_load_path(how: str) -> tuple[str, ...]:
 
 
 class Progress(NamedTuple):
-    """One point of a path: theta, dimensionless load factor, sign of det J, factorisations so far."""
+    """A point of a path: theta, load factor, sign of det J, factorisations and least theta so far."""
 
     theta: float
     load_factor: float
     sign: float
     factorisations: int
+    least: float
 
     def told(self, unit: float) -> Iteration:
         """Return what it tells the user; `unit` is that of the live load."""
@@ -67,8 +69,8 @@ class Progress(NamedTuple):
 def winds(points: Sequence[Progress], factorisations: int, patience: int | None) -> bool:
     """Whether theta did not fall to a third in as many of the factorisations as there is patience for."""
     since = factorisations - (patience or factorisations)
-    before = [point.theta for point in points if point.factorisations <= since]
-    return bool(before) and min(point.theta for point in points) > min(before) / 3.0
+    before = bisect_right(points, since, key=lambda point: point.factorisations)
+    return before > 0 and points[-1].least > points[before - 1].least / 3.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -74,5 +74,5 @@ def centred(path: Path) -> tuple[Point | None, int]:
         left = residuals(path, z)
         if k and distance(path, z, left) <= 1.0:
             return z, k
-        z = moved(path, z, 1.0, Newton(path, z).solve(left.negative())[0])
+        z = moved(path, z, 1.0, Newton(path, z).solve(left)[0])
     return None, ITERATIONS

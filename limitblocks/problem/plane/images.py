@@ -13,8 +13,8 @@ def images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:
     """The place (K,) that fits the mirrored one best, and the turn (K, c, c) of stresses; zero if none."""
     K, c = kind.columns.shape
     goal = np.where(kind.ends >= 0, blocks[kind.ends], -1)
-    i, j = np.sort(np.concatenate([kind.ends, goal]) + 1, axis=1).T
-    _, bucket = np.unique(i * (len(blocks) + 1) + j, return_inverse=True)
+    i, j = np.concatenate([kind.ends, goal]).T + 1
+    _, bucket = np.unique(np.minimum(i, j) * (len(blocks) + 1) + np.maximum(i, j), return_inverse=True)
     here, wanted = bucket.ravel()[:K], bucket.ravel()[K:]
     count = int(bucket.max()) + 1
     table, _ = owned(here, count)

@@ -37,7 +37,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     mirror : Mirror
         Its mirror plane.
     choice : Choice
-        FEW rows serve the associated flow, FLOWING ones any, EVERY one margins.
+        FEW rows serve the associated flow, the only one they have, FLOWING ones any, EVERY one margins.
     """
     stresses, rows = _stresses_and_rows(problem, mirror, choice)
     blocks = np.flatnonzero(mirror.image >= np.arange(len(mirror.image)))
@@ -47,14 +47,15 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     W = in_units(weights, 1.0 / units[source], units)
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
     B = _cleaned(problem.resultants @ stresses)
+    F = _cleaned(W @ problem.F @ stresses)
     six = (6 * kept[:, None] + np.arange(6)).ravel()
     planar = replace(
         problem,
         C=_cleaned(sparse.csr_array(stresses.T) @ problem.C @ rates),
         dead=read_only(rates.T @ problem.dead),
         live=read_only(rates.T @ problem.live),
-        F=_cleaned(W @ problem.F @ stresses),
-        G=_cleaned(W @ problem.G @ stresses),
+        F=F,
+        G=F if choice is Choice.FEW else _cleaned(W @ problem.G @ stresses),
         g=read_only(W @ problem.g),
         cones=cones,
         pivot=read_only(np.zeros(len(source))),

@@ -11,6 +11,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.io.solid import placed
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 
@@ -32,7 +33,7 @@ def polygons(data: Mapping[str, Any]) -> Polygons | None:
         sides = numbers([data["xsize"], data.get("ysize"), data.get("zsize")], 3)
         box = Block.box("box", sides, (0.0, 0.0, 0.0))
         where = frame(data["frame"])
-        return box.vertices @ where[:3, :3].T + where[:3, 3], box.faces
+        return placed(box.vertices, where), box.faces
     return None
 
 

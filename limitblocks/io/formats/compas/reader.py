@@ -29,7 +29,7 @@ from limitblocks.io import strict_json
 from limitblocks.io.formats.compas.geometry import frame, polygons, transformation
 from limitblocks.io.imported import SUPPORT_LAYERS, foreign, one_line
 from limitblocks.io.placed import Contents
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, placed
 
 _GEOMETRY = ("block", "geometry", "shape", "mesh")
 _HOLDERS = {"graph", "model"}  # keys of what holds blocks: assemblies, problems of compas_dem
@@ -122,7 +122,7 @@ def _numbered(key: str) -> str:
 
 def _solid(shape: Any, place: Array, name: str, support: bool, layer: str = "", material: str = "") -> Solid:
     vertices, faces = shape
-    vertices = vertices @ place[:3, :3].T + place[:3, 3]
+    vertices = placed(vertices, place)
     layer = layer or material or ("support" if support else "block")
     return Solid(name, layer, vertices, faces, support, material)
 

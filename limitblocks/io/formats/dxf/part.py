@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from limitblocks.arrays import Array
+from limitblocks.io.solid import placed
 
 #: Application under whose name the name of a block is kept beside an entity.
 APPLICATION = "LIMITBLOCKS"
@@ -44,15 +44,10 @@ class Part(NamedTuple):
         """Material, as this library wrote it, groups and colour of a solid made of it."""
         return {"material": written(self.entity, 1), "groups": self.groups, "colour": self.colour}
 
-    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
-        """Return faces in the sense they have in the drawing, which a mirror image turns."""
-        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
-        return [face[::-1] for face in faces] if mirrored else faces
-
     def placed(self, points: Any) -> Array:
         """Return points (n, 3) of the entity in the coordinates of the drawing."""
         rows = np.array([tuple(point) for point in points], dtype=np.float64).reshape(-1, 3)
-        return np.asarray(rows @ self.matrix[:3, :3].T + self.matrix[:3, 3])
+        return placed(rows, self.matrix)
 
 
 def decoded(text: str) -> str:

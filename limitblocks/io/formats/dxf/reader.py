@@ -16,7 +16,7 @@ from limitblocks.io.formats.dxf.part import APPLICATION, Part, decoded, written
 from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Contents
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, turned
 
 _DEEPEST = 32  # block references within block references
 #: Metres per unit by $INSUNITS, exact; ezdxf has ten digits, and no mils and US survey feet (1200/3937 m).
@@ -52,7 +52,7 @@ def contents(path: Path) -> Contents:
                 left_out[part.kind] += 1
                 continue
             for points, loops in shape:
-                made = shells.solids(part.name, part.layer, points, part.turned(loops))
+                made = shells.solids(part.name, part.layer, points, turned(loops, part.matrix))
                 solids += [solid._replace(**part.words) for solid in made]
         solids += bodies.from_3d_faces(faces)
     if not solids and not wrong:

@@ -19,7 +19,7 @@ from limitblocks.io.colours import of_linear
 from limitblocks.io.imported import foreign, one_line, read_bytes, refuse_many
 from limitblocks.io.placed import Contents
 from limitblocks.io.shells import solids
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, placed
 
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -51,7 +51,7 @@ def contents(path: Path) -> Contents:
                 points, triangles = _geometry(document, buffers, mesh)
                 refuse_many(len(bodies), faces := faces + len(triangles))
                 refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
-                points = points @ placement[:3, :3].T + placement[:3, 3]
+                points = placed(points, placement)
                 words = _words(document, node, mesh)
                 found = solids(str(name), words["layer"], points, triangles)
                 bodies += [solid._replace(**words) for solid in found]

@@ -18,7 +18,7 @@ from limitblocks.io.formats.rhino import breps, chunks, trial
 from limitblocks.io.imported import MOST_FACES, foreign, one_line, read_bytes
 from limitblocks.io.packages import package
 from limitblocks.io.placed import Contents
-from limitblocks.io.solid import Solid
+from limitblocks.io.solid import Solid, placed, turned
 from limitblocks.shown import many
 
 _DEEPEST = 32  # instances within instances
@@ -46,15 +46,6 @@ class Part(NamedTuple):
         """Material, groups and colour of a solid made of it."""
         return {"material": self.material, "groups": self.groups, "colour": self.colour}
 
-    def turned(self, faces: Sequence[Sequence[int]]) -> Sequence[Sequence[int]]:
-        """Return faces in the sense they have in the model, which a mirror image turns."""
-        mirrored = np.linalg.det(self.matrix[:3, :3]) < 0.0
-        return [face[::-1] for face in faces] if mirrored else faces
-
-    def placed(self, points: Array) -> Array:
-        """Return points (n, 3) of the geometry in the coordinates of the model."""
-        return np.asarray(points @ self.matrix[:3, :3].T + self.matrix[:3, 3])
-
 
 def contents(path: Path) -> Contents:
     """Return the solids in a Rhino file; hidden objects and all that is no solid are left out with a note."""
@@ -74,7 +65,7 @@ def contents(path: Path) -> Contents:
             if shape is None:
                 left_out[type(part.geometry).__name__] += 1
             else:
-                points, faces = part.placed(shape[0]), part.turned(shape[1])
+                points, faces = placed(shape[0], part.matrix), turned(shape[1], part.matrix)
                 made = shells.solids(part.name, part.layer, points, faces)
                 solids += [solid._replace(**part.words) for solid in made]
         metres, units = _metres(model)
