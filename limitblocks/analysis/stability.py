@@ -169,10 +169,10 @@ def _dead_load_state(problem: LimitProblem) -> Array:
     for x, worst in _all_states(problem, 0.0):
         if worst.value <= TOLERANCE:
             return read_only(x)
+        # one mechanism proves what all the other states would only suggest
+        if not tried and (fallen := falls(problem, problem.dead)):
+            raise NoEquilibrium(fallen, problem.left_out)
         tried.append(worst)
-    fallen = falls(problem, problem.dead)
-    if fallen:
-        raise NoEquilibrium(fallen, problem.left_out)
     raise SolverFailure(f"whether the dead loads stand is undecided: {nearest(tried, 'state')}")
 
 

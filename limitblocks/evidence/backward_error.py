@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Any
+from weakref import ref
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from limitblocks.evidence.claim import real_number
 from limitblocks.evidence.given_state import Given
 from limitblocks.evidence.nearby import Nearby, nearby
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, mcp_residuals, residual
+from limitblocks.known import known
 from limitblocks.problem import Flow, State
 from limitblocks.shown import Shown
 
@@ -92,12 +94,23 @@ def backward_error(flow: Flow, state: State, most: float = np.inf) -> BackwardEr
     """Return the backward error of a dimensionless state; infinite where it may be but is beyond `most`.
 
     The least of some levels of change is searched for at which the state is exact, see
-    :func:`limitblocks.evidence.nearby.nearby`.
+    :func:`limitblocks.evidence.nearby.nearby`. What is found up to LARGE is known from then on: the end of a
+    path is asked for it twice.
     """
+    softening = 0.0 if flow.constant else flow.softening
+    rule = ref(flow.problem), flow.dilatancy, flow.turning, softening
+    error = known(state, ("backward error", *rule), lambda: _searched(flow, state, LARGE))
+    if error.value <= LARGE or most <= LARGE:
+        return error
+    return _searched(flow, state, most, 0.0 if error.exact else LARGE)
+
+
+def _searched(flow: Flow, state: State, most: float, above: float = 0.0) -> BackwardError:
+    """The backward error, where no level up to `above` leads to an exact problem."""
     parts = (state.load_factor, state.x, state.u, state.y)
     with np.errstate(all="ignore"):  # what is undefined is infinite
         given = Given(flow, state)
-        free = least(given, most) if all(np.isfinite(part).all() for part in parts) else None
+        free = least(given, most, above=above) if all(np.isfinite(part).all() for part in parts) else None
         if free is None:
             return unknown()
         held = least(given, most, held=True) if moved_by(given, free).value > free.change else None
@@ -159,13 +172,13 @@ def far_off(error: BackwardError, residuals: Residuals, tolerance: float) -> tup
     )
 
 
-def least(given: Given, most: float = np.inf, *, held: bool = False) -> Nearby | None:
-    """The nearest exact problem of those found at the levels up to `most`, from the least of them upwards.
+def least(given: Given, most: float = np.inf, *, held: bool = False, above: float = 0.0) -> Nearby | None:
+    """The nearest exact problem of those found at levels `above` one up to `most`, from the least upwards.
 
     Where the mechanism is `held` it must not move by more than the level, either.
     """
     best: Nearby | None = None
-    for level in LEVELS[: np.searchsorted(LEVELS, most, "right")]:
+    for level in LEVELS[slice(*np.searchsorted(LEVELS, (above, most), "right"))]:
         if best is not None and best.change <= level:
             break
         near = nearby(given, level, held)

@@ -9,6 +9,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis import stability
 from limitblocks.analysis.nonassociated import loop
 
 DOWN, UP = (0, 0, -1), (0, 0, 1)
@@ -27,6 +28,17 @@ def test_what_cannot_stand_falls_though_some_load_factor_balances_it(analysis, d
     """At load factor -1 (down) or 1 (up) nothing weighs anything: a trivial solution, no collapse."""
     with pytest.raises(lb.errors.NoEquilibrium, match="cannot stand"):
         analysis(arch(0.05, direction))
+
+
+def test_what_falls_is_proven_by_a_mechanism_after_one_state(monkeypatch):
+    """The other 27 states, of further solvers and units, would only suggest it."""
+    states, seen = stability._all_states, []
+    monkeypatch.setattr(
+        stability, "_all_states", lambda *given: (seen.append(one) or one for one in states(*given))
+    )
+    with pytest.raises(lb.errors.NoEquilibrium, match="cannot stand"):
+        lb.bounds(arch(0.05, (1, 0, 0)))
+    assert len(seen) == 1
 
 
 def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():

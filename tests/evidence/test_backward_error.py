@@ -49,6 +49,33 @@ def test_what_is_beyond_the_most_that_counts_is_not_looked_for():
     assert backward_error(flow, state, most=0.1).value == pytest.approx(0.01, rel=1e-6)
 
 
+def levels(monkeypatch):
+    """The levels that are tried."""
+    tried, search = [], module.nearby
+    monkeypatch.setattr(
+        module, "nearby", lambda given, level, held: (tried.append(level), search(given, level, held))[1]
+    )
+    return tried
+
+
+def test_a_small_one_is_searched_for_once(monkeypatch):
+    """By whatever flow is the same; on a block of less friction the same state is another one."""
+    tried, (model, claim) = levels(monkeypatch), slid_at(MU)
+    flow, state = flow_of(model, claim), state_of(model, claim)
+    found, count = backward_error(flow, state), len(tried)
+    assert count
+    assert backward_error(replace(flow, softening=1e-3), state, most=1e-4) is found
+    assert len(tried) == count
+    smoother = Flow(sliding(lb.OrdunaLourenco(0.99 * MU))[0].problem)
+    assert backward_error(smoother, state).value == pytest.approx(1.0 / 0.99 - 1.0, rel=1e-6)
+
+
+def test_no_level_is_tried_twice_where_it_is_large(monkeypatch):
+    tried, (model, claim) = levels(monkeypatch), slid_at(0.99 * MU)
+    assert backward_error(flow_of(model, claim), state_of(model, claim)).value > 1e-4
+    assert len(tried) == len(set(tried))
+
+
 @pytest.mark.parametrize(("share", "told"), [(0.99, True), (1.0 - 5e-5, False), (1.0, False)])
 def test_small_residuals_far_from_any_exact_model_are_remarked(share, told):
     model, claim = slid_at(share * MU)
