@@ -68,7 +68,7 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     masses = tuple(
         MovingMass(one.name, one.block, one.weight, one.horizontal * scale, one.vertical * scale)
         for one in found
-        if abs(one.horizontal) > STILL * largest
+        if max(abs(one.horizontal), abs(one.vertical)) > STILL * largest
     )
     return masses, scale
 

@@ -28,7 +28,7 @@ from limitblocks.practice.inputs import (
     remarks,
     unproven,
 )
-from limitblocks.practice.moving_masses import MovingMass, moving_masses
+from limitblocks.practice.moving_masses import STILL, MovingMass, moving_masses
 from limitblocks.practice.spectra import MOST, MOST_DAMPING, Floor, G, Place, Spectrum, ground_acceleration
 from limitblocks.practice.verification_result import Inequality, Quantity, Verification, steps
 
@@ -89,7 +89,8 @@ def verification(
 
     Notes
     -----
-    With P_k the weights of the live load on blocks that move and delta_k their displacements along it:
+    With P_k the weights of the live load on blocks that move along it, delta_k their displacements along it
+    (a block that is lifted only does work in [C8.7.1.1] and is not in e*, which is safe):
     e* = (sum P delta)^2 / (sum P sum P delta^2) [C8.7.1.5], a0* = alpha0 g / (e* FC) [C8.7.1.8],
     d = d_C sum P delta^2 / (delta_C sum P delta) [C8.7.1.4]; at the ground a0* >= a_g S / q, free to vibrate
     a0* >= S_e(T_0) / q [C8.7.1.9]. The acceleration at .4 and .6 of d0* is taken from the capacity curve
@@ -155,13 +156,14 @@ def _oscillator(
 ) -> tuple[list[Quantity], float, float]:
     """Sums over the masses, alpha0, e*, a0* as quantities; a0* and e*."""
     P, x, y = (np.array([getattr(one, of) for one in masses]) for of in ("weight", "horizontal", "vertical"))
-    total, first, second = float(P.sum()), float(P @ x), float(P @ x**2)
+    along = np.abs(x) > STILL  # a mass that is lifted only would make e* less and a0* more
+    total, first, second = float(P[along].sum()), float(P @ x), float(P @ x**2)
     e = first**2 / (total * second)
     a0 = alpha * G / (e * confidence)
     mass = e * total / G
     return [
         Quantity("alpha0", "load factor that sets it off", f"{flow}, this report", alpha, "", "[C8.7.1.1]"),
-        Quantity("sum P", "weight that moves", "sum (P_k + Q_k)", total, "N", "[C8.7.1.5]"),
+        Quantity("sum P", "weight that moves along the push", "sum (P_k + Q_k)", total, "N", "[C8.7.1.5]"),
         Quantity("sum P dx", "weights times displacements along the push", "sum (P_k + Q_k) delta_PQx,k",
                  first, "N", "[C8.7.1.5]"),
         Quantity("sum P dx^2", "the same with squares", "sum (P_k + Q_k) delta_PQx,k^2", second, "N",

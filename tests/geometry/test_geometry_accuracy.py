@@ -261,10 +261,7 @@ def test_stones_that_meet_in_a_strip_are_not_brought_into_one_plane(over):
 
 def wedge(slope):
     """A prism 2 m long on z = 0 whose upper face rises from its edge at x = 0 by `slope`, rad."""
-    height = 2.0 * np.tan(slope)
-    points = [(x, y, z) for x, z in ((0, 0), (2, 0), (2, height)) for y in (-0.5, 0.5)]
-    faces = [[0, 1, 3, 2], [2, 3, 5, 4], [0, 4, 5, 1], [0, 2, 4], [1, 5, 3]]
-    return lb.Block("wedge", points, faces, 20e3)
+    return lb.Block.prism("wedge", [(0, 0), (2, 0), (2, 2.0 * np.tan(slope))], (-0.5, 0.5), 20e3)
 
 
 @pytest.mark.parametrize(

@@ -140,17 +140,11 @@ def test_a_colour_in_a_file_that_is_none_is_passed_over(tmp_path):
 
 def leaning(left_out=()):
     """A column whose second stone is held by friction that a slope of 45 degrees exceeds."""
-    foot = lb.Block("foot", *wedge((0.0, 0.0), (1.0, 0.0), (1.0, 0.2), (0.0, 1.2)), None)
-    stone = lb.Block("stone", *wedge((0.0, 1.2), (1.0, 0.2), (1.0, 1.2), (0.0, 2.2)), 2e4)
+    foot = lb.Block.prism("foot", [(0.0, 0.0), (1.0, 0.0), (1.0, 0.2), (0.0, 1.2)], (0.0, 1.0))
+    stone = lb.Block.prism("stone", [(0.0, 1.2), (1.0, 0.2), (1.0, 1.2), (0.0, 2.2)], (0.0, 1.0), 2e4)
     blocks = [foot, stone]
     faces = lb.find_interfaces(blocks, JOINT)
     return lb.Model(blocks, ["foot"], faces, lb.self_weight(), LIVE, left_out=left_out)
-
-
-def wedge(*corners):
-    points = [(x, y, z) for y in (0.0, 1.0) for x, z in corners]
-    sides = [(k, (k + 1) % 4, (k + 1) % 4 + 4, k + 4) for k in range(4)]
-    return points, [(0, 1, 2, 3), (7, 6, 5, 4), *(side[::-1] for side in sides)]
 
 
 def test_blocks_that_fall_name_what_was_left_out(tmp_path):

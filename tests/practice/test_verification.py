@@ -309,3 +309,29 @@ def test_a_mass_that_weighs_is_pushed_too(facade):
     with pytest.raises(lb.ModelError, match="the weights times 0; expected 1"):
         verification(alone, lb.bounds(alone), SITE, q=2.0)
     assert any(floor.block in one.name for one in verification(pushed, lb.bounds(pushed), SITE, q=2.0).masses)
+
+
+def test_a_block_that_is_lifted_only_does_work():
+    """A wedge without friction lifts a stone along a wall: alpha0 = W_stone slope / W_wedge, [C8.7.1.1]."""
+    slope, W = 0.2, 20e3
+
+    def prism(name, outline, unit_weight=None):
+        return lb.Block.prism(name, outline, (0.0, 1.0), unit_weight=unit_weight, along="y")
+
+    blocks = [
+        prism("ground", [(-1, -0.5), (3, -0.5), (3, 0), (-1, 0)]),
+        prism("stop", [(-0.5, 0), (0, 0), (0, 0.8), (-0.5, 0.8)]),
+        prism("wall", [(2, 0.6), (2.5, 0.6), (2.5, 1.5), (2, 1.5)]),
+        prism("wedge", [(0, 0), (2, 0), (2, 0.4), (0, 0.4 + 2 * slope)], W),
+        prism("stone", [(1, 0.4 + slope), (2, 0.4), (2, 1.5), (1, 1.5)], W),
+    ]
+    contacts = lb.find_interfaces(blocks, lb.PointContact(0.0))
+    loads = lb.self_weight(), lb.mass_proportional((1, 0, 0))
+    model = lb.Model(blocks, ["ground", "stop", "wall"], contacts, *loads)
+    found = verification(model, lb.bounds(model), SITE, q=2.0, confidence=FC)
+    wedge, stone = W * 2 * (0.4 + slope), W * (1.1 - slope / 2)
+    assert found["alpha0"] == pytest.approx(stone * slope / wedge, rel=1e-6)
+    assert found.moving == ("wedge", "stone")
+    assert found["sum P dy"] == pytest.approx(found["alpha0"] * found["sum P dx"], rel=1e-6)
+    assert found["e*"] == pytest.approx(1.0)  # the wedge alone: its a0* is the least that the text can mean
+    assert found["M*"] == pytest.approx(wedge / G)
