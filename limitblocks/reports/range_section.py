@@ -39,7 +39,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         headline=cut(result.load_path.load_factor) if result.load_path else "none",
         quantity="load factor α of the load path",
         values=(
-            ("Reached", f"{reached:#.6g} to {below:#.6g}", "paths from permanent-load states"),
+            ("Reached", _between(reached, below), "paths from permanent-load states"),
             ("Certified", f"{lowest:#.6g} to {highest:#.6g}", "reachable or not"),
             *(
                 (f"{word} of all", str(end), told or f"mixed-integer program, gap {end.gap:.1e}")

@@ -162,7 +162,9 @@ def test_what_is_below_a_quantile_is_its_share_on_average(n):
 
 def test_a_parameter_that_the_maker_needs_is_named_before_any_sample(monkeypatch):
     monkeypatch.setattr(sampled, "one_row", None)
-    with pytest.raises(lb.ModelError, match="the maker is given friction .*'scale'.; it takes friction, scale"):
+    with pytest.raises(
+        lb.ModelError, match=r"the maker is given friction .*'scale'.; it takes friction, scale"
+    ):
         lb.study(product, {"friction": (0.2, 0.6)}, 4)
 
 

@@ -163,7 +163,7 @@ def test_a_maker_that_fails_on_a_value_costs_its_row():
     lost = (sampled.values[:, 0] > 0.5) | (sampled.values[:, 0] <= 0.4)
     assert np.isnan(sampled.load_factors).tolist() == lost.tolist()
     assert 0 < lost.sum() < 16
-    with pytest.raises(lb.ModelError, match="is given mu .*; it takes friction"):
+    with pytest.raises(lb.ModelError, match=r"is given mu .*; it takes friction"):
         lb.study(made, {"mu": (0.35, 0.55)}, 2)
 
 
