@@ -59,8 +59,8 @@ def _points(curve: CapacityCurve) -> Table:
 
 
 def _changes(point: CapacityPoint) -> str:
-    taken = [f"{point.shift:.3g} of the live load taken from the dead loads"] if point.shift else []
-    return few([*point.changes, *taken]) or "none"
+    alone = f"the dead loads alone do not stand: solved from {-point.shift:.3g} of the live load"
+    return few([*point.changes, *[alone] * bool(point.shift)]) or "none"
 
 
 def _capacity_curve(curve: CapacityCurve) -> Curve | None:

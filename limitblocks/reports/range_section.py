@@ -40,7 +40,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         quantity="load factor α of the load path",
         values=(
             ("Reached", _between(reached, below), "paths from permanent-load states"),
-            ("Certified", f"{lowest:#.6g} to {highest:#.6g}", "reachable or not"),
+            ("Certified", _between(lowest, highest), "reachable or not"),
             *(
                 (f"{word} of all", str(end), told or f"mixed-integer program, gap {end.gap:.1e}")
                 for word, end in ends
@@ -58,6 +58,10 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         parts=(Table.of("Certified load factors", HEADS, rows, right=(0,)),),
     )
+
+
+def _between(least: float, greatest: float) -> str:
+    return f"{least:#.6g} to {greatest:#.6g}" if least <= greatest else "none"  # NaN where nothing was found
 
 
 def _spans(intervals: tuple[tuple[float, float], ...]) -> str:

@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 from html import unescape
 from io import BytesIO
+from types import SimpleNamespace
 
 import facades
 import jsonschema
@@ -28,6 +29,7 @@ from limitblocks.practice import (
     worst_position,
 )
 from limitblocks.reports import terminal
+from limitblocks.reports.capacity_section import _changes
 from limitblocks.reports.document import Text
 from limitblocks.reports.facts import facts
 from limitblocks.reports.pdf import GREEK, latin, pdf
@@ -230,3 +232,9 @@ def test_the_interface_area_is_that_of_contacts():
     rod = tie(stone.name, stone.centroid.tolist(), ground, (-3, 0, 0), area=1e-2, strength=1e6)
     areas = [facts(one)["interface_area"] for one in (model, reinforced(model, rod))]
     assert areas[1] == pytest.approx(areas[0], rel=1e-12)
+
+
+def test_a_point_whose_dead_loads_alone_fall_says_so():
+    point = SimpleNamespace(changes=("a|b opens",), shift=-0.458)
+    assert _changes(point).endswith("the dead loads alone do not stand: solved from 0.458 of the live load")
+    assert _changes(SimpleNamespace(changes=(), shift=0.0)) == "none"

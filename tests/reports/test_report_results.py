@@ -217,3 +217,12 @@ def test_a_figure_says_once_what_is_dashed():
 def test_a_backward_error_that_was_not_found_claims_no_model():
     """It said: inf, exact for a model changed by as much."""
     assert backward(unknown())[1:] == ("inf", "no changed model was found of which this state is exact")
+
+
+def test_a_range_without_an_answer_says_none():
+    model = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)
+    found = replace(lb.load_factor_range(model, paths=1, mechanisms=0), answers=(), load_path=None)
+    said = lb.report(model, found).text
+    assert re.search(r"Certified +none", said)
+    assert re.search(r"Reached +none", said)
+    assert "nan" not in said
