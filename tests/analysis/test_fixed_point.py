@@ -10,7 +10,7 @@ from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished, frozen_flow, least_norm
+from limitblocks.analysis.nonassociated import finished, frozen_flow, least_norm, start
 from limitblocks.analysis.nonassociated.closing import closed
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
@@ -187,6 +187,20 @@ def test_the_loop_starts_where_it_is_told():
     found = [lb.nonassociated(model, method="fixed point", start=start) for start in (None, permanent)]
     first, second = (one.history[0].load_factor for one in found)
     assert abs(second - first) > 1e-3 * first
+
+
+def test_bounds_that_come_no_closer_are_polished_as_they_are(monkeypatch):
+    """Those of an associated flow are solutions; the block slides at its friction."""
+
+    def no_closer(model, tolerance):
+        raise lb.errors.SolverFailure(f"no pair of bounds within {tolerance:g}")
+
+    model = flat_block(lb.PointContact(MU))
+    bracket(model)
+    monkeypatch.setattr(start, "bounds", no_closer)
+    found = lb.nonassociated(model, dilatancy=MU)
+    assert found.load_factor == pytest.approx(MU)
+    assert found.how.startswith("the bounds")
 
 
 def test_an_unknown_method_is_refused():

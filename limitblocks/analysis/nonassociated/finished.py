@@ -63,18 +63,19 @@ def finished(
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
     status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
+    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
+    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
     bounds, claimed = enclosing.bounds, enclosing.of(flow)
     dead = (
         bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
     )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
-    resultants = resultants_of(problem, state.x)
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
         associated=enclosing.associated,
-        stress_resultants=resultants,
+        stress_resultants=resultants_of(problem, state.x),
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
@@ -86,17 +87,7 @@ def finished(
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=(
-            *(BELOW_ZERO,) * bool(si.load_factor < -tolerance),
-            *off_load_path(how if status is Status.CONVERGED else ""),
-            *given_power(flow, state, tolerance),
-            *locked_shear(flow, state),
-            *locked_tension(model, flow, state),
-            *beyond_stress_block(model, resultants),
-            *unconfirmed(change),
-            *far,
-            *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
-        ),
+        remarks=remarks,
         tolerance=tolerance,
         digest=model.digest,
         unclaimed=claimed.unclaimed,
@@ -105,6 +96,19 @@ def finished(
     if throw and not result.accepted:
         raise _refused(model, flow, result)
     return result
+
+
+def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:
+    """What is said of a state, and of `how` a solution was found."""
+    problem = flow.problem
+    return (
+        *(BELOW_ZERO,) * bool(problem.in_si(state).load_factor < -tolerance),
+        *off_load_path(how),
+        *given_power(flow, state, tolerance),
+        *locked_shear(flow, state),
+        *locked_tension(model, flow, state),
+        *beyond_stress_block(model, resultants_of(problem, state.x)),
+    )
 
 
 def _evidence(
