@@ -30,10 +30,7 @@ def solver_of(K: sparse.csr_array) -> Callable[[Array], Array]:
     column = np.repeat(place, np.diff(K.indptr))
     below = place[K.indices] - column
     if below.max(initial=0) <= BAND:
-        try:
-            return _banded(K.data, below, column, order, more)
-        except np.linalg.LinAlgError:  # not definite, by rounding
-            pass
+        return _banded(K.data, below, column, order, more)
     symmetric: Any = {"SymmetricMode": True}  # definite: no exchange of rows, half the entries
     A = sparse.csc_array(K + sparse.diags_array(more))
     return linalg.splu(A, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=symmetric).solve
@@ -52,7 +49,7 @@ def _banded(
     band[0] += more[order]
     factor, failed = dpbtrf(band, lower=True, overwrite_ab=True)
     if failed:
-        raise np.linalg.LinAlgError
+        raise np.linalg.LinAlgError("the matrix is not positive semidefinite")
 
     def solve(b: Array) -> Array:
         x = b / more
