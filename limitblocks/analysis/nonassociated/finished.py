@@ -10,6 +10,7 @@ from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLE
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
+from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
@@ -93,7 +94,7 @@ def finished(
         fixed_point_change=change,
     )
     if throw and not result.accepted:
-        raise _refused(flow, result)
+        raise _refused(model, flow, result)
     return result
 
 
@@ -124,7 +125,7 @@ def _evidence(
         return state, error, None, True
 
 
-def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
+def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
     """The error that says why a result is no solution."""
     problem, worst = flow.problem, result.residuals.worst
     state = state_without_solution(flow)
@@ -145,7 +146,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     said = f"; {UNBOUNDED}" if result.astray else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
-        error.add_note(ASK_FIRST)
+        for note in (*uncarried_words(uncarried(model, model.tolerances)), ASK_FIRST):
+            error.add_note(note)
     return error
 
 
