@@ -1,5 +1,7 @@
 """Models of stones put together by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 
 import limitblocks as lb
@@ -40,6 +42,13 @@ def sloping(stone, joint, direction):
         lb.Block.box("block", (1, 1, 0.5), (0, 0, 0.25), stone).moved(turn, (0, 0, 0)),
     ]
     return model_of(blocks, ["slope"], joint, direction)
+
+
+def block_off(model, off):
+    """The model with one block, its interfaces and its loads moved out of the plane by `off` m."""
+    name = model.free_blocks[3].name
+    blocks = [b.moved(np.eye(3), (0.0, off, 0.0)) if b.name == name else b for b in model.blocks]
+    return replace(model, blocks=blocks)
 
 
 def imbalance(model, load_factor, stress_resultants):

@@ -151,9 +151,6 @@ class _Mixture:
         It opens none by less than `spare`. The part is infinite where there is no such mechanism.
         """
         p, lack = self.own, _lack(reach)
-        most = float(lack.max(initial=0.0))
-        if not most < np.inf:
-            return np.inf, np.zeros(p.C.shape[1]), np.zeros(p.F.shape[0])
         if not self.opened:
             amount = np.zeros(p.F.shape[0])
             amount[p.cones.heads] = np.maximum(lack, spare)

@@ -47,7 +47,6 @@ def compiled(problem: cp.Problem) -> Conic:
     A = sparse.csr_array(sparse.vstack([matrix for matrix, _ in parts], format="csr"))
     A = A[place] if K.second_order else A
     A.data[A.indptr[zero] :] *= -1.0
-    A.eliminate_zeros()
     constants = np.concatenate(right + [constant for _, constant in parts[len(equal) :]])
     cost = np.ravel(problem.objective.expr.args[0].value)
     return Conic(cost, sparse.csc_array(A), constants[place], K)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeVar
 
+from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.errors import few
 from limitblocks.geometry import Contacts, Interface, NearMiss, Overlap, Sliver, Through, find_contacts
 from limitblocks.geometry.accuracy import Accuracy, chosen
@@ -29,16 +30,21 @@ class Diagnosis(Contacts):
         Blocks that touch no other and have no interface.
     off_faces : tuple of str
         Interfaces that lie on no face of a block of theirs beyond the tolerances, with distance and angle.
+    uncarried : tuple of str
+        Free blocks that no interface pushes or pulls against their dead load: friction alone holds them, if
+        anything.
     """
 
     off_faces: tuple[str, ...] = ()
+    uncarried: tuple[str, ...] = ()
 
     @property
     def warnings(self) -> list[str]:
         """A line for each kind of thing found, and for each overlap."""
         pairs = dict.fromkeys(one.name for one in self.interfaces)
         missing = self._line("no interface between blocks that touch", tuple(pairs))
-        return missing + off_words(self.off_faces) + super().warnings
+        own = off_words(self.off_faces) + uncarried_words(self.uncarried)
+        return missing + own + super().warnings
 
     def __str__(self) -> str:
         return f"beside the interfaces of the model: {super().__str__()}"
@@ -90,6 +96,7 @@ def diagnose(
         length=contacts.length,
         chosen=contacts.chosen,
         off_faces=off_faces(model.blocks, model.interfaces, contacts.tolerances),
+        uncarried=uncarried(model, contacts.tolerances),
     )
 
 

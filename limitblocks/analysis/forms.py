@@ -89,7 +89,7 @@ class Rates:
     @cached_property
     def entry(self) -> tuple[Indices, Array]:
         """Stress that each kept row acts on, and its factor, shapes (s,)."""
-        rows = _without_zeros(self.problem.F[self.kept])
+        rows = self.problem.F[self.kept]
         return np.asarray(rows.indices, dtype=np.int64), np.asarray(rows.data)
 
     @cached_property
@@ -133,7 +133,8 @@ class Rates:
     @cached_property
     def leverage(self) -> Array:
         """Multiplier of its head that does what that of a dropped row does."""
-        return _only(self.problem.F[self.dropped]) / _only(self.problem.F[self.head])
+        F = self.problem.F  # one entry in each row
+        return np.asarray(F[self.dropped].data / F[self.head].data)
 
     def stresses(self, rows: Array) -> Array:
         """Stresses of the kept rows (s,)."""
@@ -154,7 +155,7 @@ def without_multipliers(problem: Scaled) -> Rates | None:
     Every row must act on one stress, every stress in one row, but for linear rows that the head of a cone
     implies: t >= ||z|| of the cone asks for t >= 0.
     """
-    cones, F = problem.cones, _without_zeros(problem.F)
+    cones, F = problem.cones, problem.F
     if problem.g.any() or (np.diff(F.indptr) != 1).any():
         return None
     stress, linear = F.indices, cones.linear
@@ -166,14 +167,3 @@ def without_multipliers(problem: Scaled) -> Rates | None:
     if (np.bincount(stress[kept], minlength=F.shape[1]) != 1).any():
         return None
     return Rates(problem, kept, np.flatnonzero(implied), head[implied])
-
-
-def _without_zeros(rows: sparse.csr_array) -> sparse.csr_array:
-    rows = sparse.csr_array(rows, copy=True)
-    rows.eliminate_zeros()
-    return rows
-
-
-def _only(rows: sparse.csr_array) -> Array:
-    """The only entry of each row."""
-    return np.asarray(_without_zeros(rows).data)

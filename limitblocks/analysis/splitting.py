@@ -38,7 +38,6 @@ class Splitting:
     def projection(self) -> Projection:
         """Onto equilibrium; the distance is that of the yield rows."""
         square = sparse.csr_array(self.p.F.T @ self.p.F)
-        square.eliminate_zeros()
         if square.nnz == np.count_nonzero(square.diagonal()) == square.shape[0]:  # every row is one stress
             return Projection(self.p.C, sparse.csr_array(sparse.diags_array(1.0 / square.diagonal())))
         weights = InterfaceBlocks(self.p.problem).inverse(square)

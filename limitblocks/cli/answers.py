@@ -124,10 +124,11 @@ def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
 def questioned(file: Path) -> Model:
     """Return the model in a file, and ask on stderr about what is hardly meant."""
     from limitblocks.analysis.diagnosis import astray
+    from limitblocks.analysis.uncarried import uncarried, uncarried_words
     from limitblocks.io import read
 
     model = read(file)
-    ask(model, *astray(model))
+    ask(model, *astray(model), *uncarried_words(uncarried(model, model.tolerances)))
     return model
 
 

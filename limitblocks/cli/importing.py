@@ -82,6 +82,7 @@ def import_blocks(
 ) -> None:
     """Make a model file from blocks in OBJ, STL, PLY, glTF, DXF, 3dm, COMPAS JSON; `look` at FILE first."""
     with clean_errors():
+        from limitblocks.analysis.uncarried import uncarried, uncarried_words
         from limitblocks.io.blocks import read_blocks
         from limitblocks.io.formats.dxf.elevation import read_drawing
         from limitblocks.io.structure_file import model_of
@@ -106,8 +107,10 @@ def import_blocks(
             tolerances = {k: getattr(used, k) if given is None else given for k, given in tolerances.items()}
         made: Any = {"joint": law, "materials": table, "supports": supports, "name": file.stem}
         model, contacts, vain = model_of(imported, live=mass_proportional(live), **made, **tolerances)
-        notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *contacts.nothing)
-        _tell(model, notes, (*imported.guesses, *vain, *contacts.warnings))
+        hung = uncarried_words(uncarried(model, model.tolerances))
+        nothing = [] if hung else contacts.nothing
+        notes = (*imported.notes, *_joint_words(model, table), contacts.accuracy, *nothing)
+        _tell(model, notes, (*imported.guesses, *vain, *contacts.warnings, *hung))
         typer.echo(f"{model.save(to, overwrite=force)}: {model}")
 
 

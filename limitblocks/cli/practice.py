@@ -148,6 +148,8 @@ def verify(
             verification, structure, solved, site, q=behaviour, confidence=confidence, **demands
         )
         alone = verified()  # refuses what is out of range before a curve is drawn
+        if not linear and saved is None:
+            typer.echo(f"before the capacity curve: {alone}", err=True)
         curve = None if linear else saved or analyses.capacity(structure)
         beside.extend((solved, curve) if curve else (solved,))
         if not curve:

@@ -122,7 +122,7 @@ def _tell(study: Study, asked: Asked) -> None:
     """Print the rows."""
     from limitblocks.io.result_file import result_text
     from limitblocks.reports.terminal import print_table, print_warnings
-    from limitblocks.studies.results import row_in_short
+    from limitblocks.studies.rows import row_in_short
 
     if asked.as_json:
         typer.echo(result_text(study))

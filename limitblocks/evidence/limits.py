@@ -57,8 +57,7 @@ class Limits:
     def strength(self) -> sparse.csr_array:
         """The part of F that is strength, shape (R, s); zero for rows that only name a demand."""
         p = self.problem
-        dropped = sparse.csr_array(p.F - p.G)
-        dropped.eliminate_zeros()
+        dropped = sparse.csr_array(p.F - p.G)  # scipy leaves zeros out
         drops = np.diff(dropped.indptr) > 0
         normal = np.zeros(p.F.shape[1])
         normal[p.resultants[2::6].indices] = 1.0

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from limitblocks.analysis.magnitudes import questions
+from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Contacts, Selection, find_contacts, select
 from limitblocks.geometry.selection import listed
@@ -106,7 +107,8 @@ def read(
     made |= {"live": live, "dead": dead, "gap": gap, "angle": angle, "width": width, "name": path.stem}
     with faults.named(path):
         model, contacts, vain = model_of(imported, **made)
-    for line in (*imported.notes, *imported.guesses, *vain, *contacts.warnings, *questions(model)):
+    seen = (*contacts.warnings, *uncarried_words(uncarried(model, model.tolerances)))
+    for line in (*imported.notes, *imported.guesses, *vain, *seen, *questions(model)):
         _log.warning("%s: %s", path, line)
     _log.info("%s: %s", path, contacts.accuracy)
     return model

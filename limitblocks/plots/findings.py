@@ -24,7 +24,7 @@ _KINDS = {
 
 
 def findings(model: Model, ax: Any = None, *, plane: str | None = None) -> Any:
-    """Draw what :func:`limitblocks.diagnose` finds: a line between the two blocks, isolated blocks crossed.
+    """Draw what :func:`limitblocks.diagnose` finds: a line between the two blocks, or a mark.
 
     Parameters
     ----------
@@ -45,9 +45,13 @@ def findings(model: Model, ax: Any = None, *, plane: str | None = None) -> Any:
         pairs = [np.array([middle[one.block_i], middle[one.block_j]]) for one in getattr(diagnosis, kind)]
         if pairs:
             drawn.lines(pairs, colors=colour, linewidths=2.0, label=f"{word} ({len(pairs)})")
-    if diagnosis.isolated:
-        points = np.array([middle[name] for name in diagnosis.isolated])
-        drawn.plot(points, "x", color=BLACK, label=f"isolated ({len(points)})")
+    for names, mark, word in (
+        (diagnosis.isolated, "x", "isolated"),
+        (diagnosis.uncarried, "v", "held by friction alone"),
+    ):
+        if names:
+            points = np.array([middle[name] for name in names])
+            drawn.plot(points, mark, color=BLACK, label=f"{word} ({len(points)})")
     drawn.title("\n".join([diagnosis.accuracy, *diagnosis.nothing]))
     if not diagnosis.nothing:
         drawn.legend()

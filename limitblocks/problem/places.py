@@ -16,9 +16,6 @@ def places(problem: LimitProblem) -> tuple[Indices, Indices]:
     Returns the place of each linear row and cone (degree,) and of each stress (s,) that it acts on.
     """
     F, cones = problem.F, problem.cones
-    if not F.data.all():
-        F = F.copy()
-        F.eliminate_zeros()
     degree, count = cones.degree, cones.degree + F.shape[1]
     start = np.concatenate([F.indptr[cones.heads], np.full(F.shape[1] + 1, F.nnz)])  # rows of a cone are one
     graph = sparse.csr_array((F.data, F.indices + degree, start), shape=(count, count))

@@ -120,6 +120,7 @@ def findings(model: Model, diagnosis: Any) -> list[list[str]]:
         ("Faces that nearly touch", diagnosis.near_misses),
         ("Blocks that overlap", diagnosis.overlaps),
         ("Blocks without any interface", diagnosis.isolated),
+        ("Blocks that friction alone holds against their dead load, if anything", diagnosis.uncarried),
         ("Contacts left out because they are too small", diagnosis.slivers),
         ("Strips left out because they are too narrow", diagnosis.strips),
         ("Contacts left out because a third block lies between", diagnosis.through),

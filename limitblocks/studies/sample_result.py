@@ -12,7 +12,8 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
-from limitblocks.studies.results import FLOWS, Rows, unanswered
+from limitblocks.studies.results import FLOWS, unanswered
+from limitblocks.studies.rows import Rows
 
 FEW = 19  # samples, below which the least of n has a share of more than 5 % below it, 1 / (n + 1)
 

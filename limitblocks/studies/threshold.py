@@ -14,7 +14,7 @@ from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.model import Model
 from limitblocks.shown import kept, many
-from limitblocks.studies.results import Rows
+from limitblocks.studies.rows import Rows
 
 #: Width of the bracket over the interval searched, unless a tolerance is given.
 RELATIVE = 1e-6

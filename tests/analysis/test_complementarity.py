@@ -65,6 +65,10 @@ def test_no_solution():
     assert complementary(np.array([-1.0]), np.array([[-1.0]]), np.zeros(1), np.zeros(1)) is None
 
 
+def test_a_multiplier_that_nothing_limits_leads_to_none():
+    assert _from_pair(np.array([1.0]), np.zeros((1, 1)), np.zeros(1), np.ones(1)) is None
+
+
 def test_no_pairs():
     slack, multiplier = complementary(np.zeros(0), np.zeros((0, 0)), np.zeros(0), np.zeros(0))
     assert len(slack) == len(multiplier) == 0

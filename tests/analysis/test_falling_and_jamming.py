@@ -9,7 +9,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis import stability
+from limitblocks.analysis import stability, unlimited
 from limitblocks.analysis.nonassociated import loop
 
 DOWN, UP = (0, 0, -1), (0, 0, 1)
@@ -55,6 +55,21 @@ def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
 def test_more_weight_does_not_end_what_stands():
     with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
         lb.bounds(arch(0.25, DOWN))
+
+
+def test_a_solver_that_says_nothing_of_an_unlimited_load_is_followed_by_the_next(monkeypatch):
+    solve, asked = unlimited.solved, []
+
+    def first_silent(program, solver):
+        asked.append(solver)
+        found = solve(program, solver)
+        nothing = tuple(np.full_like(value, np.nan) for value in found.values)
+        return found if solver is not asked[0] else replace(found, values=nothing)
+
+    monkeypatch.setattr(unlimited, "solved", first_silent)
+    with pytest.raises(lb.errors.UnlimitedLoad, match="without limit"):
+        lb.bounds(arch(0.25, DOWN))
+    assert len(asked) == 2
 
 
 @pytest.mark.parametrize("bond", [0.0, 1e4])

@@ -10,8 +10,9 @@ from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished, frozen_flow, least_norm
-from limitblocks.analysis.nonassociated.fixed_point import nearest_program
+from limitblocks.analysis.nonassociated import finished, frozen_flow, least_norm, start
+from limitblocks.analysis.nonassociated.closing import closed
+from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.least_norm import by_cones, by_planes, permanent_state
@@ -188,6 +189,20 @@ def test_the_loop_starts_where_it_is_told():
     assert abs(second - first) > 1e-3 * first
 
 
+def test_bounds_that_come_no_closer_are_polished_as_they_are(monkeypatch):
+    """Those of an associated flow are solutions; the block slides at its friction."""
+
+    def no_closer(model, tolerance):
+        raise lb.errors.SolverFailure(f"no pair of bounds within {tolerance:g}")
+
+    model = flat_block(lb.PointContact(MU))
+    bracket(model)
+    monkeypatch.setattr(start, "bounds", no_closer)
+    found = lb.nonassociated(model, dilatancy=MU)
+    assert found.load_factor == pytest.approx(MU)
+    assert found.how.startswith("the bounds")
+
+
 def test_an_unknown_method_is_refused():
     with pytest.raises(lb.ModelError, match="'luck', expected 'path' or 'fixed point'"):
         lb.nonassociated(flat_block(lb.PointContact(MU)), method="luck")
@@ -214,6 +229,30 @@ def test_without_cohesion_open_contacts_leave_a_round_without_solution():
     model = lb.structures.ferris_tin_loi_wall(3, lb.PointContact(0.65))
     assert rounds_of(model)[1] <= 1e-8
     assert rounds_of(model, cohesion=0.0)[1] > 1e-3
+
+
+def test_without_the_two_programs_newtons_method_starts_at_the_frozen_round():
+    """The block slides at its friction."""
+    load_factor, worst = rounds_of(flat_block(lb.PointContact(MU)), closing=0)
+    assert load_factor == pytest.approx(MU)
+    assert worst <= 1e-8
+
+
+@pytest.mark.parametrize(("push", "weight"), [((0.0, 0.0, -1.0), 1.0), ((1.0, 0.0, 0.0), -1.0)])
+def test_the_rounds_end_where_a_program_has_no_solution(push, weight):
+    """No rates are down into the base, and no stresses hold a block that falls up."""
+    problem = replace(flat_block(lb.PointContact(MU)), live=lb.mass_proportional(push)).problem
+    problem = replace(problem, dead=weight * problem.dead)
+    none = np.zeros(problem.C.shape[1]), np.zeros(len(problem.g))
+    start, flow = State(0.0, np.zeros(problem.C.shape[0]), *none), Flow(problem)
+    nearest = NearestStresses(problem, problem.compliance)
+    assert fixed_point(nearest, start, flow, 1e-8, 5) is None
+    assert closed(flow, nearest, start, 1e-8) == (start, 1)
+
+
+def test_what_is_frozen_at_no_stresses_is_not_confirmed():
+    flow, state = pushed(MU)
+    assert fixed_point_change(flow, replace(state, x=np.full_like(state.x, np.nan))) == np.inf
 
 
 @pytest.mark.parametrize(

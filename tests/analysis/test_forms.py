@@ -1,6 +1,6 @@
 """Forms without multipliers: the same answers as the static program, only where the joints allow it."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
@@ -18,6 +18,20 @@ from limitblocks.analysis.splitting import Splitting
 from limitblocks.evidence.residuals import Residuals, static_residuals
 
 
+@dataclass(frozen=True)
+class Guided:
+    """A joint of one's own: compression, and no shear by two rows, x >= 0 and -x >= 0."""
+
+    friction: float = 0.0
+
+    def yield_rows(self, polygons, stress_unit=1.0):
+        m, rows = len(polygons), lb.PointContact(0.0).yield_rows(polygons, stress_unit)
+        F, none = np.tile([(-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)], (m, 1, 1)), np.zeros((m, 3))
+        resultants = np.tile(np.eye(6)[:, [2, 0]], (m, 1, 1))
+        own = {"F": F, "G": F, "g": none, "pivot": none, "resultants": resultants, "linear": 3, "cones": ()}
+        return replace(rows, **own, modes=rows.modes[:1] * 3)
+
+
 def wall(joint):
     return structures.wall(joint, length=1.2, courses=4, direction=(1.0, 1.0, 0.0)).problem
 
@@ -30,6 +44,7 @@ def wall(joint):
         (lb.PointContact(0.0), Rates),
         (lb.PointContact(0.6, cone="inner"), Stresses),  # more planes than stresses
         (lb.OrdunaLourenco(0.6), Stresses),
+        (Guided(), Stresses),  # more rows than stresses
     ],
 )
 def test_multipliers_are_left_out_only_where_the_rates_say_what_they_are(joint, form):

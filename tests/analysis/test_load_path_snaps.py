@@ -286,6 +286,42 @@ def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
     assert not path.collapse.converged
 
 
+@pytest.mark.parametrize("settings", [{"growth": 2.0}, {}])
+def test_a_snap_that_springs_back_beyond_the_permanent_loads_is_followed(monkeypatch, settings):
+    """The jack pushes with 2 W before any load; a plug out of its seat bears W, so that it goes below zero.
+
+    With k the stiffness of the jack on either side: its force 2 W + g where the seat slides at d and the jack
+    has moved by d + g / k, of which the floor has lost k d + g.
+    """
+    model = PLUG["plug_in_its_seat"]()
+    soft = [i.name in ("plug|jack", "floor|jack") for i in model.interfaces]
+    bedded = (
+        replace(i, joint=PLUG["JACK"]) if on else i for i, on in zip(model.interfaces, soft, strict=True)
+    )
+    model = replace(model, interfaces=tuple(bedded))
+    weight, jack = (block.weight for block in model.free_blocks)
+    pushed, w, k = 2.0 * weight, PLUG["HALF_ANGLE"], PLUG["SOFT"] * PLUG["WIDTH"] * PLUG["DEPTH"]
+    N0, T0 = 5.0 * weight, (10.0 * weight * np.sin(w) + pushed - weight) / (2.0 * np.cos(w))
+    monkeypatch.setitem(PLUG["driven_in"].__globals__, "press", lambda _: (N0, T0))
+    start = PLUG["driven_in"](model)
+    start[soft, 2] -= pushed
+    d = (PLUG["MU"] * N0 - T0) / (PLUG["AREA"] * PLUG["STIFF"] * (np.cos(w) + PLUG["MU"] * np.sin(w)))
+    g = 2.0 * PLUG["AREA"] * PLUG["STIFF"] * d
+    path = lb.load_path(
+        model,
+        start=start,
+        stiffness={PLUG["SEAT"]: (PLUG["STIFF"],) * 2, PLUG["JACK"]: (PLUG["SOFT"],) * 2},
+        settings=lb.settings.Settings(**settings),
+    )
+    (snap,) = path.snaps
+    peak = 2.0 * g + k * d
+    assert snap.before.load_factor == pytest.approx(peak, rel=1e-4)
+    assert snap.after.load_factor == pytest.approx(weight - pushed + g + k * d, abs=3e-4 * peak)
+    assert PLUG["lift"](model, snap.after) == pytest.approx(PLUG["lift"](model, snap.before), rel=1e-6)
+    assert path.trace[:, 1].min() < 0.5 * (weight - pushed) / k
+    assert path.load_factor == pytest.approx(weight + jack, rel=1e-9)
+
+
 def test_a_lintel_whose_end_the_polish_leaves_open_is_closed_by_pivots():
     """Which rows yield at a joint that carries next to nothing is not plain: the flow stays at 1e-4."""
     model = lb.structures.eccentric_lintel(lb.OrdunaLourenco(0.6), eccentricity=0.1, direction=(1, 0, 0))

@@ -4,6 +4,7 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
+from scipy import sparse
 
 import limitblocks as lb
 from limitblocks import structures
@@ -68,6 +69,9 @@ def test_no_proof_where_statics_alone_does_not_give_the_stresses_or_nothing_hold
     assert state_without_solution(Flow(points.problem)) is None
     wall = structures.wall(lb.OrdunaLourenco(MU), length=1.2, courses=2)
     assert state_without_solution(Flow(wall.problem)) is None
+    stone = bracketed().problem
+    free = sparse.diags_array([1.0] * (stone.C.shape[1] - 1) + [0.0])  # about one axis nothing holds it
+    assert state_without_solution(Flow(replace(stone, C=stone.C @ free))) is None
     edge = structures.block(lb.OrdunaLourenco(MU), width=1.0, height=1.0)
     stands_on_edge = replace(edge, dead=lb.self_weight() + lb.mass_proportional((MU, 0, 0)))
     assert state_without_solution(Flow(stands_on_edge.problem)) is None  # slides under its dead loads

@@ -8,6 +8,7 @@ import pytest
 from bodies import triangulated
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from manifold3d import Manifold, Mesh64
 
 import limitblocks as lb
 from limitblocks import structures
@@ -282,6 +283,28 @@ def test_a_sharp_edge_moves_along_its_slope_and_twelve_times_the_accuracy_at_mos
     farthest = 1e3 * (moved if moves else gap / 2)
     said = f"2 blocks mended within 1 mm: vertices moved by up to {farthest:.2g} mm"
     assert str(healed) == f"{said}, at most 12 mm allowed{'' if moves else '; 1 left as they were'}"
+
+
+def test_a_sheet_whose_faces_come_into_one_plane_is_left_as_it_was():
+    """The stones on both sides of 2 mm are brought together, 1 mm each."""
+    sheet = box("sheet", (1.0, 1.0, 2e-3), (0, 0, 1e-3))
+    stones = [box("low", UNIT, (0, 0, -0.5)), sheet, box("high", UNIT, (0, 0, 0.502))]
+    healed = lb.heal(stones, accuracy=1e-3)
+    assert healed.blocks[1] is sheet
+    assert healed.notes == ("block 'sheet' is left as it was: its faces are not plane within 0.001 m",)
+    assert healed.displacements == pytest.approx({"low": 1e-3, "sheet": 0.0, "high": 1e-3})
+
+
+def test_a_stone_whose_coarser_mesh_crosses_itself_keeps_its_own():
+    """Six corners, in mm, within three times the 6 mm by which a mesh may change."""
+    corners = [(10, 0, 6), (30, 5, 6), (30, 10, 9), (10, 15, 6), (10, 5, 3), (30, 15, 0)]
+    faces = [(0, 1, 2), (2, 3, 0), (1, 5, 2), (2, 5, 3), (0, 3, 4), (3, 5, 4), (4, 5, 1), (4, 1, 0)]
+    stone = lb.Block("stone", 1e-3 * np.array(corners), faces, 20e3)
+    solid = Manifold(Mesh64(stone.vertices.copy(), stone.triangles.astype(np.uint64))).set_tolerance(6e-3)
+    mesh = solid.to_mesh64()
+    with pytest.raises(lb.errors.GeometryError, match="crosses itself"):
+        lb.Block("coarse", mesh.vert_properties[:, :3], mesh.tri_verts.tolist(), 20e3)
+    assert lb.heal([stone], accuracy=1e-3).displacements["stone"] < 6e-3
 
 
 def test_heal_without_an_accuracy_needs_joints_to_tell_it():

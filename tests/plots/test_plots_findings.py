@@ -30,3 +30,11 @@ def test_nothing_found_is_said():
     ax = lb.plots.findings(corner())
     assert ax.get_title().endswith("nothing found beside the interfaces with these tolerances")
     assert ax.get_legend() is None
+
+
+def test_a_stone_that_hangs_is_marked_where_it_is():
+    hung = [lb.Block.box("ceiling", (1, 1, 1), (0, 0, 1)), lb.Block.box("stone", (1, 1, 1), (0, 0, 0), 20e3)]
+    ax = lb.plots.findings(model_of(hung, ["ceiling"], lb.PointContact(0.6)), plane="xz")
+    (mark,) = [line for line in ax.lines if line.get_label() == "held by friction alone (1)"]
+    assert mark.get_xydata().tolist() == [[0.0, 0.0]]
+    assert "nothing found" not in ax.get_title()

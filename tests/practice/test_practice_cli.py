@@ -140,6 +140,20 @@ def test_verify_refuses_a_slip_before_it_draws_a_curve(block, monkeypatch):
         assert said in done.output
 
 
+def test_verify_says_the_linear_checks_before_it_draws_a_curve(block, monkeypatch):
+    """A curve may take minutes, and may not end: ratio .2 / 1.35 / .15, and JSON alone on stdout."""
+
+    def undrawn(model):
+        raise lb.ModelError("no curve today")
+
+    monkeypatch.setattr("limitblocks.cli.analyses.capacity", undrawn)
+    site = ("--a-g", 0.25, "--soil", 1.2, "--f0", 2.5, "--t-c", 0.5, "--q", 2, "--json")
+    done = run("verify", block, *site)
+    before = done.stderr.partition("no curve today")[0]
+    assert f"{0.2 / 1.35 / 0.15:.3f}" in before
+    assert "before the capacity curve" not in run("verify", block, *site, "--linear").stderr
+
+
 def test_verify_files_a_report(block, tmp_path):
     """The PDF has symbols and numbers: a0* = .2 g / 1.35, M* = the mass, ratio .2 / 1.35 / .15 = .98765."""
     pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 from scipy.spatial.transform import Rotation
+from stones import block_off
 
 import limitblocks as lb
 from limitblocks import structures
@@ -129,13 +130,6 @@ def test_an_axis_of_the_interface_that_is_not_in_the_plane_is_no_obstacle():
         assert (in_plane(same.problem) is not None) is planar
         if planar:
             assert lb.bounds(same).lower == pytest.approx(lb.bounds(model).lower, rel=2e-6)
-
-
-def block_off(model, off):
-    """The model with one block, its interfaces and its loads moved out of the plane by `off` m."""
-    name = model.free_blocks[3].name
-    blocks = [b.moved(np.eye(3), (0.0, off, 0.0)) if b.name == name else b for b in model.blocks]
-    return replace(model, blocks=blocks)
 
 
 def test_what_is_not_planar_is_not_reduced():

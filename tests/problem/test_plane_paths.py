@@ -8,6 +8,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
+from stones import block_off
 
 import limitblocks as lb
 from limitblocks import structures
@@ -30,13 +31,6 @@ JOINTS = {
 
 def wall(joint, courses=3):
     return structures.wall(joint, length=1.6, courses=courses)
-
-
-def block_off(model, off):
-    """The model with one block, its interfaces and its loads moved out of the plane by `off` m."""
-    name = model.free_blocks[3].name
-    blocks = [b.moved(np.eye(3), (0.0, off, 0.0)) if b.name == name else b for b in model.blocks]
-    return replace(model, blocks=blocks)
 
 
 def pair_of_answers(analysis, model, **options):

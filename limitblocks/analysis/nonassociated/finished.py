@@ -10,6 +10,7 @@ from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLE
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
+from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.arrays import read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
@@ -62,18 +63,19 @@ def finished(
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
     status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
+    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
+    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
     bounds, claimed = enclosing.bounds, enclosing.of(flow)
     dead = (
         bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
     )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
-    resultants = resultants_of(problem, state.x)
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
         associated=enclosing.associated,
-        stress_resultants=resultants,
+        stress_resultants=resultants_of(problem, state.x),
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
@@ -85,25 +87,28 @@ def finished(
         history=history,
         dilatancy=flow.dilatancy,
         turning=flow.turning,
-        remarks=(
-            *(BELOW_ZERO,) * bool(si.load_factor < -tolerance),
-            *off_load_path(how if status is Status.CONVERGED else ""),
-            *given_power(flow, state, tolerance),
-            *locked_shear(flow, state),
-            *locked_tension(model, flow, state),
-            *beyond_stress_block(model, resultants),
-            *unconfirmed(change),
-            *far,
-            *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance),
-        ),
+        remarks=remarks,
         tolerance=tolerance,
         digest=model.digest,
         unclaimed=claimed.unclaimed,
         fixed_point_change=change,
     )
     if throw and not result.accepted:
-        raise _refused(flow, result)
+        raise _refused(model, flow, result)
     return result
+
+
+def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:
+    """What is said of a state, and of `how` a solution was found."""
+    problem = flow.problem
+    return (
+        *(BELOW_ZERO,) * bool(problem.in_si(state).load_factor < -tolerance),
+        *off_load_path(how),
+        *given_power(flow, state, tolerance),
+        *locked_shear(flow, state),
+        *locked_tension(model, flow, state),
+        *beyond_stress_block(model, resultants_of(problem, state.x)),
+    )
 
 
 def _evidence(
@@ -120,7 +125,7 @@ def _evidence(
         return state, error, None, True
 
 
-def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
+def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
     """The error that says why a result is no solution."""
     problem, worst = flow.problem, result.residuals.worst
     state = state_without_solution(flow)
@@ -141,7 +146,8 @@ def _refused(flow: Flow, result: Nonassociated) -> NotConverged:
     said = f"; {UNBOUNDED}" if result.astray else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
-        error.add_note(ASK_FIRST)
+        for note in (*uncarried_words(uncarried(model, model.tolerances)), ASK_FIRST):
+            error.add_note(note)
     return error
 
 

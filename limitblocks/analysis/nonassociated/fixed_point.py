@@ -24,7 +24,6 @@ from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, LimitProblem, State
 
 PENALTY = 1e5  # of a remaining gap against the change of stresses
-PROGRESS = 0.5  # a round must bring the worst residual below this part of the best
 SETTINGS = {
     "tol_gap_abs": 1e-10,
     "tol_gap_rel": 1e-10,
@@ -92,30 +91,18 @@ class NearestStresses:
 
 def fixed_point(
     nearest: NearestStresses, start: State, flow: Flow, tolerance: float, rounds: int
-) -> tuple[State | None, int]:
-    """Iterate from `start`; return a state within the tolerance, or None, and the number of rounds."""
-    problem = nearest.problem
-    load_factor, x, y = start.load_factor, start.x, start.y
-    best = np.inf
-    adjusted = _admissible(problem, start)
-    for k in range(1, rounds + 1):
-        if not adjusted:
-            stresses = nearest.find(x, y)
-            if stresses is None:
-                return None, k
-            load_factor, x = stresses
-        adjusted = False
-        mechanism = frozen_mechanism(flow, x)
-        if mechanism is None:
-            return None, k
-        u, y = mechanism
-        worst = mcp_residuals(flow, State(load_factor, x, u, y)).worst.value
-        if worst <= tolerance:
-            return State(load_factor, x, u, y), k
-        if worst > PROGRESS * best:
-            return None, k
-        best = min(best, worst)
-    return None, rounds
+) -> State | None:
+    """Iterate from `start`; return a state within the tolerance, or None."""
+    state, stays = start, _admissible(nearest.problem, start)
+    for _ in range(rounds):
+        found = (state.load_factor, state.x) if stays else nearest.find(state.x, state.y)
+        mechanism = frozen_mechanism(flow, found[1]) if found else None
+        if found is None or mechanism is None:
+            return None
+        state, stays = State(*found, *mechanism), False
+        if mcp_residuals(flow, state).worst.value <= tolerance:
+            return state
+    return None
 
 
 def _admissible(problem: LimitProblem, state: State) -> bool:

@@ -7,7 +7,8 @@ From the stresses x_k the increments du, dy of displacements and multipliers sat
 
 With u = du / tau and y = dy / tau these are the equations of a path with rho = 1 / tau and mu = nu / tau. So
 theta is the first tau over tau, and where theta turns the structure snaps back: tau has to fall before it can
-go on growing. At the last tau the barrier fades at a fixed rho; the increment ends on the yield surface.
+go on growing. Where it springs back beyond x_k, tau counts from before that, live . du = tau - behind.
+At the last tau the barrier fades at a fixed rho; the increment ends on the yield surface.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equ
 SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
 FARTHER = (1.0, 2.0, 4.0)  # times tau
+FARTHEST = 1000.0  # theta where a path that counts tau from before its start has gone back beyond that
 TURN = 1e-5  # of tau: how near a fold is approached
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
@@ -114,7 +116,7 @@ class Stretch(Walk):
     @property
     def returned(self) -> bool:
         """Whether the path went back to where tau is zero."""
-        return bool(self.kept) and self.kept[-1].theta > RETURNED
+        return bool(self.kept) and self.kept[-1].theta > self.farthest
 
     def _forward(self, k: int) -> bool:
         return self.points[k].sign == self.points[0].sign
@@ -205,8 +207,10 @@ def _fell(path: Path, met: Increment) -> bool:
 def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[float, ...]) -> Tried:
     """One increment with the barrier of the path."""
     for span in spans:
-        first = span * rho
-        curve = replace(path, elastic=first * weights)
+        farther = 1.0 + path.behind * span * rho  # the first tau over what of it lies beyond the start
+        first = span * rho / farther
+        barrier = replace(path.barrier, size=path.barrier.size / farther)
+        curve = replace(path, barrier=barrier, elastic=first * weights, behind=path.behind * first)
         try:
             start, used = centred(curve)
         except (RuntimeError, ValueError, np.linalg.LinAlgError):
@@ -215,21 +219,29 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
             break
     if start is None:
         return Tried(None, used)
-    walk = Stretch(curve, start, 1.0 / span)
+    walk = Stretch(curve, start, farther / (span * (1.0 + path.behind * rho)))
+    walk.farthest = FARTHEST if path.behind else RETURNED
     walk.go()
     used += walk.factorisations
     if not walk.arrived:
         return Tried(None, used, walk.returned)
     visits = walk.visits(first)
-    met = _without_barrier(path, weights, visits[-1], left)
+    met = _without_barrier(curve, weights, _from_start(visits[-1], path.behind), left)
     whole = None if met.increment is None else replace(met.increment, visits=visits)
     return Tried(whole, used + met.factorisations)
+
+
+def _from_start(visit: Visit, behind: float) -> Visit:
+    """A visit with tau counted from the start of the increment."""
+    z, share = visit.point, 1.0 - behind * visit.rho
+    own = replace(z, u=z.u / share, y=z.y / share, theta=z.theta / share)
+    return visit._replace(point=own, rho=visit.rho / share)
 
 
 def _without_barrier(path: Path, weights: Array, visit: Visit, left: float) -> Tried:
     """The increment that ends at a visit with as little of the barrier as is left."""
     size = path.barrier.size * visit.point.theta / FADING
-    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=visit.rho * weights)
+    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=visit.rho * weights, behind=0.0)
     return faded(Increment((visit,), replace(visit.point, theta=FADING), visit.rho, fading), left)
 
 

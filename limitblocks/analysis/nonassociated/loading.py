@@ -39,6 +39,9 @@ ADMISSIBLE = 1e-8  # residuals of equilibrium and yield at the end of an increme
 NEAR = 0.1  # flow residual below which the polish is tried
 DRIFT = 1e-3  # change of the load factor, relative, up to which the polished state is that of the increment
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
+BEHIND = (
+    20.0  # of an increment that springs back beyond the permanent loads: where its tau counts from, over tau
+)
 LEAST = 1e-6  # of the first increment: smaller ones are not tried
 
 
@@ -115,8 +118,10 @@ def pushed(
             if met.returned and pushes:  # a snap longer than the increment: once more, from farther back
                 last = pushes.pop()
                 path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
+            elif met.returned and not path.behind:  # beyond the permanent loads
+                path = replace(path, behind=BEHIND / rho)
             else:
-                rho *= settings.growth**2
+                path, rho = replace(path, behind=0.0), rho * settings.growth**2
             continue
         state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
@@ -124,7 +129,7 @@ def pushed(
             progress(pushes[-1])
         if closed is not None:
             return tuple(pushes), closed
-        path, failures = replace(path, x0=state.x), 0
+        path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     return tuple(pushes), polish(flow, state)
 

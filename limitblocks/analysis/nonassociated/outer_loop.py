@@ -172,6 +172,6 @@ def _closed(
     nearest: NearestStresses, frozen: State, flow: Flow, tolerance: float, rounds: Rounds
 ) -> State | None:
     """The solution that the two programs and Newton's method make of a round, None if it is none."""
-    near, _ = fixed_point(nearest, frozen, flow, max(tolerance, rounds.near), rounds.closing)
+    near = fixed_point(nearest, frozen, flow, max(tolerance, rounds.near), rounds.closing)
     state = polish(flow, frozen if near is None else near)
     return state if mcp_residuals(flow, state).worst.value <= tolerance else None

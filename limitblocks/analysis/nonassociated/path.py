@@ -118,6 +118,7 @@ class Walk:
     """A path on the way: the point, the base of its predictor, the length, and what is worth telling."""
 
     patience: int | None = None
+    farthest = RETURNED
     closing: Callable[[State], State] | None = None
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
@@ -206,7 +207,7 @@ class Walk:
         self.points.append(Progress(z.theta, z.load_factor, sign, self.factorisations, least))
         if self.progress is not None:
             self.progress(self.points[-1])
-        if self.z.theta > RETURNED:
+        if self.z.theta > self.farthest:
             raise Lost("returned")
         if self.base is not None:
             self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)

@@ -89,7 +89,8 @@ class Point:
 class Path:
     """What fixes a path: flow, barrier, weights w (R,), rho0 W, and x0 with the residual r it carries.
 
-    `power` is the unit of the barrier's size, dimensionless.
+    `power` is the unit of the barrier's size, dimensionless. Increments may count tau = 1 / rho from `behind`
+    before x0: live . u = 1 - behind rho.
     """
 
     flow: Flow
@@ -100,6 +101,7 @@ class Path:
     x0: Array
     carried: Array
     power: float = 1.0
+    behind: float = 0.0
 
     @property
     def cones(self) -> Cones:
@@ -140,7 +142,7 @@ def residuals(path: Path, z: Point) -> Equations:
     return Equations(
         elastic - p.C @ z.u - path.layout.potential(z.x) @ z.y - z.theta * path.carried,
         p.dead + z.load_factor * p.live - path.layout.balance @ z.x,
-        float(p.live @ z.u - 1.0),
+        float(p.live @ z.u - 1.0 + path.behind * path.rho(z.theta)),
         p.F @ z.x + p.g - z.s,
         np.zeros_like(z.y),
     )
@@ -151,7 +153,7 @@ def theta_slope(path: Path, z: Point) -> Equations:
     p, power = path.flow.problem, path.barrier.power
     rho = 0.0 if path.at_floor(z.theta) else power * z.theta ** (power - 1.0)
     flow = rho * path.elastic * (z.x - path.x0) - path.carried
-    return Equations(flow, np.zeros_like(p.dead), 0.0, np.zeros_like(z.s), -z.y / z.theta)
+    return Equations(flow, np.zeros_like(p.dead), path.behind * rho, np.zeros_like(z.s), -z.y / z.theta)
 
 
 def distance(path: Path, z: Point, left: Equations) -> float:

@@ -121,11 +121,10 @@ def first_to_solve(
 ) -> Way:
     """The state to which one way after the other leads, and which it was: the load path comes first.
 
-    If there are further means, `half` comes second; of a large model it comes first, and costs less.
-    Where the `first` path is asked for it is followed alone.
+    If there are further means, `half` comes second. Where the `first` path is asked for it is followed alone.
 
     After a path whose load factor still changed, only what is exact for a model nearby is a solution.
-    Of a large model a state that is near `enough` ends the search as well.
+    Of a large model a state that is near `enough` ends the search as well, but for the end of the first path.
     """
     flow, met = given.flow, list[Way]()
     if means is MEANS:
@@ -137,15 +136,15 @@ def first_to_solve(
         ways = _large_planar_ways(given)
     else:
         ways = _ways(given, means)
-    if first:
-        ways = islice(ways, 1)
+    if first:  # that of a large model comes without rounds and with them
+        ways = islice(ways, 2 if large else 1)
     elif len(means) > 1:
-        ways = _with_half(ways, half, given, 0 if large else 1)
+        ways = _then(ways, half, given)
     for state, how in ways:
         met.append((state, how))
         if _solved(given, met):
             return met[-1]
-        if how.endswith(INTERRUPTED) or (large and enough(state)):
+        if how.endswith(INTERRUPTED) or (large and len(met) > 1 and enough(state)):
             break
     # what solves all equations but gives power comes next
     state, way = min(met, key=lambda one: left_over(mcp_residuals(flow, one[0]), given.tolerance))
@@ -181,9 +180,9 @@ def _in_space(flow: Flow) -> bool:
     return len(np.unique(flow.problem.C.indices)) > 3 * len(flow.problem.blocks)
 
 
-def _with_half(ways: Iterator[Way], half: Half, given: Given, after: int) -> Iterator[Way]:
-    """So many ways of the whole, then one half, polished in the whole, then the other ways."""
-    yield from islice(ways, after)
+def _then(ways: Iterator[Way], half: Half, given: Given) -> Iterator[Way]:
+    """The first way, then one half, polished in the whole, then the other ways."""
+    yield next(ways)
     found = half()
     if found is not None:
         wanting = defect(given.flow, found[0]) > given.tolerance  # residuals may double in the whole
@@ -227,12 +226,18 @@ def _from_centroid(given: Given, means: Sequence[Means]) -> Iterator[Way]:
 
 
 def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
-    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was."""
+    """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
+
+    That of the first comes without rounds as well: one half costs less, and follows the load path.
+    """
     closing = Closing(given.flow, given.tolerance)
     for one in means:
         state, how = given.tracked(one, closing=closing)
         ended = how.endswith(INTERRUPTED) or defect(given.flow, state) <= given.tolerance
-        yield (state, how) if ended else given.closed_in_rounds(state, how, closing)
+        if ended or one is means[0]:
+            yield state, how
+        if not ended:
+            yield given.closed_in_rounds(state, how, closing)
 
 
 def _large_planar_ways(given: Given) -> Iterator[Way]:

@@ -1,0 +1,58 @@
+"""Tables of results: rows of plain numbers and text, as lines of text and CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+from abc import abstractmethod
+from pathlib import Path
+from typing import Any, ClassVar
+
+from limitblocks.shown import Saved
+from limitblocks.written import write
+
+
+class Rows(Saved):
+    """A result that is a table; `units` has those of the columns that have one, by name."""
+
+    units: ClassVar[dict[str, str]] = {}
+
+    @abstractmethod
+    def rows(self) -> list[dict[str, Any]]:
+        """Return rows of the same keys, plain numbers and text."""
+
+    def table(self) -> str:
+        """Return the rows as lines of text in columns."""
+        rows = self.rows()
+        cells = [[*map(self.head, rows[0])]] + [row_in_short(row) for row in rows]
+        widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        lines = [[cell.ljust(width) for cell, width in zip(line, widths, strict=True)] for line in cells]
+        return "\n".join("  ".join(line).rstrip() for line in lines)
+
+    def head(self, name: str) -> str:
+        """Return the name of a column with its unit."""
+        return f"{name}, {self.units[name]}" if name in self.units else name
+
+    def write_csv(self, file: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the rows to a CSV file (UTF-8, commas, a line of names first) and return its path.
+
+        Raises
+        ------
+        LimitBlocksError
+            If the file exists and `overwrite` is false, or it cannot be written.
+        """
+        rows, stream = self.rows(), io.StringIO(newline="")
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+        return write(Path(file), stream.getvalue(), overwrite)
+
+
+def in_short(value: Any) -> str:
+    """Return a cell as text, numbers with six digits."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def row_in_short(row: dict[str, Any]) -> list[str]:
+    """Return the cells of a row of a study as text, residuals with two digits as everywhere."""
+    return [f"{v:.1e}" if name == "worst_residual" else in_short(v) for name, v in row.items()]
