@@ -34,9 +34,8 @@ def uncarried(model: Model, used: Tolerances | None) -> tuple[str, ...]:
     accuracy = (used.accuracy if used else None) or 0.0
     least = max(_ROUNDED, _LEANING * accuracy)
     for end, out in ((ends[:, 0], 1.0), (ends[:, 1], -1.0)):
-        against = (
-            -out * pulls * (normal * down[end]).sum(axis=1)
-        )  # of the force on the block that it can give
+        # share of the force that it gives the block
+        against = -out * pulls * (normal * down[end]).sum(axis=1)
         loaded[end[(end >= 0) & (held | (against > least))]] = False
     return tuple(block.name for block, one in zip(free, loaded.tolist(), strict=True) if one)
 

@@ -39,9 +39,7 @@ ADMISSIBLE = 1e-8  # residuals of equilibrium and yield at the end of an increme
 NEAR = 0.1  # flow residual below which the polish is tried
 DRIFT = 1e-3  # change of the load factor, relative, up to which the polished state is that of the increment
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
-BEHIND = (
-    20.0  # of an increment that springs back beyond the permanent loads: where its tau counts from, over tau
-)
+BEHIND = 20.0  # of an increment that springs back beyond the permanent loads: tau counts from so many before
 LEAST = 1e-6  # of the first increment: smaller ones are not tried
 
 
