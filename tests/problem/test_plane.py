@@ -4,7 +4,6 @@ Sources: docs/planar.md (the reduction by symmetry); closed forms in the tests.
 """
 
 from dataclasses import replace
-from functools import partial
 from unittest import mock
 
 import numpy as np
@@ -22,7 +21,6 @@ from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.stability import dead_load_state, standing_margin
 from limitblocks.problem import State
 from limitblocks.problem.plane import Choice, mirror_of, reduced
-from limitblocks.problem.plane.redundant import redundant
 
 PAPER = lb.OrdunaLourenco(0.65, slip="paper")
 JOINTS = {
@@ -242,36 +240,6 @@ def test_rows_left_out_are_implied():
             assert ((at[0] >= 0.0) == (at[1] >= -1e-12)).all()
             inside += int((at[0] >= 0.0).sum())
     assert inside > 100  # the test has states of both kinds
-
-
-@pytest.mark.parametrize("friction", [1e-9, 1e-11])
-@pytest.mark.parametrize(
-    "joint", [lb.joints.ExactTorsion, partial(lb.OrdunaLourenco, slip="outer", sides=16)]
-)
-def test_facets_of_little_friction_are_told_apart(joint, friction):
-    """A box slides along a facet's normal at its friction; neighbouring facets differ by 0.08 of it."""
-    stones = [
-        lb.Block.box("ground", (4.0, 4.0, 0.4), at=(0.0, 0.0, -0.2)),
-        lb.Block.box("box", (1.0, 0.7, 3.0), at=(0.0, 0.0, 1.5), unit_weight=20e3),
-    ]
-    pushed = lb.mass_proportional((1.0, 0.0, 0.0))
-    model = lb.Model(
-        stones, ["ground"], lb.find_interfaces(stones, joint(friction)), lb.self_weight(), pushed
-    )
-    bounds = lb.bounds(model)
-    assert bounds.proven
-    assert bounds.solvers[0].endswith("in the plane")
-    assert bounds.lower == pytest.approx(friction, rel=1e-6)
-
-
-def test_of_two_rows_of_little_friction_the_weaker_one_is_left():
-    """V + a N >= 0 follows from V + b N >= 0 and N >= 0 if a > b, whichever comes first."""
-    a, b = 2e-11, 1e-11
-    rows = np.array(
-        [[[1.0, one, 0.0], [1.0, other, 0.0], [0.0, 1.0, 0.0]] for one, other in ((a, b), (b, a))]
-    )
-    follows = redundant(rows, np.ones((2, 3), dtype=bool))
-    assert follows.tolist() == [[True, False, False], [False, True, False]]
 
 
 def test_a_wrong_reduction_costs_time_and_no_more():

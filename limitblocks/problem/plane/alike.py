@@ -42,7 +42,8 @@ def numbers(kind: Place, sort: Indices, turn: Array | None) -> Array:
 def in_order(values: Array) -> Indices:
     """An order (K, L) of values (K, L, n) that puts equal ones beside each other, whatever theirs was."""
     mix = np.cos(np.arange(values.shape[2]) ** 2 + 1.0)  # numbers without a pattern: unlike values differ
-    return np.argsort(values @ mix, axis=1)
+    with np.errstate(invalid="ignore"):
+        return np.argsort(values @ mix, axis=1)
 
 
 def length_of(rows: Array) -> Array:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, Indices, same_rows
-from limitblocks.problem.plane.rounding import NOTHING, rounding_of
+from limitblocks.arrays import Array, Indices, equal_rows
 
 ROUNDING = 1e-10  # of rows of unit length
+DECIMALS = 9  # rows that agree to these are judged once
 ENTRIES = 2**20  # of an array of all sums of two rows: sets are judged so many at a time
 
 Flags = npt.NDArray[np.bool_]
@@ -33,7 +33,8 @@ def redundant(rows: Array, present: Flags, flow: Array | None = None) -> Flags:
     )
     moves = np.where(there[..., None], moves, 0.0)
     kinds = np.concatenate([own.reshape(K, -1), moves.reshape(K, -1), there], axis=1)
-    first, kind = same_rows(kinds, NOTHING)
+    kinds = np.round(kinds, DECIMALS) + 0.0
+    first, kind = equal_rows(kinds)
     constant = np.broadcast_to(np.eye(D)[-1], (len(first), 1, D))
     still = np.zeros((len(first), 1, moves.shape[2]))
     lines, flows = (np.concatenate(both, axis=1) for both in ((own[first], constant), (moves[first], still)))
@@ -56,9 +57,10 @@ def _follows(rows: Array, present: Flags, flow: Array) -> Flags:
     apart = sine > ROUNDING
     sine = np.where(apart, sine, 1.0)
     by_i, by_j = (a - b * cosine) / sine, (b - a * cosine) / sine
-    up_i, up_j = (np.maximum(by, 0.0)[..., None] for by in (by_i, by_j))
-    off = up_i * rows[:, None, i] + up_j * rows[:, None, j] - rows[:, :L, None]
-    sums = apart & (np.abs(off) <= rounding_of(rows[:, :L, None])).all(axis=3)
+    off = by_i[..., None] * rows[:, None, i] + by_j[..., None] * rows[:, None, j] - rows[:, :L, None]
+    sums = (
+        apart & (np.minimum(by_i, by_j) >= -ROUNDING) & (np.einsum("kcpd,kcpd->kcp", off, off) <= ROUNDING**2)
+    )
     own = np.arange(L)[:, None]
     sums &= (i != own) & (j != own)
     left, follows = np.concatenate([present, np.ones((K, 1), dtype=bool)], axis=1), np.zeros_like(present)

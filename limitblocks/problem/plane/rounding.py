@@ -8,7 +8,6 @@ from limitblocks.arrays import Array, Indices, same_rows
 
 EXACT = 1e-10  # of the largest number of its kind: more is no rounding error
 AGREE = 0.01 * EXACT  # of numbers up to one: places that agree within it are judged once
-NOTHING = 1e-15  # of numbers up to one: rounding of what vanishes
 
 
 def classes(*numbers: Array) -> tuple[Indices, Indices]:
@@ -50,8 +49,3 @@ def size_of(values: Array) -> Array:
     """Largest of the numbers (K, ...) of each place, one for nothing, to divide them by."""
     size = np.abs(values).max(axis=tuple(range(1, values.ndim)), keepdims=True)
     return np.asarray(np.where(size > 0.0, size, 1.0))
-
-
-def rounding_of(values: Array) -> Array:
-    """Largest rounding error of numbers up to one: of a small one, such as friction, a small one, too."""
-    return EXACT * np.abs(values) + NOTHING

@@ -20,7 +20,7 @@ from limitblocks.arrays import Array, Indices, repeated
 from limitblocks.problem.plane.alike import in_order, length_of
 from limitblocks.problem.plane.mirror import Mirrored
 from limitblocks.problem.plane.redundant import redundant
-from limitblocks.problem.plane.rounding import EXACT, classes, rounding_of
+from limitblocks.problem.plane.rounding import EXACT, classes
 
 Flags = npt.NDArray[np.bool_]
 CHUNK = 1000  # classes of places at a time: keeps the arrays small
@@ -197,7 +197,7 @@ def _lines(sets: _Sets, weight: Array, valid: Flags, choice: Choice) -> _Rows:
     lines = weight @ sets.values
     flow = weight @ sets.flow if choice is Choice.FLOWING else None
     alike = lines if flow is None else np.concatenate([lines, flow], axis=2)
-    stands, share = _same(np.where(valid[..., None], alike, np.nan))
+    stands, share = _same(np.where(valid[..., None], alike, np.inf))
     valid = valid & (stands == np.arange(valid.shape[1]))
     if choice is not Choice.EVERY:
         valid &= ~redundant(np.where(valid[..., None], lines, 0.0), valid, flow)
@@ -226,11 +226,12 @@ def _everywhere(places: Indices, rows: _Rows, members: list[Indices]) -> PlaneRo
 
 
 def _same(values: Array) -> tuple[Indices, Array]:
-    """The first member (K, L) with the same values, and shares (K, L, L) in the mean; nan is like none."""
+    """The first member (K, L) with the same values, and the shares (K, L, L) of all of them in their mean."""
     K = len(values)
     order = in_order(values)
     there = np.take_along_axis(values, order[..., None], axis=1)
-    new = ~(np.abs(np.diff(there, axis=1)) <= rounding_of(there[:, 1:])).all(axis=2)
+    with np.errstate(invalid="ignore"):
+        new = ~(np.abs(np.diff(there, axis=1)) <= EXACT).all(axis=2)
     group = np.concatenate([np.zeros((K, 1), dtype=int), np.cumsum(new, axis=1)], axis=1)
     label = np.empty_like(group)
     np.put_along_axis(label, order, group, axis=1)
