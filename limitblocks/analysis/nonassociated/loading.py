@@ -119,7 +119,7 @@ def pushed(
             elif met.returned and not path.behind:  # beyond the permanent loads
                 path = replace(path, behind=BEHIND / rho)
             else:
-                path, rho = replace(path, behind=0.0), rho * settings.growth**2
+                rho *= settings.growth**2
             continue
         state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
