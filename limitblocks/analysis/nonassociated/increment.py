@@ -34,7 +34,7 @@ SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root 
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
 FARTHER = (1.0, 2.0, 4.0)  # times tau
 FARTHEST = 1000.0  # theta where a path that counts tau from before its start has gone back beyond that
-TURN = 1e-5  # of tau: how near a fold is approached
+TURN = 1e-5  # of tau: how near a fold, and the state after its snap, is approached
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
 
@@ -111,7 +111,8 @@ class Stretch(Walk):
     @property
     def arrived(self) -> bool:
         """Whether the last point kept is at the end."""
-        return bool(self.kept) and self.kept[-1].theta <= ARRIVED * self.until and self._forward(-1)
+        near = 1.0 + (ARRIVED - 1.0) * (1.0 - self.path.behind * self.until)  # of tau from the start
+        return bool(self.kept) and self.kept[-1].theta <= near * self.until and self._forward(-1)
 
     @property
     def returned(self) -> bool:
@@ -136,13 +137,17 @@ class Stretch(Walk):
         return "arrived" if self.arrived else "lost"
 
     def _accept(self, sign: float, base: Base) -> None:
-        if self.base is not None and self._forward(-1) and sign != self.points[0].sign:
+        forward = not self.points or sign == self.points[0].sign
+        if self.base is not None and self._forward(-1) and not forward:
             ahead = self.length * abs(self.base.tangent.theta) / self.base.point.theta
             if ahead > TURN:
                 self._retreat()
                 return
             self.fold = min(self.fold, self.base.point.theta, self.z.theta)
-        elif self.kept and sign == self.points[0].sign and self.z.theta <= self.fold:
+        elif self.kept and forward and self.z.theta <= self.fold:
+            if self.z.theta < (1.0 - TURN) * self.fold < np.inf:  # the corrector went on beyond the state after the snap
+                self._retreat()
+                return
             self.fold = np.inf
         self.kept.append(self.z)
         super()._accept(sign, base)
@@ -189,12 +194,10 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
         again = _pushed(sharp, weights, rho / farther, left, SPANS[1:])
         used += again.factorisations
         if again.increment is None:
-            break
+            return Tried(None if again.returned else replace(met.increment, rounded=True), used, again.returned)
         if again.increment.folds or not met.increment.folds:
-            return replace(again, factorisations=used)
-    if again.returned:
-        return Tried(None, used, returned=True)
-    return Tried(replace(met.increment, rounded=bool(met.increment.folds)), used)
+            break
+    return replace(again, factorisations=used)
 
 
 def _fell(path: Path, met: Increment) -> bool:
