@@ -83,7 +83,7 @@ def test_fitting_gives_up_where_no_planes_are_near():
 
 @pytest.mark.parametrize("n", [10, 14])
 def test_what_is_fitted_is_plane_and_near(n):
-    """Fields of four-cornered faces, rough by less and less: planes to a tenth of what is tolerated, or none."""
+    """Fields of four-cornered faces, less and less rough: plane to a tenth of what is tolerated, or none."""
     said = []
     loops = tuple((k, k + 1, k + n + 1, k + n) for k in range(n * (n - 1)) if k % n < n - 1)
     level = np.stack(np.mgrid[:n, :n, :1], axis=-1).reshape(-1, 3) / (n - 1)
