@@ -130,6 +130,17 @@ def test_a_vertex_of_a_third_face_is_not():
     assert sorted(found) == sorted((*others, *top, step, front))
 
 
+def test_a_slim_face_is_no_spike_of_the_face_at_its_end():
+    """The top of a fin goes with the side of the fin, not with the top of the box."""
+    outline = np.array([(0, 0), (1, 0), (2, 0), (2, 1e-4), (1, 1e-4), (1, 5), (0, 5)])
+    points = np.vstack([np.column_stack([outline, np.full(7, z)]) for z in (0.0, 1.0)])
+    sides = [(k, (k + 1) % 7, (k + 1) % 7 + 7, k + 7) for k in range(7)]
+    ends = [(7, 8, 11, 12, 13), (8, 9, 10, 11)]
+    below = [tuple(v - 7 for v in face[::-1]) for face in ends]
+    found, _ = merged(points, (*sides, *ends, *below), 5.0, MANY)
+    assert set(ends[0]) in map(set, found)
+
+
 def test_a_face_that_is_a_line_keeps_its_vertices():
     points = np.array([(0, 0, 0), (0.5, 0, 0), (1, 0, 0.0)])
     found, _ = merged(points, ((0, 1, 2), (2, 1, 0)), 1.0, MANY)
