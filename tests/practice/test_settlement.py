@@ -214,7 +214,9 @@ def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
     rows = {row["answer"]: row["least_reaction"] for row in spread.rows()}
     assert list(rows) == ["associated, mechanism", "associated, stress state", "without dilatancy"]
     assert list(rows.values()) == [spread.lower, spread.upper, spread.nonassociated]
-    assert f"least reaction of 'right': {thrust:.6g} to {thrust:.6g} N (associated), {thrust:.6g}" in str(spread)
+    assert f"least reaction of 'right': {thrust:.6g} to {thrust:.6g} N (associated), {thrust:.6g}" in str(
+        spread
+    )
 
 
 @pytest.mark.parametrize("thickness", [0.1, 1.0], ids=["the guide turns", "nothing turns"])
