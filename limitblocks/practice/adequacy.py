@@ -194,7 +194,7 @@ def _values(model: Model, factors: PartialFactors) -> Iterator[DesignValue]:
 
 
 def _strengths(joint: Joint) -> dict[str, float]:
-    """Strengths of a joint by name, Pa; the tensile one as far as it counts, or less friction would add to it."""
+    """Strengths of a joint by name, Pa; the tensile one as it counts, or less friction adds to it."""
     found = {name: getattr(joint, name, None) for name in STRENGTHS}
     found["tensile_strength"] = getattr(joint, "counted_tension", found["tensile_strength"])
     return {name: value for name, value in found.items() if value}

@@ -49,7 +49,7 @@ class Nameless:
 
 @pytest.mark.parametrize(("M", "phi"), [(1.0, 1.5), (1.2, 1.5), (1.5, 1.25), (2.0, None)])
 def test_dividing_friction_adds_no_tensile_strength(M, phi):
-    """alpha = (1 + A f_t / W) b / h; of .02 MPa count c / mu = .01 MPa, and more where mu alone is divided."""
+    """alpha = (1 + A f_t / W) b / h; of .02 MPa count c / mu = .01 MPa, more where mu alone is less."""
     joint = lb.OrdunaLourenco(0.6, cohesion=6e3, tensile_strength=20e3)
     tall = block(height=4.0, joint=lambda _: joint)
     A = lb.joints.areas(tall.interfaces[0].polygon[None]).item()
