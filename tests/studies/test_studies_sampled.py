@@ -146,6 +146,24 @@ def test_quantiles_say_what_they_can_be_with_the_samples_left_out():
     assert "leave" not in str(fallen)
 
 
+@pytest.mark.parametrize("lost", [50.0, 1e6, np.inf])
+def test_no_quantile_is_above_the_largest_with_the_samples_left_out(lost):
+    """Of 1, ..., 48 and two lost ones, of 50 or more, 95 % is .45 of the way from the 48th to the 49th."""
+    words = {"modes": ("",) * 50, "samples": 50, "indices": False}
+
+    def studied(values, errors):
+        return SampledStudy("bounds", ("x",), values[:, None], values, errors=errors, **words)
+
+    known = np.arange(1.0, 49.0)
+    without = studied(np.append(known, [np.nan] * 2), ("",) * 48 + ("NotConverged: lost",) * 2)
+    complete = studied(np.append(known, [lost] * 2), ("",) * 50)
+    true = complete.quantiles([0.95])[0]
+    assert true == pytest.approx(0.55 * 48.0 + 0.45 * lost if lost < np.inf else 48.0)
+    assert true <= without.quantiles([0.95], failed=np.inf)[0]
+    assert str(without).endswith("95 % at most inf")
+    assert without.quantiles([0.9], failed=np.inf) == pytest.approx([45.9])  # no lost one has a share
+
+
 @pytest.mark.parametrize(("n", "said"), [(18, "least and largest"), (19, "5 % to 95 %")])
 def test_the_line_claims_no_quantile_that_so_few_samples_do_not_have(n, said):
     """The least of n has 1 / (n + 1) below it on average, 5 % of 19."""
