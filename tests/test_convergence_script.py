@@ -35,7 +35,7 @@ def test_a_case_is_stopped_after_seconds_or_times_its_bounds(script, limit, time
         raise KeyboardInterrupt
 
     monkeypatch.setattr(script, "interrupted_after", noted)
-    monkeypatch.setattr(script.time, "process_time", lambda: next(clock))
+    monkeypatch.setattr(script.time, "thread_time", lambda: next(clock))
     monkeypatch.setattr(lb, "bounds", lambda _: None)
     monkeypatch.setattr(lb, "nonassociated", pressed)
     joint = lb.PointContact(0.6)

@@ -34,7 +34,7 @@ def merged(points: Array, faces: Faces, size: float, most: int) -> tuple[Faces, 
     size : float
         Of the block, m.
     most : int
-        Faces after which no more are looked for; one more than these is returned then.
+        Faces after which no more are looked for; more than these are returned then.
     """
     limit = FLAT * size
     rings: list[tuple[int, ...]] = []
@@ -47,8 +47,6 @@ def merged(points: Array, faces: Faces, size: float, most: int) -> tuple[Faces, 
             rings.append(ring)
         else:
             rings += [faces[k] for k in members]
-    if len(rings) > most:
-        return tuple(rings[: most + 1]), warp
     return _without_needless(points, tuple(rings), COLLINEAR * size), warp
 
 
@@ -161,7 +159,7 @@ def _without_needless(points: Array, faces: Faces, tolerance: float) -> Faces:
     gone: set[int] = set()
     for vertex in sorted(beside):
         before, after = beside[vertex]
-        if before != after and _off_line(points[[before, vertex, after]]) <= tolerance:
+        if _off_line(points[[before, vertex, after]]) <= tolerance:
             gone.add(vertex)
             for one, other in ((before, after), (after, before)):
                 if one in beside:

@@ -18,8 +18,6 @@ _FARTHEST = 0.02
 #: Largest step of rounded coordinates, in sizes of the block.
 _STEP = 1e-2
 _ROUNDS = 100
-#: Least change of a round, over what is tolerated, that is worth another one.
-_SETTLED = 1e-3
 
 
 def warps(points: Array, loops: Faces) -> Array:
@@ -90,19 +88,15 @@ def fitted(points: Array, loops: Faces, tolerance: float) -> Array | None:
     corner = np.concatenate([np.asarray(loop) for loop in loops])
     face = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
     mean = sparse.csr_array((1.0 / np.bincount(face)[face], (face, np.arange(len(face)))))
-    size, placed, before = float(np.ptp(points, axis=0).max()), points.copy(), np.inf
+    size, placed = float(np.ptp(points, axis=0).max()), points.copy()
     for _ in range(_ROUNDS):
         vectors = area_vectors(placed, loops)
         normal = vectors / np.maximum(np.linalg.norm(vectors, axis=1), np.finfo(float).tiny)[:, None]
         height = ((mean @ placed[corner])[face] - placed[corner]) * normal[face]
         off = height.sum(axis=1)
-        worst = float(np.abs(off).max())
-        if worst <= tolerance / 10.0:
+        if np.abs(off).max() <= tolerance / 10.0:
             moved = np.linalg.norm(placed - points, axis=1).max()
             return placed if moved <= _FARTHEST * size else None
-        if before - worst < _SETTLED * tolerance / 10.0:
-            return None
-        before = worst
         placed = placed + _steps(corner, normal[face], off, len(points))
     return None
 

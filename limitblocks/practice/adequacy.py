@@ -165,8 +165,7 @@ def _design(joint: Joint, factors: PartialFactors) -> Joint:
         prestress = factors.gamma_G * joint.prestress
         return replace(joint, strength=joint.strength / strength, prestress=prestress)
     refuse_nameless_strength(joint, "partial factors")
-    known = {name: getattr(joint, name, None) for name in STRENGTHS}
-    changes = {name: value / strength for name, value in known.items() if value}
+    changes = {name: value / strength for name, value in _strengths(joint).items()}
     try:
         changes[FRICTION] = joint.friction / factors.of_friction[1]
         return replace(joint, **changes)  # type: ignore[type-var]
@@ -184,16 +183,21 @@ def _values(model: Model, factors: PartialFactors) -> Iterator[DesignValue]:
             continue
         word, divisor = factors.of_friction
         yield DesignValue(SYMBOLS[FRICTION], where, joint.friction, word, joint.friction / divisor, "")
-        for name in STRENGTHS:
-            value = getattr(joint, name, None)
-            if value:
-                word, divisor = factors.of_strength(joint)
-                yield DesignValue(SYMBOLS[name], where, value, word, value / divisor, "Pa")
+        for name, value in _strengths(joint).items():
+            word, divisor = factors.of_strength(joint)
+            yield DesignValue(SYMBOLS[name], where, value, word, value / divisor, "Pa")
     for one in model.interfaces:
         if isinstance(one.joint, Tie | Dowel):
             word, divisor = factors.of_strength(one.joint)
             most = one.joint.strength * float(areas(one.polygon))
             yield DesignValue("F", one.name, most, word, most / divisor, "N")
+
+
+def _strengths(joint: Joint) -> dict[str, float]:
+    """Strengths of a joint by name, Pa; the tensile one as it counts, or less friction adds to it."""
+    found = {name: getattr(joint, name, None) for name in STRENGTHS}
+    found["tensile_strength"] = getattr(joint, "counted_tension", found["tensile_strength"])
+    return {name: value for name, value in found.items() if value}
 
 
 def _joints(model: Model) -> dict[Joint, int]:

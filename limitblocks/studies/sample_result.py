@@ -63,7 +63,8 @@ class SampledStudy(Rows):
         below it on average; less than the first and more than the last there is not (Weibull 1939; Hyndman &
         Fan 1996, definition 6). A row whose dead loads fall counts as load factor zero; other failures are
         left out, or count as the load factor `failed`: with 0 each quantile is the least that it can be,
-        with inf the largest. Between a load factor and an unlimited one the lower counts.
+        with inf the largest. Between a load factor and an unlimited one the lower counts; between one and a
+        failure that counts as inf there is no largest, and the quantile is inf.
 
         Raises
         ------
@@ -74,13 +75,15 @@ class SampledStudy(Rows):
         most = known[np.isfinite(known)].max(initial=0.0)
         place = np.clip(np.asarray(shares) * (len(known) + 1) - 1.0, 0.0, len(known) - 1.0)
         between = np.interp(place, np.arange(len(known)), np.minimum(known, most))
-        return np.where(np.isinf(known[place.astype(int)]), np.inf, between)
+        # a failure may have any finite load factor, of which the quantile has a share
+        end = np.ceil(place) if failed == np.inf and np.isnan(self._known(np.nan)).any() else place
+        return np.where(np.isinf(known[end.astype(int)]), np.inf, between)
 
     def probability_below(self, demand: float) -> float:
         """Return the share of independent samples whose load factor is below `demand`; falling ones are.
 
-        Of those that have one: with `failures` among them it is at least share (1 - f) and at most
-        share (1 - f) + f, f the share of failures.
+        Of those that have one or fall: with the others it is at least share (1 - f) and at most
+        share (1 - f) + f, f the share of these others.
         """
         return float((self._known() < demand).mean())
 

@@ -81,6 +81,23 @@ def test_fitting_gives_up_where_no_planes_are_near():
         mended("box", turned, BOX.faces, twisted="fit")
 
 
+@pytest.mark.parametrize("n", [10, 14])
+def test_what_is_fitted_is_plane_and_near(n):
+    """Fields of four-cornered faces, less and less rough: plane to a tenth of what is tolerated, or none."""
+    said = []
+    loops = tuple((k, k + 1, k + n + 1, k + n) for k in range(n * (n - 1)) if k % n < n - 1)
+    level = np.stack(np.mgrid[:n, :n, :1], axis=-1).reshape(-1, 3) / (n - 1)
+    for rough in np.geomspace(3e-2, 3e-4, 9):
+        points = level + rough * np.random.default_rng(0).normal(size=level.shape)
+        placed = fitted(points, loops, 1e-3)
+        said.append(placed is None)
+        if placed is not None:
+            assert warps(placed, loops).max() <= 1e-4 + 1e-12
+            assert np.linalg.norm(placed - points, axis=1).max() <= 0.02
+    assert said == sorted(said, reverse=True)
+    assert 0 < sum(said) < len(said)
+
+
 def test_plane_faces_are_left_alone():
     for how in ("refuse", "triangulate", "fit"):
         block, notes = mended("box", BOX.vertices, BOX.faces, twisted=how)

@@ -47,6 +47,18 @@ class Nameless:
         return lb.OrdunaLourenco(self.friction, cohesion=self.c).yield_rows(polygons, stress_unit)
 
 
+@pytest.mark.parametrize(("M", "phi"), [(1.0, 1.5), (1.2, 1.5), (1.5, 1.25), (2.0, None)])
+def test_dividing_friction_adds_no_tensile_strength(M, phi):
+    """alpha = (1 + A f_t / W) b / h; of .02 MPa count c / mu = .01 MPa, more where mu alone is less."""
+    joint = lb.OrdunaLourenco(0.6, cohesion=6e3, tensile_strength=20e3)
+    tall = block(height=4.0, joint=lambda _: joint)
+    A = lb.joints.areas(tall.interfaces[0].polygon[None]).item()
+    found = adequacy(tall, PartialFactors(1.0, 1.0, M, phi))
+    assert found.factor == pytest.approx((1.0 + A * 10e3 / M / tall.free_blocks[0].weight) / 4.0, rel=1e-6)
+    counted = next(value for value in found.values if value.symbol == "f_t")
+    assert (counted.characteristic, counted.design) == pytest.approx((10e3, 10e3 / M))
+
+
 def test_a_strength_of_ones_own_joint_is_divided_or_refused():
     """alpha = mu + c A / W; a bond under another name was left whole, and stayed after the joint had slid."""
     W = block().free_blocks[0].weight

@@ -1,5 +1,7 @@
 """How far a step of a capacity curve goes: contacts that close, answers not found, falls, the end."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from stones import model_of
@@ -9,7 +11,7 @@ from limitblocks.arrays import read_only
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
 from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.displaced import CLOSED, assembly_of, moved
-from limitblocks.practice.snapped import falls, snapped, steepest
+from limitblocks.practice.snapped import TIGHT, falls, snapped, steepest
 from limitblocks.practice.touching import pressed_in
 
 JOINT = lb.PointContact(0.6)
@@ -67,17 +69,36 @@ def test_no_answer_is_said_after_steps_of_a_ten_thousandth_of_the_size(monkeypat
     assert 1e-4 * there.size <= min(tried) < 2e-4 * there.size
 
 
+def overhanging(beyond, *stops):
+    """A block on a base, its centre so far from the base's, and stones that no joint joins to it."""
+    stones = [
+        lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
+        lb.Block.box("block", (1, 1, 0.3), (beyond, 0, 0.15), 20e3),
+    ]
+    model = model_of(stones, ["base"], JOINT, (0, 1, 0))
+    names = [stop.name for stop in stops]
+    model = replace(model, blocks=[*stones, *stops], supports=["base", *names])
+    return pressed_in(assembly_of(model), [0], -np.ones((1, 6)))
+
+
+def test_a_fall_that_another_stone_bars_has_no_end():
+    there = overhanging(0.6, lb.Block.box("stop", (0.2, 1, 0.1), (1.0, 0, -0.05)))
+    with pytest.raises(lb.SolveError, match="snaps, and where it comes to rest was not found"):
+        snapped(there)
+
+
+def test_a_fall_that_no_linear_program_answers_is_said(monkeypatch):
+    monkeypatch.setattr("limitblocks.practice.snapped.TIGHT", TIGHT | {"maxiter": 0})
+    with pytest.raises(lb.SolveError, match="whether the structure is held was not found: Iteration limit"):
+        falls(overhanging(0.6))
+
+
 def test_a_round_of_a_fall_is_a_twentieth_of_a_block(monkeypatch):
     """Its centre half a micrometre beyond the edge it stays; .1 m beyond it falls, by no more than .05 m."""
     for beyond in (0.1, 0.5 + 5e-7, 0.6):
-        stones = [
-            lb.Block.box("base", (1, 1, 0.2), (0, 0, -0.1)),
-            lb.Block.box("block", (1, 1, 0.3), (beyond, 0, 0.15), 20e3),
-        ]
-        model = model_of(stones, ["base"], JOINT, (0, 1, 0))
-        there = pressed_in(assembly_of(model), [0], -np.ones((1, 6)))
+        there = overhanging(beyond)
         assert falls(there) == (beyond == 0.6)
-        way = steepest(there)[0] / [*[stones[1].size] * 3, 1, 1, 1]
+        way = steepest(there)[0] / [*[there.model.blocks[1].size] * 3, 1, 1, 1]
         if beyond == 0.6:
             assert np.abs(way).max() == pytest.approx(0.05, rel=1e-6)
             monkeypatch.setattr("limitblocks.practice.snapped.ROUNDS", 3)  # nothing is below it

@@ -20,6 +20,17 @@ def test_nothing_rests_on_a_support_that_the_others_spare():
     assert curve.reactions == pytest.approx([0.0], abs=1e-3)
 
 
+def test_a_beam_that_meets_another_stone_is_stopped():
+    """One under it that it does not rest on yet: the support leaves it, and it cannot follow."""
+    model = beam_on({"left": (-2.0, -1.6), "right": (1.6, 2.0)}, (-2.0, 2.0), lb.PointContact(0.5))
+    stop = lb.Block.box("stop", (0.4, 1, 1), (0, 0, -0.5))
+    model = replace(model, blocks=(*model.blocks, stop), supports=(*model.supports, "stop"))
+    curve = settlement_to_collapse(model, "right", (0, 0, -1), without_dilatancy=False)
+    assert curve.falls is None
+    assert curve.ended.startswith("contacts that close, or blocks that meet, stop the mechanism at")
+    assert curve.stands_to == pytest.approx(0.0, abs=1e-5)
+
+
 def test_it_ends_where_it_is_told_to():
     ring, _ = arch(2, 0.3)
     told = []

@@ -229,6 +229,14 @@ def test_a_printed_envelope_says_what_stands_beside_the_blocks():
     assert "axles" not in str(worst_position(beam(), Vehicle((10e3,)), Deck(0.5), (3.5, 3.8), positions=3))
 
 
+def test_a_search_interrupted_before_any_answer_has_none():
+    def first(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):  # off the overhang at x = 4
+        worst_position(beam(), Vehicle((10e3,)), Deck(level=0.5), (4.2, 5.0), positions=3, progress=first)
+
+
 def test_an_interrupted_search_keeps_the_positions_tried():
     """The overhang tips about x = 3: P (x - 3) = W (3 - 2); of four positions two are done, 1 and 3."""
     places = []
@@ -314,6 +322,8 @@ def test_eurocode_and_housner():
         (lambda: uplift(wall(), 1.0, share=2.0), "share of the water pressure is 2.0"),
         (lambda: uplift(wall(), -1.0, interfaces=wall().interfaces), "above the water at -1 m"),
         (lambda: worst_position(beam(), Vehicle((1.0,)), Deck(0.5), (2.0, 1.0)), "nothing to search"),
+        (lambda: worst_position(beam(), Vehicle((1.0,)), Deck(0.5), (4.2, 5.0), positions=3),
+         "with the first axle between 4.2 and 5 m the vehicle stands off the structure"),
         (lambda: Rocking(1.0, 0.0), "height is 0.0"),
         (lambda: Rocking(1.0, 2.0).period(1.0), "amplitude is 1.0"),
         (lambda: passive_fill(wall(), 6.0, unit_weight=1.0, coefficient=1.0), "no block has a face"),

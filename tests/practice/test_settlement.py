@@ -211,11 +211,18 @@ def test_thrust_of_a_flat_arch_is_not_held_by_its_guide():
     thrust = 2 * WEIGHT * a * t * a / (4 * t)
     assert spread.nonassociated == pytest.approx(thrust, rel=1e-6)
     assert spread.upper == pytest.approx(thrust, rel=1e-6)
+    rows = {row["answer"]: row["least_reaction"] for row in spread.rows()}
+    assert list(rows) == ["associated, mechanism", "associated, stress state", "without dilatancy"]
+    assert list(rows.values()) == [spread.lower, spread.upper, spread.nonassociated]
+    assert f"least reaction of 'right': {thrust:.6g} to {thrust:.6g} N (associated), {thrust:.6g}" in str(
+        spread
+    )
 
 
-def test_stones_between_abutments_that_close_in_jam():
+@pytest.mark.parametrize("thickness", [0.1, 1.0], ids=["the guide turns", "nothing turns"])
+def test_stones_between_abutments_that_close_in_jam(thickness):
     with pytest.raises(lb.errors.UnlimitedLoad, match="'right': the structure jams against this motion"):
-        settlement(two_stones(2.0, 0.1), "right", (-1, 0, 0))
+        settlement(two_stones(2.0, thickness), "right", (-1, 0, 0))
 
 
 def test_only_support():

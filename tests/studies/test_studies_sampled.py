@@ -99,8 +99,15 @@ def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypa
     again = lb.study(block, ask, 8, file=file)
     assert len(calls) == 9
     assert (again.load_factors == found.load_factors).all()
-    with pytest.raises(lb.ModelError, match="is of another study"):
+    with pytest.raises(lb.ModelError, match="is of another study: seed 0 there, 1 here; name another file"):
         lb.study(block, ask, 8, file=file, seed=1)
+    with pytest.raises(lb.ModelError, match="another study: number of samples 8 there, 16 here"):
+        lb.study(block, ask, 16, file=file)
+    with pytest.raises(lb.ModelError, match="another study: intervals or distributions"):
+        lb.study(block, dict.fromkeys(ask, (0.21, 0.6)), 8, file=file)
+    file.write_text("friction 0.6\n")
+    with pytest.raises(lb.ModelError, match="is of no study"):
+        lb.study(block, ask, 8, file=file)
 
 
 def test_failures_are_rows(tmp_path):
@@ -137,6 +144,24 @@ def test_quantiles_say_what_they_can_be_with_the_samples_left_out():
     fallen = SampledStudy("bounds", ("x",), values[:9, None], values[:9], samples=9, modes=("",) * 9,
                           errors=("",) * 9, indices=False)  # fmt: skip
     assert "leave" not in str(fallen)
+
+
+@pytest.mark.parametrize("lost", [50.0, 1e6, np.inf])
+def test_no_quantile_is_above_the_largest_with_the_samples_left_out(lost):
+    """Of 1, ..., 48 and two lost ones, of 50 or more, 95 % is .45 of the way from the 48th to the 49th."""
+    words = {"modes": ("",) * 50, "samples": 50, "indices": False}
+
+    def studied(values, errors):
+        return SampledStudy("bounds", ("x",), values[:, None], values, errors=errors, **words)
+
+    known = np.arange(1.0, 49.0)
+    without = studied(np.append(known, [np.nan] * 2), ("",) * 48 + ("NotConverged: lost",) * 2)
+    complete = studied(np.append(known, [lost] * 2), ("",) * 50)
+    true = complete.quantiles([0.95])[0]
+    assert true == pytest.approx(0.55 * 48.0 + 0.45 * lost if lost < np.inf else 48.0)
+    assert true <= without.quantiles([0.95], failed=np.inf)[0]
+    assert str(without).endswith("95 % at most inf")
+    assert without.quantiles([0.9], failed=np.inf) == pytest.approx([45.9])  # no lost one has a share
 
 
 @pytest.mark.parametrize(("n", "said"), [(18, "least and largest"), (19, "5 % to 95 %")])

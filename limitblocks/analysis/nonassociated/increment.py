@@ -163,7 +163,7 @@ def _started(curve: Path) -> tuple[Point | None, int]:
         )  # its slacks are as large as the first ones
         fading = replace(curve, barrier=Barrier(size, 0.0, 0.0))
         start, more = centred(fading)
-    except (RuntimeError, ValueError, np.linalg.LinAlgError):
+    except (RuntimeError, ValueError):
         return None, 1
     if start is None:
         return None, used + more

@@ -54,10 +54,7 @@ def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
     """Stresses of least norm x^T W x by Clarabel; None where they do not meet the conditions."""
     A = sparse.csc_array(sparse.vstack([problem.C.T, -problem.F]))
     program = Conic(np.zeros(len(weights)), A, np.append(problem.dead, problem.g), problem.cones, weights)
-    try:
-        found = solution(program, CLARABEL)
-    except (ValueError, ArithmeticError):
-        return None
+    found = solution(program, CLARABEL)
     n, dual = problem.C.shape[1], np.array(found.z)
     return _believed(problem, weights, np.array(found.x), np.append(dual[:n], -dual[n:]))
 

@@ -58,7 +58,7 @@ class Stretch(Walk):
         try:
             while not self.arrived and self.factorisations < self.budget:
                 self._advance()
-        except (Lost, RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+        except (Lost, RuntimeError, ValueError):  # SuperLU: singular or not finite
             pass
         return "arrived" if self.arrived else "lost"
 
