@@ -76,8 +76,26 @@ def _told(verb: str) -> Iterator[Tell]:
     from rich.console import Console
 
     console = Console(stderr=True)
-    with _bar(verb, console) if console.is_terminal else _lines(verb) as tell:
-        yield tell
+    with _bar(verb, console) if console.is_terminal else _lines(verb) as tell, _within(tell) as told:
+        yield told
+
+
+@contextmanager
+def _within(tell: Tell) -> Iterator[Tell]:
+    """Tell after what is told of an analysis how one within it goes, such as at the next point of a curve."""
+    from limitblocks.analysis.nonassociated.path_record import WATCH
+
+    said = [""]
+
+    def outer(text: str, share: float | None) -> None:
+        said[:] = [f"{text}; next "]
+        tell(text, share)
+
+    watch = WATCH.set(lambda one: tell(f"{said[0]}{one.kind}: {_in_words(one.load_factor)}", None))
+    try:
+        yield outer
+    finally:
+        WATCH.reset(watch)
 
 
 @contextmanager

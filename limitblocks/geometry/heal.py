@@ -21,6 +21,7 @@ from limitblocks.geometry.mend import mended
 from limitblocks.geometry.neighbours import neighbours
 from limitblocks.geometry.patches import covering, mean_width, patches
 from limitblocks.geometry.regions import regions
+from limitblocks.geometry.through import between
 from limitblocks.shown import many
 
 #: Distances over the accuracy: of the corners of a face from its plane, of a vertex from where it was.
@@ -86,11 +87,13 @@ class Planes(NamedTuple):
 def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
     """Return the blocks mended within their accuracy, and how far every vertex moved.
 
-    Meshes are made as coarse as six times the accuracy allows (manifold3d). The facets of a block that lie
+    Meshes are made as coarse as six times the accuracy, or a quarter of the thickness (twice volume over
+    surface) of a thin block, allows (manifold3d). The facets of a block that lie
     within four times the accuracy of one plane become one plane face; faces of different blocks that touch
     become parts of the common plane that fits their corners best, which closes gaps and overlaps up to six
-    times the accuracy. Each vertex then goes to the nearest point in the planes of its faces. A block of
-    which a vertex would move farther than twelve times the accuracy stays as it was, with a note.
+    times the accuracy, but none that a third block fills. Each vertex then goes to the nearest point in the
+    planes of its faces. A block of which a vertex would move farther than twelve times the accuracy stays as
+    it was, with a note.
 
     Parameters
     ----------
@@ -143,7 +146,8 @@ def _coarse(block: Block, tolerance: float) -> Block:
     if block.convex and max(map(len, block.faces)) > 3:
         return block
     solid = Manifold(Mesh64(np.array(block.vertices), block.triangles.astype(np.uint64)))
-    simple = solid.set_tolerance(tolerance)
+    quarter = 0.5 * solid.volume() / solid.surface_area()  # of the thickness: a sheet would become a wedge
+    simple = solid.set_tolerance(min(tolerance, quarter))
     if not 4 <= simple.num_tri() < solid.num_tri():
         return block
     mesh = simple.to_mesh64()
@@ -207,6 +211,7 @@ def _joined(faces: FaceTable, points: Sequence[Array], used: Tolerances, length:
     seen = patches(faces, *opposed(faces, neighbours(points, gap), gap, used.angle), length)
     wide = (mean_width(seen.shape) > used.width * length) | covering(faces, seen)
     meant = seen.of(wide & (shapely.area(seen.shape) > seen.least) & (np.abs(seen.gap) <= gap))
+    meant = meant.of(between(faces, meant, meant) < 0)  # stones on both sides of a sheet are apart
     return first_tied(np.column_stack([meant.a, meant.b]), len(faces.block))
 
 

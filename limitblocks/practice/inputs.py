@@ -19,6 +19,7 @@ from limitblocks.practice.verification_result import Quantity
 
 LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
 PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
+ROOM = 1e-3  # of the associated load factor: without sliding an answer lies below it by rounding
 
 GIVEN = "given"
 NTC = "NTC 2018"
@@ -129,3 +130,15 @@ def _plane(model: Model, rates: Array) -> bool:
     )  # fmt: skip
     sizes = np.linalg.svd(velocities, compute_uv=False)
     return bool(sizes[2] <= PLANE * sizes[0])
+
+
+def other_answers(collapse: Any) -> tuple[str, ...]:
+    """Return that alpha0 is one of several answers, where the flow rule leaves room for others."""
+    alpha, associated = collapse.load_factor, getattr(collapse, "associated", np.nan)  # of a claim: none
+    if not alpha < (1.0 - ROOM) * associated:
+        return ()
+    return (
+        f"alpha0 = {alpha:.4g} is one answer, others may solve as well, up to {associated:.4g} (associated): "
+        "load_factor_range (limitblocks range) shows how low those lie that loading reaches; verify with the "
+        "least of them",
+    )

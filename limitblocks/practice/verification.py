@@ -24,6 +24,7 @@ from limitblocks.practice.inputs import (
     carried,
     flow_words,
     given,
+    other_answers,
     refuse_unproven,
     remarks,
     unproven,
@@ -134,6 +135,7 @@ def verification(
     said = (
         *of_ground(demand.a_g),
         *unproven(collapse, curve),
+        *other_answers(collapse),
         *collapse.remarks,  # type: ignore[attr-defined] # of every state
         *remarks(model, collapse.displacement_rates, confidence),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import replace
 from io import StringIO
 from typing import Any, Literal
 
@@ -13,12 +14,13 @@ from rich.text import Text
 
 from limitblocks.model import Model
 from limitblocks.reports.chapters import chapter
-from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table
+from limitblocks.reports.document import Cell, Document, Figure, Heading, Headline, Items, Part, Table
 from limitblocks.reports.document import Text as Text_
 from limitblocks.reports.sections import section
 
 _TO_THE_RIGHT = ("Value", "Step", "Load factor")
 _WIDTH = 100  # of the report as text
+_ROWS, _ENDS = 24, 8  # of a table on a screen at most; else its first and last ones
 _NUMBER = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?")
 
 
@@ -39,14 +41,29 @@ def text(document: Document, width: int = _WIDTH) -> str:
 
 
 def print_result(model: Model, result: Any) -> None:
-    """Print what a report says of `result`, without the drawings."""
+    """Print what a report says of `result`, without the drawings and the middle of long tables.
+
+    What counts stands first, and last again where tables of many rows scroll it away.
+    """
     said = section(model, result)
     headline = f"\n  [bold]{said.headline}[/bold]  {said.quantity}, {said.title}\n"
+    tables = [part for part in chapter(said, None, "").parts if isinstance(part, Table)]
     Console(soft_wrap=True).print(headline, highlight=False)
-    for part in chapter(said, None, "").parts:
-        if isinstance(part, Table):
-            Console().print(_table(part), crop=False)
+    for table in tables:
+        Console().print(_table(_shortened(table)), crop=False)
     print_warnings(said.warnings)
+    if sum(len(table.rows) for table in tables) > _ROWS:
+        Console(soft_wrap=True).print(headline, highlight=False)
+
+
+def _shortened(part: Table) -> Table:
+    """The table without the middle of its rows, where it has many, and how to see them."""
+    left = len(part.rows) - 2 * _ENDS
+    if len(part.rows) <= _ROWS:
+        return part
+    gap = (Cell("…"),) * len(part.rows[0])
+    rows = (*part.rows[:_ENDS], gap, *part.rows[-_ENDS:])
+    return replace(part, caption=f"{part.caption} ({left} rows left out: --json or --report FILE)", rows=rows)
 
 
 def print_warnings(warnings: Iterable[str]) -> None:

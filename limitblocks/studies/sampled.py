@@ -140,6 +140,20 @@ def _head(
     }  # fmt: skip
 
 
+def _other(there: Any, here: Row) -> str:
+    """Whose file it is, in words."""
+    if not isinstance(there, dict) or "study" not in there:
+        return "no study"
+    words = {"study": "parameters", "rows": "number of samples", "values": "intervals or distributions"}
+    differs = [key for key in here if there.get(key) != here[key]]
+    differs = [key for key in differs if key != "values"] or differs  # the values follow all others
+    said = ", ".join(
+        words.get(key, key) + f" {there.get(key)!r} there, {here[key]!r} here" * (key != "values")
+        for key in differs
+    )
+    return f"another study: {said}"
+
+
 def _kept(file: Path | None, head: Row) -> dict[int, Row]:
     """Rows that a file of this study has; what was cut off at its end is cut off the file, too."""
     if file is None or _is_new(file):
@@ -149,8 +163,8 @@ def _kept(file: Path | None, head: Row) -> dict[int, Row]:
     if not lines and json.dumps(head).encode().startswith(first):
         os.truncate(file, 0)
         return {}
-    if _parsed(first) != head:
-        raise ModelError(f"{file} is of another study, or none; name another file or remove it")
+    if (there := _parsed(first)) != head:
+        raise ModelError(f"{file} is of {_other(there, head)}; name another file or remove it")
     if lines and _parsed(lines[-1]) is None:
         os.truncate(file, written.rindex(b"\n"))
     rows = {}

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import nullcontext
 
 import numpy as np
 import osqp
@@ -72,6 +73,19 @@ def test_progress_says_no_nan_and_no_inf(factor, said, monkeypatch, capsys):
         show(1.5, factor)
         time.sleep(0.2)
     assert capsys.readouterr().err.splitlines()[-1] == f"vehicle: 0 s, X = 1.5 m: {said}"
+
+
+def test_progress_goes_on_between_the_points_of_a_curve(file, monkeypatch):
+    """It stood at the last point, for minutes where the next one was hard to find."""
+    told = []
+    monkeypatch.setattr(progress, "_lines", lambda _verb: nullcontext(lambda text, _share: told.append(text)))
+    assert run("capacity", file, "--steps", 2, "--largest", 0.01).exit_code == 0
+    assert told[0].startswith("path: load factor ")  # of the structure as it is
+    between = [one for one in told if one.startswith("0 m: load factor ")]
+    assert any("; next path: load factor " in one for one in between)
+    told.clear()
+    lb.nonassociated(lb.read(file))
+    assert told == []
 
 
 def test_an_interrupted_analysis_writes_its_best_state_or_says_there_is_none(solver, file, tmp_path):

@@ -260,6 +260,39 @@ def test_stones_that_meet_in_a_strip_are_not_brought_into_one_plane(over):
     assert set(lb.heal([low, high], accuracy=1e-3).displacements.values()) == {0.0}
 
 
+def bed_of(thickness):
+    """Three stones 0.3 m high with a sheet between each two and one on top, and their contacts."""
+    tops = np.cumsum([0.3, thickness] * 3)
+    heights = np.diff(tops, prepend=0.0)
+    sizes = zip(tops - heights / 2, heights, strict=True)
+    blocks = [box(f"s{k}", (1.0, 1.0, h), (0, 0, z), 20e3) for k, (z, h) in enumerate(sizes)]
+    return blocks, {(f"s{k}", f"s{k + 1}") for k in range(5)}
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 2e-3, 5e-3])
+def test_stones_do_not_move_into_the_sheet_between_them(thickness):
+    """All gaps are none; the stones beside a sheet thinner than six accuracies met half way in it."""
+    blocks, pairs = bed_of(thickness)
+    healed = lb.heal(blocks, accuracy=1e-3)
+    assert max(healed.displacements.values()) < 1e-12
+    found = lb.find_contacts(healed.blocks, JOINT)
+    assert ends(found.interfaces) == pairs
+    assert found.overlaps == healed.notes == ()
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("thickness", [2e-3, 4e-3])
+def test_a_rough_sheet_keeps_its_thickness(thickness, seed):
+    """Off by up to 0.4 mm along each axis; made coarse within six accuracies, 2.4 mm, it was a wedge."""
+    blocks, pairs = bed_of(thickness)
+    healed = lb.heal(noisy([divided(one) for one in blocks], 4e-4, seed), accuracy=4e-4)
+    found = healed.contacts(JOINT)
+    assert ends(found.interfaces) == pairs
+    assert found.overlaps == healed.notes == ()
+    heights = [np.ptp(one.vertices[:, 2]) for one in healed.blocks[1::2]]
+    assert heights == pytest.approx([thickness] * 3, abs=2 * 4e-4)
+
+
 def wedge(slope):
     """A prism 2 m long on z = 0 whose upper face rises from its edge at x = 0 by `slope`, rad."""
     return lb.Block.prism("wedge", [(0, 0), (2, 0), (2, 2.0 * np.tan(slope))], (-0.5, 0.5), 20e3)
@@ -285,23 +318,17 @@ def test_a_sharp_edge_moves_along_its_slope_and_twelve_times_the_accuracy_at_mos
     assert str(healed) == f"{said}, at most 12 mm allowed{'' if moves else '; 1 left as they were'}"
 
 
-def test_a_sheet_whose_faces_come_into_one_plane_is_left_as_it_was():
-    """The stones on both sides of 2 mm are brought together, 1 mm each."""
-    sheet = box("sheet", (1.0, 1.0, 2e-3), (0, 0, 1e-3))
-    stones = [box("low", UNIT, (0, 0, -0.5)), sheet, box("high", UNIT, (0, 0, 0.502))]
-    healed = lb.heal(stones, accuracy=1e-3)
-    assert healed.blocks[1] is sheet
-    assert healed.notes == ("block 'sheet' is left as it was: its faces are not plane within 0.001 m",)
-    assert healed.displacements == pytest.approx({"low": 1e-3, "sheet": 0.0, "high": 1e-3})
-
-
 def test_a_stone_whose_coarser_mesh_crosses_itself_keeps_its_own():
-    """Six corners, in mm, within three times the 6 mm by which a mesh may change."""
-    corners = [(10, 0, 6), (30, 5, 6), (30, 10, 9), (10, 15, 6), (10, 5, 3), (30, 15, 0)]
-    faces = [(0, 1, 2), (2, 3, 0), (1, 5, 2), (2, 5, 3), (0, 3, 4), (3, 5, 4), (4, 5, 1), (4, 1, 0)]
-    stone = lb.Block("stone", 1e-3 * np.array(corners), faces, 20e3)
-    solid = Manifold(Mesh64(stone.vertices.copy(), stone.triangles.astype(np.uint64))).set_tolerance(6e-3)
-    mesh = solid.to_mesh64()
+    """A rough prism, in mm; its mesh may change by a quarter of its thickness 2 V/A."""
+    low = [(9, -15, 1), (-20, -2, 1), (0, 2, 2), (-1, 4, 1), (1, 1, -1), (3, -1, -1)]
+    high = [(8, -15, 21), (-21, 1, 19), (-2, 3, 18), (0, 0, 19), (4, 3, 20), (4, 2, 19)]
+    sides = [
+        face for k in range(6) for face in ((k, k + 6, (k + 1) % 6 + 6), (k, (k + 1) % 6 + 6, (k + 1) % 6))
+    ]
+    ends = [(0, 1, 2), (0, 2, 3), (0, 3, 4), (5, 0, 4), (8, 7, 6), (9, 8, 6), (10, 9, 6), (10, 6, 11)]
+    stone = lb.Block("stone", 1e-3 * np.array(low + high), sides + ends, 20e3)
+    solid = Manifold(Mesh64(stone.vertices.copy(), stone.triangles.astype(np.uint64)))
+    mesh = solid.set_tolerance(solid.volume() / solid.surface_area() / 2).to_mesh64()
     with pytest.raises(lb.errors.GeometryError, match="crosses itself"):
         lb.Block("coarse", mesh.vert_properties[:, :3], mesh.tri_verts.tolist(), 20e3)
     assert lb.heal([stone], accuracy=1e-3).displacements["stone"] < 6e-3

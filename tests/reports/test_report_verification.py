@@ -10,6 +10,7 @@ from facades import ARM, FC, FLOOR, OWN, G, H, T, facade
 import limitblocks as lb
 from limitblocks.practice import Spectrum, capacity_curve, verification
 from limitblocks.practice.verification_result import without_curve
+from limitblocks.reports.terminal import print_result
 
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 TITLE = "Kinematic verification of the mechanism"
@@ -139,3 +140,18 @@ def test_a_verification_that_lacks_a_check_has_no_ratio_at_its_head(answers):
     assert "not complete" not in lb.report(model, solved, made).text  # nobody asked for the other
     assert "no non-linear check" in str(lacking)
     assert lacking.to_dict()["left_out"] == lacking.left_out
+
+
+def test_on_a_screen_the_verdict_is_last_and_a_long_table_short(answers, capsys):
+    """Of 80 masses and their sum, 81 rows, the first and the last eight."""
+    model, _, _, found, _ = answers
+    many = tuple(replace(found.masses[0], name=f"stone {k}") for k in range(80))
+    for masses, left in ((found.masses, False), (many, True)):
+        print_result(model, replace(found, masses=masses))
+        said = capsys.readouterr().out
+        assert ("(65 rows left out: --json or --report FILE)" in " ".join(said.split())) == left
+        assert said.rstrip().splitlines()[-1].lstrip().startswith("0.495")  # where a screen ends, and begins
+        assert said.lstrip().startswith("0.495")
+    shown = [line.split("  ")[0] for line in said.splitlines() if line.startswith("stone")]
+    assert shown == [f"stone {k}" for k in (*range(8), *range(73, 80))]
+    assert lb.report(model, replace(found, masses=many)).text.count("stone ") == 80

@@ -99,8 +99,15 @@ def test_ended_study_goes_on_without_computing_anything_twice(tmp_path, monkeypa
     again = lb.study(block, ask, 8, file=file)
     assert len(calls) == 9
     assert (again.load_factors == found.load_factors).all()
-    with pytest.raises(lb.ModelError, match="is of another study"):
+    with pytest.raises(lb.ModelError, match="is of another study: seed 0 there, 1 here; name another file"):
         lb.study(block, ask, 8, file=file, seed=1)
+    with pytest.raises(lb.ModelError, match="another study: number of samples 8 there, 16 here"):
+        lb.study(block, ask, 16, file=file)
+    with pytest.raises(lb.ModelError, match="another study: intervals or distributions"):
+        lb.study(block, dict.fromkeys(ask, (0.21, 0.6)), 8, file=file)
+    file.write_text("friction 0.6\n")
+    with pytest.raises(lb.ModelError, match="is of no study"):
+        lb.study(block, ask, 8, file=file)
 
 
 def test_failures_are_rows(tmp_path):

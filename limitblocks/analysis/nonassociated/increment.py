@@ -131,7 +131,7 @@ class Stretch(Walk):
         try:
             while not self.arrived and self.factorisations < self.budget:
                 self._advance()
-        except (Lost, RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+        except (Lost, RuntimeError, ValueError):  # SuperLU: singular or not finite
             pass
         return "arrived" if self.arrived else "lost"
 
@@ -213,7 +213,7 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
         curve = replace(path, barrier=barrier, elastic=first * weights, behind=path.behind * first)
         try:
             start, used = centred(curve)
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+        except (RuntimeError, ValueError):
             start, used = None, 1
         if start is not None:
             break
