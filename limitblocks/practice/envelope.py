@@ -63,7 +63,7 @@ class Envelope:
         return float(self.factors[max(first - 1, 0) : last + 1].min())
 
     def try_edges(self) -> None:
-        """Try the places where an axle begins or ends at an edge: what it then loads whole may sink at once."""
+        """Try the places where an axle begins or ends at an edge: what it then loads may sink at once."""
         places = [float(x) for x in self.line.at_edges(self.x)]
         while places:
             carried = [self.between(x, x) for x in places]

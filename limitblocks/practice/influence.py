@@ -45,7 +45,7 @@ class Line:
         return found
 
     def at_edges(self, x: Array) -> Array:
-        """Return the places of the first axle (k,) at which an axle begins or ends at an edge, among X (m,)."""
+        """Return the places of the first axle (k,), among X (m,), where an axle begins or ends at an edge."""
         found = [
             np.interp(self.ends, side, x, left=np.nan, right=np.nan)
             for _, *sides in self.standing(x)

@@ -85,7 +85,7 @@ def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
 
 
 def _either(one: shapely.Geometry, other: shapely.Geometry, grid: float) -> shapely.Geometry:
-    """What is in one of both areas only, its points on a grid: next to ends of edges rounding crosses them."""
+    """What is in one of both areas only, points on a grid: rounding crosses edges next to their ends."""
     found = shapely.get_parts(shapely.symmetric_difference(one, other, grid_size=grid))
     return shapely.MultiPolygon([part for part in found if part.geom_type == "Polygon"])
 
