@@ -359,6 +359,13 @@ def test_a_path_that_uses_up_its_budget_says_so_and_which_setting_raises_it():
     assert any("used up their 30 factorisations; Settings(budget=...)" in n for n in caught.value.__notes__)
 
 
+def test_a_path_whose_increments_fail_says_which_setting_begins_with_larger_ones(monkeypatch):
+    monkeypatch.setattr(loading, "increment", lambda *_: Tried(None, 1))
+    with pytest.raises(lb.NotConverged) as caught:
+        lb.load_path(structures.wall(lb.PointContact(0.65), length=1.2, courses=4))
+    assert any("fail, however small; Settings(first=10)" in note for note in caught.value.__notes__)
+
+
 def test_a_lintel_whose_end_the_polish_leaves_open_is_closed_by_pivots():
     """Which rows yield at a joint that carries next to nothing is not plain: the flow stays at 1e-4."""
     model = lb.structures.eccentric_lintel(lb.OrdunaLourenco(0.6), eccentricity=0.1, direction=(1, 0, 0))

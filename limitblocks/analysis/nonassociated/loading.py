@@ -45,8 +45,8 @@ USED_UP = (
     "the increments of the load path have used up their {} factorisations; Settings(budget=...) of "
     "limitblocks.settings, settings= of load_path, gives them more"
 )
-NONE_STARTS = (
-    "no increment of the load path succeeds, however small; Settings(first=10) of limitblocks.settings, "
+TOO_SMALL = (
+    "increments of the load path fail, however small; Settings(first=10) of limitblocks.settings, "
     "settings= of load_path, begins with a larger one"
 )
 
@@ -137,7 +137,7 @@ def pushed(
             return tuple(pushes), closed, ""
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
-    why = USED_UP.format(settings.budget) if used >= settings.budget else NONE_STARTS
+    why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     return tuple(pushes), polish(flow, state), why
 
 
