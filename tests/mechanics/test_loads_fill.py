@@ -85,6 +85,27 @@ def test_turning_a_leaning_channel_about_the_vertical_turns_what_rests_on_it(til
     assert np.array(found) == pytest.approx(np.array([found[0]] * 60), abs=1e-8 * GAMMA)
 
 
+@pytest.mark.parametrize("seed", [1294, 2061, 3284, 4672, 5540])
+def test_what_rests_on_leaning_courses_is_that_on_their_mirror_image(seed):
+    """Two stones below one: what rounding left of a face beside one came back as the face beside the next."""
+    draw = np.random.default_rng(seed).uniform
+    lean, heights, tilts, angle = draw(-0.4, 0.4, 2), draw(0.5, 1.5, 2), draw(-0.3, 0.3, (2, 2)), draw(0, 2 * np.pi)
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    cut = draw(0.3, 0.7)
+    beds = [np.zeros(3), np.array([heights[0], *tilts[0]]), np.array([heights.sum(), *tilts[1]])]
+    stones = []
+    for low, high, bed in ((0, cut, 0), (cut, 1, 0), (0, 1, 1)):
+        box = lb.Block.prism("box", [(low, 0), (high, 0), (high, 1), (low, 1)], (0, 1), along="z")
+        x = box.vertices[:, :2] @ turn
+        plane = np.where(box.vertices[:, 2:] > 0.5, beds[bed + 1], beds[bed])
+        z = plane[:, 0] + (plane[:, 1:] * x).sum(axis=1)
+        stones.append(lb.Block(f"{low}{bed}", np.column_stack([x + np.outer(z, lean), z]), box.faces, 1.0))
+    images = [lb.Block(b.name, b.vertices * [-1, 1, 1], [f[::-1] for f in b.faces], 1.0) for b in stones]
+    for level in (0.75, 5.0):
+        own, other = (lb.loads.fill(GAMMA, level, earth_pressure=0.3).on(b) for b in (stones, images))
+        assert own == pytest.approx(other * [-1, 1, 1, 1, -1, -1], abs=1e-8 * GAMMA)
+
+
 def test_only_what_is_below_the_level_and_not_covered_gets_fill():
     low = lb.Block.box("low", (4, 2, 1), (0, 0, 0.5), 1.0)
     high = lb.Block.box("high", (1, 1, 3), (-0.5, 0.5, 2.5), 1.0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import partial, reduce
+from functools import reduce
 
 import numpy as np
 import shapely
@@ -14,7 +14,7 @@ from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.faces import part_where
 
 _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not cover it
-_GRID = 1e-13  # of the coordinates: the places of an overlay
+_GRID = 1e-12  # of the coordinates: the places of an overlay
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
@@ -47,18 +47,20 @@ def open_to_the_sky(
     left = shapely.Polygon(corners[:, :2])
     low, high = corners.min(axis=0), corners.max(axis=0)
     over = (bounds[1] > low).all(axis=1) & (bounds[0] < [*high[:2], level]).all(axis=1)
+    # an overlay is on a grid: rounding crosses edges next to their ends, of the shadow before, too
+    grid = _GRID * float(np.abs(bounds).max())
     for other in (blocks[k] for k in np.flatnonzero(over).tolist()):
         if not left.is_empty and not (other is block and block.convex):
-            left = left.difference(_shadow(other, other.vertices @ normal - offset, level))
+            shadow = _shadow(other, other.vertices @ normal - offset, level, grid)
+            left = _areas(shapely.difference(left, shadow, grid_size=grid))
     for part in shapely.get_parts(left):
-        if part.geom_type == "Polygon" and not part.is_empty:
-            ccw = orient(part)
-            for ring in (ccw.exterior, *ccw.interiors):
-                plan = shapely.get_coordinates(ring)[:-1]
-                yield np.column_stack([plan, (offset - plan @ normal[:2]) / normal[2]])
+        ccw = orient(part)
+        for ring in (ccw.exterior, *ccw.interiors):
+            plan = shapely.get_coordinates(ring)[:-1]
+            yield np.column_stack([plan, (offset - plan @ normal[:2]) / normal[2]])
 
 
-def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
+def _shadow(block: Block, above: Array, level: float, grid: float) -> shapely.Geometry:
     """Plan of the part of `block` above a plane, by how far its vertices are `above`, and below a level."""
     if above.max() <= _CLEAR * block.size:
         return shapely.Polygon()
@@ -71,8 +73,10 @@ def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
             return shapely.convex_hull(shapely.multipoints(np.concatenate([low for low, _ in parts])))
         # a vertical line leaves what is below the level through a face that looks up, or passes the level
         tops = [own for own in map(shapely.Polygon, (low for low, _ in parts)) if own.exterior.is_ccw]
-        grid = _GRID * float(np.abs(block.vertices[:, :2]).max())
-        section = reduce(partial(_either, grid=grid), (shapely.Polygon(high) for _, high in parts))
+        section = reduce(
+            lambda one, other: _areas(shapely.symmetric_difference(one, other, grid_size=grid)),
+            (shapely.Polygon(high) for _, high in parts),
+        )
         return shapely.union_all([*tops, section], grid_size=grid)
     above = above + near
     start, end = block.mesh.start, block.mesh.end
@@ -84,10 +88,9 @@ def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
     return shapely.convex_hull(shapely.multipoints(points[:, :2]))
 
 
-def _either(one: shapely.Geometry, other: shapely.Geometry, grid: float) -> shapely.Geometry:
-    """What is in one of both areas only, points on a grid: rounding crosses edges next to their ends."""
-    found = shapely.get_parts(shapely.symmetric_difference(one, other, grid_size=grid))
-    return shapely.MultiPolygon([part for part in found if part.geom_type == "Polygon"])
+def _areas(overlay: shapely.Geometry) -> shapely.Geometry:
+    """Return the parts of an overlay that have an area: on a grid lines are left of the narrowest ones."""
+    return shapely.MultiPolygon([part for part in shapely.get_parts(overlay) if part.geom_type == "Polygon"])
 
 
 def _between(corners: Array, above: Array, level: float) -> tuple[Array, Array]:
