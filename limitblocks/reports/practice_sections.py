@@ -120,7 +120,7 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             "position is worse is searched for, not proven."
         ),
         headline=cut(found.bounds.lower),
-        quantity=f"associated load factor of the vehicle, worst found, first axle at X = {found.position:.4g} m",
+        quantity=f"associated load factor of the vehicle, worst found: axle 1 at X = {found.position:.4g} m",
         values=(
             *_vehicle_rows(found),
             ("Static load factor", at_least(found.bounds.lower), "at the worst position"),
