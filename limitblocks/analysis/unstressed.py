@@ -19,11 +19,11 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.nonassociated.increment import Stretch
 from limitblocks.analysis.nonassociated.path import BUDGET
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_start import centred
+from limitblocks.analysis.nonassociated.stretch import Stretch
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem, State
 
