@@ -99,6 +99,7 @@ class _Mixture:
         reach = self.prover.kinematic.reach(state.u, y)
         static = self._static_part(state.load_factor, x)
         kinematic, v, z = self._opened(reach, self._spare(state.load_factor, x))
+        lower, upper, again = (-np.inf, ""), (np.inf, ""), (True, True)
         for _ in range(ROUNDS):
             a, u = state.load_factor, state.u
             mixed = State(a, state.x, u, state.y)
@@ -107,13 +108,14 @@ class _Mixture:
             if kinematic <= MOST:
                 work = 1.0 + kinematic * float(self.own.live @ v)  # of the live load, Eq. (55)
                 mixed = replace(mixed, u=(u + kinematic * v) / work, y=(y + kinematic * z) / work)
-            proof = self.prover.proof(mixed, RESERVE)
-            again = (bool(proof.static) and static <= MOST, bool(proof.kinematic) and kinematic <= MOST)
+            lower = self.prover.lower(mixed, RESERVE) if again[0] else lower
+            upper = self.prover.upper(mixed, RESERVE) if again[1] else upper
+            again = (bool(lower[1]) and static <= MOST, bool(upper[1]) and kinematic <= MOST)
             if not any(again):
                 break
             static = max(MORE * static, LEAST) if again[0] else static
             kinematic = max(MORE * kinematic, LEAST) if again[1] else kinematic
-        return mixed, proof
+        return mixed, Proof(lower[0], upper[0], lower[1], upper[1])
 
     @cached_property
     def inner(self) -> Array:
@@ -126,10 +128,9 @@ class _Mixture:
 
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
-        own = self.own
         reach = self.prover.static.reach(load_factor, x)
         lack = _lack(reach)
-        gain = (own.cones.margin(own.F @ self.inner + own.g) - reach.room)[lack > 0.0]
+        gain = (self.prover.margin - reach.room)[lack > 0.0]
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
         return float(parts.max(initial=0.0))
 

@@ -76,7 +76,7 @@ def _step(flow: Flow, now: State, delta: float, largest: int) -> State | None:
             if len(unsure) > largest:
                 return None
             ends = np.column_stack([ends, linear.opened(found.violated)])
-    except (RuntimeError, ValueError, np.linalg.LinAlgError):  # singular, or not finite
+    except (RuntimeError, ValueError):  # singular, or not finite
         return None
     return None if found is None else admissible(flow.problem.cones, found.state)
 
@@ -128,8 +128,6 @@ class _Linearised:
         table[:, 0] += rows @ p.g - self.delta * np.maximum(pair.multiplier[unsure], 0.0)
         places = first + np.cumsum(tight) - 1
         table[was_tight] = ends[places[unsure[was_tight]]]
-        if not np.isfinite(table).all():
-            return None
         q, M = _exchanged(table, was_tight)
         signed = pair.signed[unsure]
         found = complementary(q, M, np.maximum(signed, 0.0), np.maximum(-signed, 0.0))

@@ -126,8 +126,6 @@ def _steps(
             now = _step(flow, now, classified(p.cones, s, sigma * now.y), solution)
         except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
             return
-        if not all(np.isfinite(part).all() for part in (now.load_factor, now.x, now.u, now.y)):
-            return
         iterate = admissible(p.cones, now)
         worst = defect(flow, iterate)
         failed = failed + 1 if worst >= least else 0

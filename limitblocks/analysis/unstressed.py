@@ -19,11 +19,11 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
-from limitblocks.analysis.nonassociated.increment import Stretch
 from limitblocks.analysis.nonassociated.path import BUDGET
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_start import centred
+from limitblocks.analysis.nonassociated.stretch import Stretch
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem, State
 
@@ -90,7 +90,7 @@ def _under_load(problem: LimitProblem, weights: Array) -> State | None:
     path = Path(flow, Layout(flow), Barrier(1.0, power=0.0, floor=0.0), even, elastic, x0, x0)
     try:
         start, _ = centred(path)
-    except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+    except (RuntimeError, ValueError):  # SuperLU: singular or not finite
         return None
     if start is None:
         return None

@@ -31,6 +31,17 @@ class Measure:
     state: State
 
     @cached_property
+    def slack(self) -> Array:
+        """F x + g, shape (R,)."""
+        return np.asarray(self.problem.F @ self.state.x + self.problem.g)
+
+    @cached_property
+    def unbalanced(self) -> Array:
+        """Loads that the stresses leave, shape (6 n,)."""
+        p, z = self.problem, self.state
+        return np.asarray(p.dead + z.load_factor * p.live - p.balance @ z.x)
+
+    @cached_property
     def block(self) -> Array:
         """What acts on each block, in its unit of force, shape (n,)."""
         p, z = self.problem, self.state

@@ -101,8 +101,15 @@ class Prover:
     @cached_property
     def static(self) -> Static:
         """The reach of stresses."""
-        room = room_of(self.problem, self.dead) / self.acting
-        return Static(self.problem, spanning_tree(self.problem, room))
+        room = np.full(len(self.problem.interfaces), np.inf)
+        np.minimum.at(room, self.problem.member_interface, self.margin)
+        return Static(self.problem, spanning_tree(self.problem, room / self.acting))
+
+    @cached_property
+    def margin(self) -> Array:
+        """Distance of `dead` to yield, of each linear row and each cone."""
+        p = self.problem
+        return p.cones.margin(p.F @ self.dead + p.g)
 
     @cached_property
     def kinematic(self) -> Kinematic:
@@ -112,19 +119,21 @@ class Prover:
     @np.errstate(over="ignore", invalid="ignore", divide="ignore")  # what is undefined proves nothing
     def proof(self, state: State, reserve: float = 1.0) -> Proof:
         """Prove what the state shows."""
-        p = self.problem
-        static = self.static.reach(state.load_factor, state.x).times(reserve)
-        kinematic = self.kinematic.reach(state.u, state.y).times(reserve)
-        upper = _upper(p, state, kinematic, reserve) / p.units.live if kinematic.proven else np.inf
-        return Proof(
-            lower=float(state.load_factor / p.units.live) if static.proven else -np.inf,
-            upper=float(upper),
-            static=_why("lower bound", "stresses", p, static),
-            kinematic=_why("upper bound", "multipliers", p, kinematic)
-            or (
-                "" if np.isfinite(upper) else "no upper bound proven: the live load does no work on the rates"
-            ),
-        )
+        (lower, static), (upper, kinematic) = self.lower(state, reserve), self.upper(state, reserve)
+        return Proof(lower, upper, static, kinematic)
+
+    def lower(self, state: State, reserve: float) -> tuple[float, str]:
+        """The lower bound that the stresses prove, and why there is none."""
+        reach = self.static.reach(state.load_factor, state.x).times(reserve)
+        bound = float(state.load_factor / self.problem.units.live) if reach.proven else -np.inf
+        return bound, _why("lower bound", "stresses", self.problem, reach)
+
+    def upper(self, state: State, reserve: float) -> tuple[float, str]:
+        """The upper bound that the mechanism proves, and why there is none."""
+        p, reach = self.problem, self.kinematic.reach(state.u, state.y).times(reserve)
+        bound = float(_upper(p, state, reach, reserve) / p.units.live) if reach.proven else np.inf
+        why = "" if np.isfinite(bound) else "no upper bound proven: the live load does no work on the rates"
+        return bound, _why("upper bound", "multipliers", p, reach) or why
 
 
 def acting_at(problem: LimitProblem, state: State) -> Array:
@@ -134,14 +143,6 @@ def acting_at(problem: LimitProblem, state: State) -> Array:
     force = power_of_two(np.where(usable, acting, 1.0) * problem.units.block_force)
     least = np.where(problem.ends >= 0, force[problem.ends], np.inf).min(axis=1)
     return np.asarray(least / problem.units.interface_force)
-
-
-def room_of(problem: LimitProblem, x: Array) -> Array:
-    """Least distance to yield of the rows of each interface, shape (m,)."""
-    room = np.full(len(problem.interfaces), np.inf)
-    margin = problem.cones.margin(problem.F @ x + problem.g)
-    np.minimum.at(room, problem.member_interface, margin)
-    return room
 
 
 def _upper(problem: LimitProblem, state: State, reach: Reach, reserve: float) -> float:

@@ -119,14 +119,13 @@ def static_residuals(
     """Residuals of the static theorem, Eqs (56) and (57)."""
     none = np.zeros(0)
     measure = measure or Measure(problem, State(load_factor, x, none, none))
-    unbalanced = problem.dead + load_factor * problem.live - problem.balance @ x
-    margin = problem.cones.margin(problem.F @ x + problem.g)
+    margin = problem.cones.margin(measure.slack)
     k = problem.member_interface
     rows = problem.units.row[problem.cones.heads]
     return (
         residual(
             "equilibrium",
-            np.abs(unbalanced).reshape(-1, 6).max(axis=1),
+            np.abs(measure.unbalanced).reshape(-1, 6).max(axis=1),
             "unbalanced force or moment over what acts on the block, Eq. (56)",
             measure.loaded,
             problem.blocks,
@@ -179,7 +178,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     interface the theorems that enclose the load factor do not hold.
     """
     p, measure = flow.problem, Measure(flow.problem, state)
-    product = p.cones.norm(p.cones.product(p.F @ state.x + p.g, state.y))
+    product = p.cones.norm(p.cones.product(measure.slack, state.y))
     k = p.member_interface
     return Residuals(
         (
@@ -221,7 +220,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
             residual("gap", upper - state.load_factor, "gap between the bounds", measure.load_factor),
             residual(
                 "worth",
-                worth_of_violations(p, state),
+                worth_of_violations(p, state, measure),
                 "what the violations of both states may be worth in the load factor, over it",
                 measure.load_factor,
             ),
@@ -229,7 +228,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     )
 
 
-def worth_of_violations(problem: LimitProblem, state: State) -> float:
+def worth_of_violations(problem: LimitProblem, state: State, measure: Measure | None = None) -> float:
     """Return what the violations of a pair of bounds may be worth in the load factor, dimensionless.
 
     With r the unbalanced loads, f = C u + F^T y and s = F x + g, identically
@@ -237,8 +236,8 @@ def worth_of_violations(problem: LimitProblem, state: State) -> float:
     those that put s and y into K, are added up in size: violations of 1e-10 may hide a gap of 1e-6.
     """
     x, u, y, cones = state.x, state.u, state.y, problem.cones
-    s = problem.F @ x + problem.g
-    unbalanced = problem.dead + state.load_factor * problem.live - problem.balance @ x
+    measure = measure or Measure(problem, state)
+    s, unbalanced = measure.slack, measure.unbalanced
     flow = problem.C @ u + problem.F.T @ y
     outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(

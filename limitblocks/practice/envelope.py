@@ -17,6 +17,7 @@ PLACES = 1001  # at which mechanisms are compared, along the way and again about
 NEGLIGIBLE = 1e-3  # of the least load factor: a place that may have less by no more is not tried
 ATTAINED = 1e-5  # the same about the worst place
 NARROW = 2e-3  # of the way: a shorter part is not halved
+CLOSE = 0.05  # of the least load factor: what the mechanisms found carry more where an axle ends at an edge
 
 Found = dict[float, tuple[Bounds, Model] | None]  # by place; None where the load is unlimited
 
@@ -61,6 +62,16 @@ class Envelope:
         first, last = np.searchsorted(self.x, [low, high])
         return float(self.factors[max(first - 1, 0) : last + 1].min())
 
+    def try_edges(self) -> None:
+        """Try the places where an axle begins or ends at an edge: what it then loads may sink at once."""
+        places = [float(x) for x in self.line.at_edges(self.x)]
+        while places:
+            carried = [self.between(x, x) for x in places]
+            k = int(np.argmin(carried))
+            if not carried[k] < (1.0 + CLOSE) * self.least:
+                break
+            self.tried(places.pop(k))
+
     def attain(self, share: float) -> None:
         """Try the place where the mechanisms found carry least until it does, but for a share of that."""
         while self.factors.min() < (1.0 - share) * self.least:
@@ -93,6 +104,7 @@ def search(
         if b - a > NARROW * (high - low):
             drop = known.tried((a + b) / 2.0)
             parts += [(a, (a + b) / 2.0, drop), ((a + b) / 2.0, b, drop)]
+    known.try_edges()
     worst = int(known.factors.argmin())
     about = known.x[[max(worst - 1, 0), min(worst + 1, PLACES - 1)]]
     Envelope(line, at, found, np.linspace(about[0], about[1], PLACES)).attain(ATTAINED)

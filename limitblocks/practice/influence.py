@@ -44,6 +44,16 @@ class Line:
             found.append((load / (2.0 * half), x + distance - half, x + distance + half))
         return found
 
+    def at_edges(self, x: Array) -> Array:
+        """Return the places of the first axle (k,), among X (m,), where an axle begins or ends at an edge."""
+        found = [
+            np.interp(self.ends, side, x, left=np.nan, right=np.nan)
+            for _, *sides in self.standing(x)
+            for side in sides
+        ]
+        every = np.concatenate(found)
+        return np.asarray(every[np.isfinite(every)])
+
     def powers(self, rates: Array, standing: list[tuple[Array, Array, Array]]) -> Array:
         """Return the power (m,) of a vehicle `standing` at m places, through rates (n, 6) of the blocks.
 

@@ -93,7 +93,8 @@ def worst_position(
     Evenly spaced positions first. A mechanism found at one position is a bound on the load factor at all
     others. Between two positions one that was not met may carry less still: a part of the way is halved, that
     which may have the worst first, as long as the mechanisms found carry less there, or would if they fell as
-    much as halving what it is a part of brought. At last the place where they carry least. Less by a
+    much as halving what it is a part of brought. Then places where an axle begins or ends at an edge, as long
+    as they carry less than 5 % more there. At last the place where they carry least. Less by a
     thousandth is not looked for. That no position is worse is not proven, and where the load is unlimited at
     two neighbours nothing is looked for between them. After Ctrl-C: the worst of those tried.
 

@@ -9,13 +9,18 @@ from typer.testing import CliRunner
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.load_factor_range import search
+from limitblocks.analysis.load_factor_range import faces, search, wedging
 from limitblocks.analysis.load_factor_range.answers import merged, remarks
+from limitblocks.analysis.load_factor_range.exact import exact_extreme
+from limitblocks.analysis.load_factor_range.mechanisms import Mechanisms
 from limitblocks.analysis.load_factor_range.run import _task
-from limitblocks.analysis.nonassociated.start import flow_of
+from limitblocks.analysis.nonassociated.start import flow_of, state_of
+from limitblocks.analysis.polish import defect
+from limitblocks.analysis.programs import Solution
 from limitblocks.cli import app
 from limitblocks.evidence.range_answer import Origin
-from limitblocks.problem import Flow, Turning
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.problem import Flow, State, Turning
 
 FEW = {"paths": 3, "mechanisms": 3}
 ALONG = lb.mass_proportional((1, 0, 0))
@@ -141,11 +146,44 @@ def test_drawn_mechanisms_find_what_no_path_leads_to():
 
     W b/2 about both axes is balanced by the friction of the wedging force P, up to mu P h.
     """
-    found = lb.load_factor_range(jammed(), paths=1, mechanisms=4)
+    model = jammed()
+    found = lb.load_factor_range(model, paths=1, mechanisms=4)
     assert found.certified[0] == pytest.approx(0.0, abs=1e-6)
     assert found.answers[0].check.passed
     assert found.answers[0].thrust == pytest.approx(0.0, abs=1e-6)
     assert found.reached[0] >= 0.3 * (1 - 1e-6)
+    flow, _ = flow_of(model, 0.0, Turning.CENTROID)
+    rays = [faces.ray(flow, state_of(model, flow.problem, one.solution)) for one in found.answers[:2]]
+    assert rays[0] is None  # what wedges it at a corner carries no thrust
+    assert flow.problem.C.T @ rays[1] == pytest.approx(flow.problem.live, abs=1e-8)
+
+
+def test_no_mechanism_and_no_stresses_to_begin_with(pushed):
+    flow, _ = flow_of(pushed, 0.0, Turning.CENTROID)
+    most = lb.bounds(pushed).upper * flow.problem.units.live
+    drawn = Mechanisms(flow, (1.1 * most, 1.2 * most), 0)  # nothing within yield
+    assert drawn.solution() is None
+    drawn._chain = lambda: np.zeros(0, dtype=int)  # no block moves
+    assert drawn.solution() is None
+
+
+@pytest.mark.parametrize(("rough", "certified"), [(1e-5, True), (10.0, False)])
+def test_an_end_that_a_solver_leaves_rough_is_polished(rough, certified, pushed, of_pushed, monkeypatch):
+    flow, _ = flow_of(pushed, 0.0, Turning.CENTROID)
+    a, x, u, y = vars(state_of(pushed, flow.problem, of_pushed.load_path.solution)).values()
+    off = rough * np.random.default_rng(0).normal(size=len(x))
+    monkeypatch.setattr(faces, "_solutions", lambda *_: [()])
+    found = faces.proven(flow, None, lambda: (a, x + off, u, y))
+    assert defect(flow, State(a, x + off, u, y)) > TOLERANCE
+    assert (found is not None) == certified
+    assert found is None or defect(flow, found) <= TOLERANCE
+
+
+def test_whether_it_can_be_wedged_is_undecided_where_no_solver_answers(pushed, monkeypatch):
+    nothing = Solution("none", "failed", (np.full(pushed.problem.C.shape[0], np.nan),), ())
+    monkeypatch.setattr(wedging, "solved", lambda *_: nothing)
+    with pytest.raises(lb.errors.SolverFailure, match="whether the structure can be wedged is undecided"):
+        wedging.wedging(pushed.problem)
 
 
 def test_a_structure_that_can_be_wedged_may_have_one_load_factor():
@@ -203,6 +241,13 @@ def test_exact_programs_are_refused_for_round_friction():
 def test_numbers_out_of_range_are_refused():
     with pytest.raises(lb.ModelError, match="paths is 0"):
         lb.load_factor_range(jammed(), paths=0)
+
+
+def test_an_exact_program_without_time_has_no_bound():
+    model = structures.wedge(square(0.5), half_angle=np.pi / 3)
+    found = exact_extreme(Flow(model.problem), (0.0, np.inf), 1.0, 1e-9)
+    assert found.state is None
+    assert found.bound == -np.inf
 
 
 def test_the_time_limit_leaves_what_there_is():

@@ -12,7 +12,8 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import loading, loop
-from limitblocks.analysis.nonassociated.increment import Increment, Tried, Visit
+from limitblocks.analysis.nonassociated.increment import Increment, Tried
+from limitblocks.analysis.nonassociated.stretch import Visit
 from limitblocks.structures.convex import hull
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -286,12 +287,12 @@ def test_a_snap_longer_than_its_increment_is_met_from_farther_back(monkeypatch):
     assert not path.collapse.converged
 
 
-@pytest.mark.parametrize("settings", [{"growth": 2.0}, {}])
-def test_a_snap_that_springs_back_beyond_the_permanent_loads_is_followed(monkeypatch, settings):
-    """The jack pushes with 2 W before any load; a plug out of its seat bears W, so that it goes below zero.
+def of_pressed_plug(monkeypatch, press, growth):
+    """A plug that its jack presses before any load: model, path, and by hand the snap and the steps after it.
 
-    With k the stiffness of the jack on either side: its force 2 W + g where the seat slides at d and the jack
-    has moved by d + g / k, of which the floor has lost k d + g.
+    With k the stiffness of the jack on either side: its force is that press + g where the seat slides at d
+    and the jack has moved by d + g / k. The floor bears press + jack - (k d + g), or nothing where it parts.
+    A plug out of its seat bears its weight W alone, whatever the jack does.
     """
     model = PLUG["plug_in_its_seat"]()
     soft = [i.name in ("plug|jack", "floor|jack") for i in model.interfaces]
@@ -300,7 +301,7 @@ def test_a_snap_that_springs_back_beyond_the_permanent_loads_is_followed(monkeyp
     )
     model = replace(model, interfaces=tuple(bedded))
     weight, jack = (block.weight for block in model.free_blocks)
-    pushed, w, k = 2.0 * weight, PLUG["HALF_ANGLE"], PLUG["SOFT"] * PLUG["WIDTH"] * PLUG["DEPTH"]
+    pushed, w, k = press * weight, PLUG["HALF_ANGLE"], PLUG["SOFT"] * PLUG["WIDTH"] * PLUG["DEPTH"]
     N0, T0 = 5.0 * weight, (10.0 * weight * np.sin(w) + pushed - weight) / (2.0 * np.cos(w))
     monkeypatch.setitem(PLUG["driven_in"].__globals__, "press", lambda _: (N0, T0))
     start = PLUG["driven_in"](model)
@@ -311,15 +312,58 @@ def test_a_snap_that_springs_back_beyond_the_permanent_loads_is_followed(monkeyp
         model,
         start=start,
         stiffness={PLUG["SEAT"]: (PLUG["STIFF"],) * 2, PLUG["JACK"]: (PLUG["SOFT"],) * 2},
-        settings=lb.settings.Settings(**settings),
+        settings=lb.settings.Settings(growth=growth),
     )
-    (snap,) = path.snaps
-    peak = 2.0 * g + k * d
-    assert snap.before.load_factor == pytest.approx(peak, rel=1e-4)
-    assert snap.after.load_factor == pytest.approx(weight - pushed + g + k * d, abs=3e-4 * peak)
-    assert PLUG["lift"](model, snap.after) == pytest.approx(PLUG["lift"](model, snap.before), rel=1e-6)
-    assert path.trace[:, 1].min() < 0.5 * (weight - pushed) / k
+
+    def floor(lift):
+        return np.maximum(0.0, pushed + jack - k * lift)
+
+    def out_of_seat(lift):
+        return weight + jack - floor(lift)
+
     assert path.load_factor == pytest.approx(weight + jack, rel=1e-9)
+    return model, path, pushed + g + jack - floor(d + g / k), out_of_seat, d + g / k
+
+
+@pytest.mark.parametrize(("press", "growth"), [(2.0, 2.0), (2.5, 1.4), (3.1, 1.4), (1.2, 2.0)])
+def test_a_snap_that_springs_back_beyond_the_permanent_loads_is_followed(monkeypatch, press, growth):
+    """By up to 18 times the displacement of the fold; the floor parts from the jack of 1.2 W before it."""
+    model, path, peak, out_of_seat, place = of_pressed_plug(monkeypatch, press, growth)
+    weight = model.free_blocks[0].weight
+    (snap,) = path.snaps
+    assert len(path.remarks) == 1
+    assert snap.before.load_factor == pytest.approx(peak, abs=2e-4 * weight)
+    assert PLUG["lift"](model, snap.before) == pytest.approx(place, rel=2e-4)
+    assert PLUG["lift"](model, snap.after) == pytest.approx(PLUG["lift"](model, snap.before), rel=1e-6)
+    assert path.trace[:, 1].min() < 0.0
+    after = [snap.after, *(s for s in path.steps[path.steps.index(snap.after) :] if s.kind == "step")]
+    lifts = np.array([PLUG["lift"](model, step) for step in after])
+    assert (np.diff(lifts) > 0.0).all()
+    factors = [step.load_factor for step in after]
+    np.testing.assert_allclose(factors, out_of_seat(lifts), rtol=0, atol=2e-4 * weight)
+
+
+def test_a_snap_that_was_passed_over_is_said(monkeypatch):
+    """An increment from 3 % below the fold, where the floor has parted, begins on the other side of it."""
+    _, path, peak, *_ = of_pressed_plug(monkeypatch, 1.2, 1.4)
+    assert path.snaps == ()
+    assert "passed over" in path.remarks[1]
+    assert 0.95 * peak < path.peak < peak
+
+
+def test_a_path_that_uses_up_its_budget_says_so_and_which_setting_raises_it():
+    """As many factorisations as asked for are not enough to leave the elastic part."""
+    settings = lb.settings.Settings(budget=30)
+    with pytest.raises(lb.NotConverged) as caught:
+        lb.load_path(structures.wall(lb.PointContact(0.65), length=1.2, courses=4), settings=settings)
+    assert any("used up their 30 factorisations; Settings(budget=...)" in n for n in caught.value.__notes__)
+
+
+def test_a_path_whose_increments_fail_says_which_setting_begins_with_larger_ones(monkeypatch):
+    monkeypatch.setattr(loading, "increment", lambda *_: Tried(None, 1))
+    with pytest.raises(lb.NotConverged) as caught:
+        lb.load_path(structures.wall(lb.PointContact(0.65), length=1.2, courses=4))
+    assert any("fail, however small; Settings(first=10)" in note for note in caught.value.__notes__)
 
 
 def test_a_lintel_whose_end_the_polish_leaves_open_is_closed_by_pivots():

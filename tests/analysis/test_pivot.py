@@ -10,7 +10,7 @@ from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.means import MEANS
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.pivot import pivoted
-from limitblocks.analysis.polish import defect
+from limitblocks.analysis.polish import defect, polish
 from limitblocks.problem import Flow, State, Turning
 
 CRUSHING = lb.OrdunaLourenco(0.6, compressive_strength=3e5)
@@ -82,6 +82,18 @@ def test_nothing_is_done_where_too_many_rows_are_open():
     flow = Flow(problem)
     early, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance, budget=12)
     assert pivoted(flow, early, largest=0) is early
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, 1e300])
+@pytest.mark.parametrize("part", ["x", "u", "y"])
+@pytest.mark.parametrize("joint", [CRUSHING, lb.PointContact(0.6)], ids=repr)
+def test_a_state_that_ran_away_stays_where_it_is(joint, part, number):
+    problem = lb.structures.block(joint, width=1.0, height=2.0).problem
+    flow = Flow(problem, turning=Turning.PRESSURE)
+    state = State(0.5, *(np.ones(n) for n in (*problem.C.shape, problem.cones.height)))
+    getattr(state, part)[1] = number
+    assert pivoted(flow, state) is state
+    assert np.isfinite(defect(flow, polish(flow, state))) or polish(flow, state) is state
 
 
 @pytest.mark.parametrize("columns", [1, pivot.COLUMNS, 2 * pivot.COLUMNS + 1])

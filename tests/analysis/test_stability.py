@@ -275,11 +275,20 @@ def test_undecided_says_once_how_near_the_best_state_came(monkeypatch):
     assert str(said.value) == f"whether the dead loads stand is undecided: {best}"
 
 
-def test_stands_or_slides_in_doubt_says_what_was_not_found(monkeypatch):
-    monkeypatch.setattr(answers, "arising", lambda *_: None)
-    monkeypatch.setattr(answers, "not_held", lambda *_: None)
-    with pytest.raises(SolverFailure, match="neither such that do nor blocks that slide through were found"):
-        lb.stability(lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0))
+@pytest.mark.parametrize(
+    ("lost", "words"),
+    [
+        (
+            f"{arising.__module__}._under_load",
+            "neither such that do nor blocks that slide through were found",
+        ),
+        (f"{answers.__name__}.falling", "blocks that nobody wedges move, but no mechanism of them was found"),
+    ],
+)
+def test_stands_or_slides_in_doubt_says_what_was_not_found(lost, words, monkeypatch):
+    monkeypatch.setattr(lost, lambda *_: None)
+    with pytest.raises(SolverFailure, match=words):
+        lb.stability(between_walls(lb.OrdunaLourenco(0.5), 0.0))
 
 
 def vault_in_a_tower(joint):

@@ -18,7 +18,6 @@ at the points of interface k:
 from __future__ import annotations
 
 import time
-import warnings
 from typing import NamedTuple
 
 import cvxpy as cp
@@ -112,7 +111,7 @@ def _cuts(
     t, least, constraints = cp.Variable(len(p.interfaces), nonneg=True), np.zeros(len(p.interfaces)), []
     for k in range(len(p.interfaces)):
         rows = list(points.get(k, {}).values())
-        constraints += [t[k] <= cp.sum(y[of_point]) for of_point in rows] or [t[k] == 0]
+        constraints += [t[k] <= cp.sum(y[of_point]) for of_point in rows]
         if rows:
             power = taken[[of_point[0] for of_point in rows]].sum(axis=0)
             least[k] = max(0.0, -_greatest(-(np.asarray(power).ravel() @ static.x), inside))
@@ -122,12 +121,7 @@ def _cuts(
 
 def _solve(program: cp.Problem, time_limit: float) -> float:
     """Solve by HiGHS and return the bound that it claims of the objective, infinite where it has none."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # a time limit is no error
-        try:
-            program.solve(solver=cp.HIGHS, time_limit=time_limit, **MIXED)
-        except (cp.SolverError, ValueError):
-            return -np.inf
+    solved(Program(program, ()), Solver("HIGHS", {"time_limit": time_limit, **MIXED}, conic=False))
     statistics = getattr(program.solver_stats, "extra_stats", None)
     return float(getattr(statistics, "mip_dual_bound", -np.inf))
 

@@ -117,15 +117,13 @@ def ray(flow: Flow, state: State) -> Array | None:
     program = Program(cp.Problem(cp.Minimize(cp.sum_squares(x)), face), (x,))
     for solver in solvers(conic=True):
         (stresses,) = solved(program, solver).values
-        if not np.isfinite(stresses).all():
-            continue
         rows = p.F @ stresses
         worst = max(
             np.abs(p.C.T @ stresses - p.live).max(),
             -p.cones.margin(rows).min(),
             np.abs(p.cones.product(rows, state.y)).max() / max(1.0, np.abs(state.y).max()),
         )
-        if worst <= RAY:
+        if worst <= RAY:  # not where there are none: then it is no number
             return np.asarray(stresses)
     return None
 

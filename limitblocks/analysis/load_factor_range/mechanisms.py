@@ -38,20 +38,21 @@ class Mechanisms:
 
     def solution(self) -> State | None:
         """Return a certified solution from a new draw, or None."""
-        return self.beyond(self._drawn(), self.random.choice([-1.0, 1.0]))
+        mechanism, sense = self._drawn(), self.random.choice([-1.0, 1.0])
+        return self.beyond(mechanism, sense) if mechanism else None
 
-    def beyond(self, mechanism: tuple[Array, Array] | None, sense: float) -> State | None:
+    def beyond(self, mechanism: tuple[Array, Array], sense: float) -> State | None:
         """Return a certified solution of lower (sense 1) or higher (-1) load factor, from a mechanism."""
-        p, state = self.flow.problem, None
+        p = self.flow.problem
         for k in range(ROUNDS):
-            state = self._round(mechanism, sense, WORTH**k) if mechanism else None
+            state = self._round(mechanism, sense, WORTH**k)
             if state is None:
                 return None
             mechanism = state.u, state.y
             if (p.F @ state.x + p.g) @ state.y < CLOSED:
                 break
         # away from the end: interior points find what is strictly complementary, which the polish needs
-        state = self._round(mechanism, 0.0, 1.0) if mechanism else None
+        state = self._round(mechanism, 0.0, 1.0)
         state = polish(self.flow, state) if state else None
         return state if state and defect(self.flow, state) <= TOLERANCE else None
 

@@ -32,13 +32,11 @@ def wedging(problem: LimitProblem) -> Wedging:
     program = Program(cp.Problem(cp.Maximize(size), constraints), (x,))
     for solver in solvers(bool(problem.cones.second_order)):
         (self_stress,) = solved(program, solver).values
-        if not np.isfinite(self_stress).all():
-            continue
         rows, largest = problem.F @ self_stress, float(np.abs(self_stress).max(initial=0.0))
         if problem.cones.identity @ rows < 0.5:  # neither nearly one nor nearly zero never came up
             return Wedging(False, (), float(problem.cones.identity @ rows))
         residual = max(np.abs(problem.C.T @ self_stress).max(), -problem.cones.margin(rows).min()) / largest
-        if residual <= CERTIFIED:
+        if residual <= CERTIFIED:  # not where there are no stresses: then it is no number
             stress = largest_of(problem, self_stress)
             named = np.array(problem.interfaces)[stress > STRESSED * stress.max()]
             return Wedging(True, tuple(named.tolist()), float(residual))

@@ -15,37 +15,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.analysis.nonassociated.path import RETURNED, Lost, Walk
-from limitblocks.analysis.nonassociated.path_equations import Barrier, Base, Path, Point, inner, moved
+from limitblocks.analysis.nonassociated.path import RETURNED
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path, Point
 from limitblocks.analysis.nonassociated.path_newton import REFINED
-from limitblocks.analysis.nonassociated.path_start import centred
+from limitblocks.analysis.nonassociated.path_start import INSIDE, centred
+from limitblocks.analysis.nonassociated.stretch import Stretch, Visit
 from limitblocks.arrays import Array
 
 # last tau over the first one: the elastic part of an increment needs no points; where tau is large already
 # Newton's method may find no first point so far from the elastic part
 SPANS = (10.0, 1000.0)
-ARRIVED = 1.01  # times the last theta
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
 SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
 FARTHER = (1.0, 2.0, 4.0)  # times tau
 FARTHEST = 1000.0  # theta where a path that counts tau from before its start has gone back beyond that
-TURN = 1e-5  # of tau: how near a fold is approached
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
-BUDGET = 200  # factorisations; increments that succeed take 20 to 80
-
-
-class Visit(NamedTuple):
-    """A point of an increment: 1 / tau, arclength from its first point, and whether tau grows there."""
-
-    point: Point
-    rho: float
-    arclength: float
-    forward: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +41,7 @@ class Increment:
     """Points from the first tau to the last with the barrier, and the end with as little of it as is left.
 
     `fading` is the path on which theta is the barrier, at the last tau. A `rounded` one snaps, and could be
-    followed with the large barrier only.
+    followed with the large barrier only, or from beyond the snap.
     """
 
     visits: tuple[Visit, ...]
@@ -99,72 +87,6 @@ class Tried:
     returned: bool = False
 
 
-class Stretch(Walk):
-    """A walk from a point to a given theta, which keeps the points."""
-
-    def __init__(self, path: Path, start: Point, until: float, budget: int = BUDGET) -> None:
-        super().__init__(path, budget, None)
-        self.z, self.until = start, until
-        self.kept: list[Point] = []
-        self.fold = np.inf  # theta of a fold that tau has not come back to
-
-    @property
-    def arrived(self) -> bool:
-        """Whether the last point kept is at the end."""
-        return bool(self.kept) and self.kept[-1].theta <= ARRIVED * self.until and self._forward(-1)
-
-    @property
-    def returned(self) -> bool:
-        """Whether the path went back to where tau is zero."""
-        return bool(self.kept) and self.kept[-1].theta > self.farthest
-
-    def _forward(self, k: int) -> bool:
-        return self.points[k].sign == self.points[0].sign
-
-    @property
-    def _stop(self) -> float:
-        """The theta that a step stops at: that of a fold once tau grows again, else the last."""
-        return self.fold if np.isfinite(self.fold) and self._forward(-1) else self.until
-
-    def go(self) -> str:
-        """Follow the path as far as it is asked for."""
-        try:
-            while not self.arrived and self.factorisations < self.budget:
-                self._advance()
-        except (Lost, RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
-            pass
-        return "arrived" if self.arrived else "lost"
-
-    def _accept(self, sign: float, base: Base) -> None:
-        if self.base is not None and self._forward(-1) and sign != self.points[0].sign:
-            ahead = self.length * abs(self.base.tangent.theta) / self.base.point.theta
-            if ahead > TURN:
-                self._retreat()
-                return
-            self.fold = min(self.fold, self.base.point.theta, self.z.theta)
-        elif self.kept and sign == self.points[0].sign and self.z.theta <= self.fold:
-            self.fold = np.inf
-        self.kept.append(self.z)
-        super()._accept(sign, base)
-
-    def _predict(self) -> None:
-        super()._predict()
-        if self.base is not None and self.z.theta < self._stop:
-            start, tangent = moved(self.path, self.base.point, 1.0, self.base.correction), self.base.tangent
-            self.z = moved(self.path, start, (self._stop - start.theta) / tangent.theta, tangent)
-
-    def visits(self, rho: float) -> tuple[Visit, ...]:
-        """The points kept; rho is that at theta = 1."""
-        lengths = [0.0]
-        for a, b in zip(self.kept, self.kept[1:], strict=False):
-            d = b.moved(-1.0, a)
-            lengths.append(lengths[-1] + float(np.sqrt(inner(self.path.cones, a, d, d))))
-        return tuple(
-            Visit(z, rho * z.theta, length, self._forward(k))
-            for k, (z, length) in enumerate(zip(self.kept, lengths, strict=True))
-        )
-
-
 @np.errstate(all="ignore")  # a point that ran away is not accepted
 def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) -> Tried:
     """Push by 1 / rho from the stresses path.x0; where that snaps or may have, once more with less barrier.
@@ -181,27 +103,29 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
         Size of the barrier at the end.
     """
     met = _pushed(path, weights, rho, left, SPANS)
-    if met.increment is None or not (met.increment.folds or _fell(path, met.increment)):
+    if met.increment is None or not (met.increment.folds or _fell(path, met.increment.end)):
         return met
     sharp = replace(path, barrier=replace(path.barrier, size=min(SHARP, path.barrier.size)))
-    used = met.factorisations
+    used, stands = met.factorisations, met.increment
     for farther in FARTHER:  # the barrier makes a fold come early: without it the increment may end before
         again = _pushed(sharp, weights, rho / farther, left, SPANS[1:])
         used += again.factorisations
+        if again.returned:
+            return Tried(None, used, returned=True)
         if again.increment is None:
+            return Tried(replace(met.increment, rounded=bool(met.increment.folds)), used)
+        beyond = _fell(path, again.increment.visits[0].point)  # a small step from x0: over a snap
+        stands = replace(again.increment, rounded=beyond)
+        if stands.folds or not met.increment.folds:
             break
-        if again.increment.folds or not met.increment.folds:
-            return replace(again, factorisations=used)
-    if again.returned:
-        return Tried(None, used, returned=True)
-    return Tried(replace(met.increment, rounded=bool(met.increment.folds)), used)
+    return Tried(stands, used)
 
 
-def _fell(path: Path, met: Increment) -> bool:
-    """Whether the load factor is lower at the end of an increment than at its start."""
+def _fell(path: Path, reached: Point) -> bool:
+    """Whether the load factor is lower at a point of an increment than at its start."""
     p = path.flow.problem
     start = (path.layout.balance @ path.x0 - p.dead) @ p.live / (p.live @ p.live)
-    return bool(met.end.load_factor < start - FELL * abs(start))
+    return bool(reached.load_factor < start - FELL * abs(start))
 
 
 def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[float, ...]) -> Tried:
@@ -211,10 +135,7 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
         first = span * rho / farther
         barrier = replace(path.barrier, size=path.barrier.size / farther)
         curve = replace(path, barrier=barrier, elastic=first * weights, behind=path.behind * first)
-        try:
-            start, used = centred(curve)
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):
-            start, used = None, 1
+        start, used = _started(curve)
         if start is not None:
             break
     if start is None:
@@ -229,6 +150,27 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
     met = _without_barrier(curve, weights, _from_start(visits[-1], path.behind), left)
     whole = None if met.increment is None else replace(met.increment, visits=visits)
     return Tried(whole, used + met.factorisations)
+
+
+def _started(curve: Path) -> tuple[Point | None, int]:
+    """The first point of an increment, and factorisations; where many rows yield, by a barrier that fades."""
+    try:
+        start, used = centred(curve)
+        if start is not None:
+            return start, used
+        size = (
+            INSIDE**2 * float(curve.elastic.mean()) / curve.power
+        )  # its slacks are as large as the first ones
+        fading = replace(curve, barrier=Barrier(size, 0.0, 0.0))
+        start, more = centred(fading)
+    except (RuntimeError, ValueError):
+        return None, 1
+    if start is None:
+        return None, used + more
+    walk = Stretch(fading, start, curve.barrier.size / size)
+    walk.go()
+    start = replace(walk.kept[-1], theta=1.0) if walk.arrived else None
+    return start, used + more + walk.factorisations
 
 
 def _from_start(visit: Visit, behind: float) -> Visit:

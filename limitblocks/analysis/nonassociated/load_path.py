@@ -24,7 +24,7 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, NotConverged, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
@@ -35,8 +35,8 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.plane import Choice
 
 ROUNDED = (
-    "a snap could be followed with the barrier of the increments only, which rounds it: the load factor "
-    "before it is low by some percent"
+    "a snap could be followed with the barrier of the increments only, which rounds it, or was passed over: "
+    "the load factor before it is low by some percent"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
 
@@ -123,7 +123,12 @@ def load_path(
     if found is None:
         found = load(flow, start_stresses(model, problem, weights, start), weights)
     record(end(flow, found.last))
-    collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
+    try:
+        collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
+    except NotConverged as error:
+        if found.why:
+            error.add_note(found.why)
+        raise
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     try:
@@ -137,12 +142,13 @@ def load_path(
 
 
 class _Loaded(NamedTuple):
-    """Stresses at the start, increments, the last state, and how they were found."""
+    """Stresses at the start, increments, the last state, how they were found, why there is no collapse."""
 
     x0: Array
     pushes: tuple[Pushed, ...]
     last: State
     how: str
+    why: str
 
 
 def _loaded(
@@ -166,12 +172,12 @@ def _loaded(
 
     how = "increments of the load path"
     try:
-        pushes, last = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
+        pushes, last, why = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
     except KeyboardInterrupt:
         if not met:
             raise
-        pushes, last, how = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}"
-    return _Loaded(x0, pushes, last, how)
+        pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
+    return _Loaded(x0, pushes, last, how, why)
 
 
 def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
@@ -181,7 +187,7 @@ def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None
     pushes = tuple(planar.pushed(one) for one in found.pushes)
     if last is None or not admissible(pushes):
         return None
-    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how))
+    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how), found.why)
 
 
 def _compliance(

@@ -14,7 +14,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.increment import (
-    ARRIVED,
     NO_BARRIER,
     Increment,
     Tried,
@@ -25,6 +24,7 @@ from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.stretch import ARRIVED
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.arrays import Array
@@ -41,6 +41,14 @@ DRIFT = 1e-3  # change of the load factor, relative, up to which the polished st
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
 BEHIND = 20.0  # of an increment that springs back beyond the permanent loads: tau counts from so many before
 LEAST = 1e-6  # of the first increment: smaller ones are not tried
+USED_UP = (
+    "the increments of the load path have used up their {} factorisations; Settings(budget=...) of "
+    "limitblocks.settings, settings= of load_path, gives them more"
+)
+TOO_SMALL = (
+    "increments of the load path fail, however small; Settings(first=10) of limitblocks.settings, "
+    "settings= of load_path, begins with a larger one"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +87,7 @@ def pushed(
     scale: float,
     progress: Progress | None = None,
     share: Array | float = 1.0,
-) -> tuple[tuple[Pushed, ...], State]:
+) -> tuple[tuple[Pushed, ...], State, str]:
     """Push from the stresses `x0` until the structure collapses.
 
     Parameters
@@ -97,8 +105,8 @@ def pushed(
 
     Returns
     -------
-    tuple of Pushed, State
-        The increments, and the collapse or the last state.
+    tuple of Pushed, State, str
+        The increments, the collapse or the last state, and why there is no collapse, in words.
     """
     soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
     barrier = Barrier(settings.barrier, floor=0.0)
@@ -126,10 +134,11 @@ def pushed(
         if progress is not None:
             progress(pushes[-1])
         if closed is not None:
-            return tuple(pushes), closed
+            return tuple(pushes), closed, ""
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
-    return tuple(pushes), polish(flow, state)
+    why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
+    return tuple(pushes), polish(flow, state), why
 
 
 def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals | None, State | None]:

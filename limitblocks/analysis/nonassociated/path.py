@@ -150,7 +150,7 @@ class Walk:
                 self._advance()
         except Lost as lost:
             return str(lost)
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):  # SuperLU: singular or not finite
+        except (RuntimeError, ValueError):  # SuperLU: singular or not finite
             return "singular start"
         except KeyboardInterrupt:
             return INTERRUPTED
@@ -167,7 +167,7 @@ class Walk:
         try:
             newton = Newton(self.path, self.z)
             step, turn = newton.solve(left, theta_slope(self.path, self.z))
-        except (RuntimeError, ValueError, np.linalg.LinAlgError):
+        except (RuntimeError, ValueError):
             self._retreat()
             return
         turn = replace(turn, theta=1.0)

@@ -159,7 +159,8 @@ def theta_slope(path: Path, z: Point) -> Equations:
 def distance(path: Path, z: Point, left: Equations) -> float:
     """Return how far a point is from the path, products by the slack F x + g; at most one is near."""
     rounding = ROUNDING * path.rho(z.theta) * path.elastic * np.abs(z.x)
-    off = float((np.abs(left.flow) / (FLOW * z.theta + rounding)).max())
+    flow = FLOW * z.theta * (1.0 - path.behind)
+    off = float((np.abs(left.flow) / (flow + rounding)).max())
     return max(off, spread(path.cones, z.s + left.slack, z.y, path.target(z.theta)) / WIDE)
 
 

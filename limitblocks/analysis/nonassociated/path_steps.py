@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.analysis.in_si import resultants_of
-from limitblocks.analysis.nonassociated.increment import Increment, Visit
+from limitblocks.analysis.nonassociated.increment import Increment
 from limitblocks.analysis.nonassociated.loading import Pushed
+from limitblocks.analysis.nonassociated.stretch import Visit
 from limitblocks.arrays import Array, read_only
 from limitblocks.evidence.load_path_result import PathStep, Snap
 from limitblocks.evidence.residuals import mcp_residuals

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from functools import reduce
+from functools import partial, reduce
 
 import numpy as np
 import shapely
@@ -14,6 +14,7 @@ from limitblocks.geometry import Block
 from limitblocks.mechanics.loads.faces import part_where
 
 _CLEAR = 1e-6  # of a block's size: what reaches less far above a face does not cover it
+_GRID = 1e-13  # of the coordinates: the places of an overlay
 _IN_PLANE = 1e-9  # of a block's size: rounding errors of vertices on the face
 
 
@@ -70,8 +71,9 @@ def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
             return shapely.convex_hull(shapely.multipoints(np.concatenate([low for low, _ in parts])))
         # a vertical line leaves what is below the level through a face that looks up, or passes the level
         tops = [own for own in map(shapely.Polygon, (low for low, _ in parts)) if own.exterior.is_ccw]
-        section = reduce(shapely.symmetric_difference, (shapely.Polygon(high) for _, high in parts))
-        return shapely.union_all([*tops, section])
+        grid = _GRID * float(np.abs(block.vertices[:, :2]).max())
+        section = reduce(partial(_either, grid=grid), (shapely.Polygon(high) for _, high in parts))
+        return shapely.union_all([*tops, section], grid_size=grid)
     above = above + near
     start, end = block.mesh.start, block.mesh.end
     a, b = above[start], above[end]
@@ -80,6 +82,12 @@ def _shadow(block: Block, above: Array, level: float) -> shapely.Geometry:
     crossings = block.vertices[start[crossing]] * (1.0 - share) + block.vertices[end[crossing]] * share
     points = np.concatenate([block.vertices[above >= 0.0], crossings])
     return shapely.convex_hull(shapely.multipoints(points[:, :2]))
+
+
+def _either(one: shapely.Geometry, other: shapely.Geometry, grid: float) -> shapely.Geometry:
+    """What is in one of both areas only, points on a grid: rounding crosses edges next to their ends."""
+    found = shapely.get_parts(shapely.symmetric_difference(one, other, grid_size=grid))
+    return shapely.MultiPolygon([part for part in found if part.geom_type == "Polygon"])
 
 
 def _between(corners: Array, above: Array, level: float) -> tuple[Array, Array]:
