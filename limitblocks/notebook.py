@@ -10,6 +10,7 @@ from uuid import uuid4
 
 import numpy as np
 
+from limitblocks.analysis.magnitudes import questions
 from limitblocks.arrays import Array
 from limitblocks.drawing.picture import mechanism_picture
 from limitblocks.errors import ModelError
@@ -70,7 +71,8 @@ def html(thing: Any) -> str:
     """Return a small table and a picture; what print writes where there is no more to show."""
     if isinstance(thing, Model):
         still = np.zeros((len(thing.blocks), 6))
-        return _rendered(str(thing), fact_rows(facts(thing)), _drawing(thing, still))
+        rows = [*fact_rows(facts(thing)), *(("Warning", one) for one in questions(thing))]
+        return _rendered(str(thing), rows, _drawing(thing, still))
     known = model_of(thing)
     if known is None or not shown(thing):
         return _rendered(type(thing).__name__, [(line,) for line in str(thing).split("; ")])
@@ -78,7 +80,7 @@ def html(thing: Any) -> str:
     rates, curve = said.rates, said.curve
     return _rendered(
         f"{said.title}: {said.headline} {said.quantity}",
-        [*said.values, *(("Warning", one, "") for one in said.warnings)],
+        [*said.values, *(("Warning", one, "") for one in (*questions(known), *said.warnings))],
         _drawing(known, rates) if rates is not None else curve.sheet() if curve else None,
     )
 

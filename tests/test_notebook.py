@@ -55,6 +55,16 @@ def test_html_is_well_formed_and_small(name):
     assert "<script" not in text
 
 
+def test_a_notebook_asks_about_what_is_hardly_meant():
+    """A friction of 30 changed nothing to be seen: the block overturns at b/h, proven."""
+    steep = lb.structures.block(lb.PointContact(30), width=0.5, height=1.0)
+    found = lb.bounds(steep)
+    assert abs(found.upper - 0.5) < 1e-6
+    for one in (steep, found):
+        assert "friction is 30: degrees? tan 30 deg = 0.577" in one._repr_html_()
+    assert "Warning" not in MODEL._repr_html_() + BOUNDS._repr_html_()
+
+
 @pytest.mark.parametrize("name", ["model", "bounds", "nonassociated", "path", "range"])
 def test_html_has_a_picture(name):
     assert f"<title>{MODEL.free_blocks[0].name}</title>" in SHOWN[name]._repr_html_()

@@ -72,8 +72,8 @@ class WorstPosition(Result):
         beyond = f"; {acting / 1e3:.4g} of {total / 1e3:.4g} kN of axles stand on the blocks"
         beyond = beyond * (acting < total * (1.0 - 1e-6))
         return self._line(
-            f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: load factor "
-            f"{self.bounds.lower:.6g}{beyond}",
+            f"worst position x = {coordinate(self.position)} m of {len(self.positions)} tried: associated "
+            f"load factor {self.bounds.lower:.6g}{beyond}",
             *self.bounds.remarks,
             *(() if self.complete else (STOPPED,)),
         )

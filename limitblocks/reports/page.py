@@ -6,7 +6,7 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from limitblocks.reports import assets
-from limitblocks.reports.document import Document
+from limitblocks.reports.document import Document, Figure
 from limitblocks.shown import many
 
 if TYPE_CHECKING:
@@ -33,7 +33,14 @@ def page(document: Document, scene: dict[str, Any], chosen: int) -> str:
     own = assets.printed(document.title, document.digest)
     styles = [assets.style(), own]
     drawn = any(result["magnification"] > 0.0 for result in scene["results"])
-    known = {"document": document, "drawn": drawn, "generator": document.versions["limitblocks"]}
+    parts = [part for one in document.chapters for part in one.parts]
+    played = [part for part in parts if isinstance(part, Figure) and part.played]  # where the viewer would be
+    known = {
+        "document": document,
+        "played": played,
+        "drawn": drawn,
+        "generator": document.versions["limitblocks"],
+    }
     return _rendered("report.html", document.title, styles, scene, chosen, **known)
 
 

@@ -120,11 +120,16 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
             "position is worse is searched for, not proven."
         ),
         headline=cut(found.bounds.lower),
-        quantity=f"load factor of the vehicle, first axle at X = {found.position:.4g} m, worst found",
+        quantity=f"associated load factor of the vehicle, worst found: axle 1 at X = {found.position:.4g} m",
         values=(
             *_vehicle_rows(found),
             ("Static load factor", at_least(found.bounds.lower), "at the worst position"),
             ("Kinematic load factor", at_most(found.bounds.upper), "at the worst position"),
+            (
+                "Without dilatancy",
+                "not computed",
+                "may be less where joints slide: nonassociated of worst.model, or of what --model writes",
+            ),
             (
                 "Axles on the structure",
                 kilonewtons(-float(acting[2])),

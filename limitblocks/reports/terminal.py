@@ -20,7 +20,8 @@ from limitblocks.reports.sections import section
 
 _TO_THE_RIGHT = ("Value", "Step", "Load factor")
 _WIDTH = 100  # of the report as text
-_ROWS, _ENDS = 24, 8  # of a table on a screen at most; else its first and last ones
+_SCREEN = 24  # rows of tables beyond which what counts is scrolled away
+_ROWS, _ENDS = 60, 8  # of a table at most; of a longer one the first and the last
 _NUMBER = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?")
 
 
@@ -52,7 +53,7 @@ def print_result(model: Model, result: Any) -> None:
     for table in tables:
         Console().print(_table(_shortened(table)), crop=False)
     print_warnings(said.warnings)
-    if sum(len(table.rows) for table in tables) > _ROWS:
+    if sum(len(table.rows) for table in tables) > _SCREEN:
         Console(soft_wrap=True).print(headline, highlight=False)
 
 

@@ -103,17 +103,14 @@ def test_pivots_close_rounds_near_a_solution(monkeypatch):
     monkeypatch.setattr(ways, "LARGE", 10)
 
     def in_rounds():
-        walls = [
-            lb.structures.EXAMPLES["buttressed_wall"](lb.OrdunaLourenco(mu))
-            for mu in (0.58, 0.62, 0.66, 0.68)
-        ]
-        found = [lb.nonassociated(wall) for wall in walls]
+        frictions = map(lb.OrdunaLourenco, (0.6, 0.64, 0.66))
+        found = [lb.nonassociated(lb.structures.EXAMPLES["buttressed_wall"](one)) for one in frictions]
         assert all(one.converged for one in found)
         return sum(one.how.endswith("rounds of the fixed point") for one in found)
 
-    assert in_rounds() == 4
+    assert in_rounds() == 3
     monkeypatch.setattr(closing, "pivoted", lambda flow, state: state)
-    assert in_rounds() <= 2
+    assert in_rounds() <= 1
 
 
 def test_pivots_are_not_tried_far_from_a_solution(monkeypatch):

@@ -92,6 +92,13 @@ def test_loads_at_the_tilting_angle_are_at_the_limit():
                 lb.bounds(model)
 
 
+def test_a_tilting_angle_in_degrees_is_refused():
+    tilt = lb.loads.tilting((1, 0, 0))
+    with pytest.raises(lb.ModelError, match=r"angle is 30, expected rad .* math\.radians\(30\)"):
+        tilt.at(30)
+    assert len(tilt.at(np.pi / 2).terms) == 2
+
+
 @pytest.mark.parametrize("direction", [(1, 0, 0.1), (0, 0, 0), (0, 0, 1)])
 def test_tilting_towards_no_horizontal_direction_is_refused(direction):
     with pytest.raises(lb.ModelError, match="direction"):

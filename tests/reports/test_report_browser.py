@@ -319,6 +319,11 @@ def test_without_webgl_the_drawing_remains(chromium, file):
     assert page.locator("#no-webgl").is_visible()
     assert page.locator("figure.static svg").is_visible()
     assert not page.locator("#viewer").is_visible()
+    here, place, after = (
+        page.locator(one).first.bounding_box()["y"]
+        for one in ("figure.static", "#no-webgl", "section:has(> #no-webgl) ~ section")
+    )
+    assert place < here < after  # where the picture would be
     browser.close()
 
 

@@ -84,8 +84,8 @@ def test_every_result_has_its_section_and_one_mechanism_is_drawn():
     assert html.count('class="moving"><title>') > 0
     assert html.count('<svg class="mechanism"') == 1
     drawing = html.index('<svg class="mechanism"')
-    assert html.index("<h2>Non-associated solution") < drawing < html.index("Steps of")
-    assert re.findall('<svg class="([a-z]+)"', html) == ["views", "mechanism", "curve"]
+    assert html.index('id="viewer"') < drawing < html.index("<h2>Side by side")  # where the picture is
+    assert re.findall('<svg class="([a-z]+)"', html) == ["mechanism", "views", "curve"]
     assert "left <leg>" not in html
 
 

@@ -84,7 +84,9 @@ class Tilting:
         return float(np.arctan(load_factor))
 
     def at(self, angle: float) -> Load:
-        """Return the weight on a plane tilted by `angle`, rad."""
+        """Return the weight on a plane tilted by `angle`, rad; ModelError beyond a right angle."""
+        if not abs(angle) <= np.pi / 2:
+            raise ModelError(f"angle is {angle}, expected rad up to pi/2: math.radians({angle:g}) if degrees")
         return float(np.cos(angle)) * self.dead + float(np.sin(angle)) * self.live
 
 
