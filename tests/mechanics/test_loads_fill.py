@@ -89,7 +89,12 @@ def test_turning_a_leaning_channel_about_the_vertical_turns_what_rests_on_it(til
 def test_what_rests_on_leaning_courses_is_that_on_their_mirror_image(seed):
     """Two stones below one: what rounding left of a face beside one came back as the face beside the next."""
     draw = np.random.default_rng(seed).uniform
-    lean, heights, tilts, angle = draw(-0.4, 0.4, 2), draw(0.5, 1.5, 2), draw(-0.3, 0.3, (2, 2)), draw(0, 2 * np.pi)
+    lean, heights, tilts, angle = (
+        draw(-0.4, 0.4, 2),
+        draw(0.5, 1.5, 2),
+        draw(-0.3, 0.3, (2, 2)),
+        draw(0, 2 * np.pi),
+    )
     turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
     cut = draw(0.3, 0.7)
     beds = [np.zeros(3), np.array([heights[0], *tilts[0]]), np.array([heights.sum(), *tilts[1]])]
