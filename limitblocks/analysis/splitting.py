@@ -37,7 +37,7 @@ class Splitting:
     @cached_property
     def projection(self) -> Projection:
         """Onto equilibrium; the distance is that of the yield rows."""
-        square = sparse.csr_array(self.p.F.T @ self.p.F)
+        square = self.p.F.T @ self.p.F
         if square.nnz == np.count_nonzero(square.diagonal()) == square.shape[0]:  # every row is one stress
             return Projection(self.p.C, sparse.csr_array(sparse.diags_array(1.0 / square.diagonal())))
         weights = InterfaceBlocks(self.p.problem).inverse(square)

@@ -171,7 +171,7 @@ class LimitProblem:
     @cached_property
     def acting(self) -> sparse.csc_array:
         """|C|^T: the sum of sizes in each equation of equilibrium per size of each stress, shape (6 n, s)."""
-        return sparse.csc_array(abs(self.C).T)
+        return abs(self.C).T
 
     @cached_property
     def parts(self) -> Indices:

@@ -18,7 +18,7 @@ from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
-from limitblocks.problem.plane.planar import Planar
+from limitblocks.problem.plane.planar import Planar, squares
 from limitblocks.problem.plane.rounding import EXACT
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
@@ -44,7 +44,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     rates = _rates(mirror, blocks)
     source, weights, cones = rows
     units = problem.units.row
-    W = in_units(weights, 1.0 / units[source], units)
+    W, back = in_units(weights, 1.0 / units[source], units), rates.T
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
     B = _cleaned(problem.resultants @ stresses)
     F = _cleaned(W @ problem.F @ stresses)
@@ -52,8 +52,8 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     planar = replace(
         problem,
         C=_cleaned(sparse.csr_array(stresses.T) @ problem.C @ rates),
-        dead=read_only(rates.T @ problem.dead),
-        live=read_only(rates.T @ problem.live),
+        dead=read_only(back @ problem.dead),
+        live=read_only(back @ problem.live),
         F=F,
         G=F if choice is Choice.FEW else _cleaned(W @ problem.G @ stresses),
         g=read_only(W @ problem.g),
@@ -61,7 +61,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         pivot=read_only(np.zeros(len(source))),
         half_sides=problem.half_sides[kept],
         resultants=B if len(six) == B.shape[0] else B[six],
-        compliance=read_only(stresses.multiply(stresses).T @ problem.compliance),
+        compliance=read_only(squares(stresses, problem.compliance)),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
         row_mode=_taken(problem.row_mode, source),
@@ -75,7 +75,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
 
 
 def _taken(values: tuple[Any, ...], places: Indices) -> tuple[Any, ...]:
-    return tuple(map(values.__getitem__, places.tolist()))
+    return tuple([values[place] for place in places.tolist()])
 
 
 def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
