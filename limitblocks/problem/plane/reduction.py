@@ -64,7 +64,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         compliance=read_only(squares(stresses, problem.compliance)),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
-        row_mode=_taken(problem.row_mode, source),
+        row_mode=problem.row_mode[source],
         friction=problem.friction[kept],
         units=problem.units.of(blocks, kept, source),
         blocks=_taken(problem.blocks, blocks),
@@ -124,12 +124,11 @@ def _stresses_and_rows(
             own, X = first[its], basis[its][:, :, :d]
             new = width + np.arange(len(own) * d).reshape(-1, 1, d)
             width += len(own) * d
-            image = kind.image[own]
-            turned = np.where(paired[its], kind.turn[own] @ X, X)
-            for there, Y, also in ((own, X, np.ones(len(own), dtype=bool)), (image, turned, image != own)):
-                old = kind.places.columns[there][:, :, None]
-                keep = (Y != 0.0) & also[:, None, None]
-                triplets.append([np.broadcast_to(v, X.shape)[keep] for v in (Y, old, new)])
+            two = kind.image[own] != own
+            turned = np.where(paired[its][two], kind.turn[own[two]] @ X[two], X[two])
+            for there, Y, column in ((own, X, new), (kind.image[own[two]], turned, new[two])):
+                old, keep = kind.places.columns[there][:, :, None], Y != 0.0
+                triplets.append([np.broadcast_to(v, Y.shape)[keep] for v in (Y, old, column)])
             parts += _rows_of(kind, own, X, choice, mirror.flat)
     data, old, new = (np.concatenate(part) for part in zip(*triplets, strict=True))
     stresses = sparse.coo_array((data, (old, new)), shape=(problem.C.shape[0], width)).tocsr()
