@@ -63,7 +63,7 @@ class Stresses:
         columns: Any = (data, place[equation], start)
         balance = sparse.csc_array(columns, shape=(len(equations), 1 + s)) @ v == p.dead[equations]
         rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
-        inside = map_in_cone(rows, v, p.cones, p.g)
+        inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
         return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:

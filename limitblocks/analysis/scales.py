@@ -208,9 +208,10 @@ def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | 
 
 def compatible_with(F: sparse.csr_array, strain: Array) -> Array:
     """Return the smallest y with F^T y = strain, where there is one."""
-    solve = solver_of(F.T @ F)
+    across = F.T
+    solve = solver_of(across @ F)
     y = F @ solve(strain)
-    return np.asarray(y + F @ solve(strain - F.T @ y))
+    return np.asarray(y + F @ solve(strain - across @ y))
 
 
 def repaired(p: Scaled, state: State) -> State:

@@ -51,7 +51,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     six = (6 * kept[:, None] + np.arange(6)).ravel()
     planar = replace(
         problem,
-        C=_cleaned(sparse.csr_array(stresses.T) @ problem.C @ rates),
+        C=_cleaned(stresses.T.tocsr() @ problem.C @ rates),
         dead=read_only(back @ problem.dead),
         live=read_only(back @ problem.live),
         F=F,
@@ -71,7 +71,7 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         interfaces=_taken(problem.interfaces, kept),
         centroids=problem.centroids[blocks],
     )
-    return Planar(planar, stresses, rates, sparse.csr_array(W.T), blocks, mirror.flat, problem.units)
+    return Planar(planar, stresses, rates, W.T.tocsr(), blocks, mirror.flat, problem.units)
 
 
 def _taken(values: tuple[Any, ...], places: Indices) -> tuple[Any, ...]:
