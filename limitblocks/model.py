@@ -8,11 +8,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import compress
 from pathlib import Path
 from typing import Any
 from weakref import WeakSet
 
 import numpy as np
+import numpy.typing as npt
 
 from limitblocks.errors import ModelError, few, missing, sequence_of
 from limitblocks.geometry import Block, Interface, Tolerances
@@ -83,10 +85,15 @@ class Model(Viewed):
             raise ModelError(*problems)
 
     @cached_property
+    def free(self) -> npt.NDArray[np.bool_]:
+        """Whether each block can move, shape (n,)."""
+        supports = set(self.supports)
+        return np.array([block.name not in supports for block in self.blocks])
+
+    @cached_property
     def free_blocks(self) -> tuple[Block, ...]:
         """The blocks that can move, in model order."""
-        supports = set(self.supports)
-        return tuple(block for block in self.blocks if block.name not in supports)
+        return tuple(compress(self.blocks, self.free.tolist()))
 
     @cached_property
     def problem(self) -> LimitProblem:

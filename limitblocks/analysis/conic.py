@@ -44,19 +44,22 @@ def compiled(problem: cp.Problem) -> Conic:
         tails = count + np.arange(count * (size - 1)).reshape(count, -1)
         order.append(zero + rows[0, 0] + np.column_stack([np.arange(count), tails]).ravel())
     place = np.concatenate(order)
-    A = sparse.csr_array(sparse.vstack([matrix for matrix, _ in parts], format="csr"))
-    A = A[place] if K.second_order else A
-    A.data[A.indptr[zero] :] *= -1.0
+    A = sparse.vstack([matrix for matrix, _ in parts], format="csc")
+    A.data[A.indices >= zero] *= -1.0
+    if K.second_order:
+        A.indices[:] = np.argsort(place)[A.indices]
+        A.has_sorted_indices = False
+        A.sort_indices()
     constants = np.concatenate(right + [constant for _, constant in parts[len(equal) :]])
     cost = np.ravel(problem.objective.expr.args[0].value)
-    return Conic(cost, sparse.csc_array(A), constants[place], K)
+    return Conic(cost, A, constants[place], K)
 
 
-def _affine(rows: cp.Expression) -> tuple[sparse.csr_array, Array]:
+def _affine(rows: cp.Expression) -> tuple[sparse.csc_array, Array]:
     """A and b of rows A v + b."""
     if isinstance(rows, cp.reshape):
         return _affine(rows.args[0])
     product, *constant = rows.args if isinstance(rows, AddExpression) else (rows,)
     matrix: Any = product.args[0].value
     matrix = matrix if sparse.issparse(matrix) else matrix[None]
-    return sparse.csr_array(matrix), np.ravel(constant[0].value) if constant else np.zeros(rows.size)
+    return sparse.csc_array(matrix), np.ravel(constant[0].value) if constant else np.zeros(rows.size)

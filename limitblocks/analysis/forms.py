@@ -58,10 +58,12 @@ class Stresses:
         v, least = cp.Variable(1 + s), -np.eye(1, 1 + s)[0]
         data, equation = np.append(-p.live[pushed], p.C.data), np.append(pushed, p.C.indices)
         start = np.concatenate([[0], len(pushed) + p.C.indptr])  # columns of C^T are the rows of C
-        columns: Any = (data, np.searchsorted(equations, equation), start)
+        place = np.zeros(len(p.dead), dtype=np.int32)
+        place[equations] = np.arange(len(equations))
+        columns: Any = (data, place[equation], start)
         balance = sparse.csc_array(columns, shape=(len(equations), 1 + s)) @ v == p.dead[equations]
         rows = sparse.csr_array((F.data, F.indices + 1, F.indptr), shape=(len(p.g), 1 + s))
-        inside = map_in_cone(rows, v, p.cones, p.g)
+        inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
         return Program(cp.Problem(cp.Minimize(least @ v), [balance, *inside]), (v,))
 
     def limit_state(self, v: Array, w: Array) -> State:

@@ -16,7 +16,6 @@ def resultants_of(problem: LimitProblem, x: Array) -> Array:
 
 def in_model_order(model: Model, rates: Array) -> Array:
     """Displacement rates (n, 6) of all blocks, supports as zero; `rates` of the free ones, m and rad."""
-    supports = set(model.supports)
     ordered = np.zeros((len(model.blocks), 6))
-    ordered[[block.name not in supports for block in model.blocks]] = rates.reshape(-1, 6)
+    ordered[model.free] = rates.reshape(-1, 6)
     return read_only(ordered)

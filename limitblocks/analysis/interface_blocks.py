@@ -26,7 +26,7 @@ class InterfaceBlocks:
 
     def inverse(self, matrix: Any) -> sparse.csr_array:
         """Return the inverse of a sparse matrix of this pattern; LinAlgError if a block is singular."""
-        entries, blocks = sparse.csr_array(matrix).tocoo(), self.padding.copy()
+        entries, blocks = matrix.tocoo(), self.padding.copy()
         rows, columns = entries.coords
         blocks[self.interface[rows], self.place[rows], self.place[columns]] += entries.data
         inverse = np.linalg.inv(blocks)[self.inside]

@@ -148,7 +148,8 @@ def map_in_cone(
     """`A v + b` in K, b zero if left out: cvxpy compiles rows taken from numbers a third faster."""
 
     def taken(rows: slice | Indices) -> cp.Expression:
-        return A[rows] @ v if b is None else A[rows] @ v + b[rows]
+        product = (A[rows] if cones.second_order else A) @ v
+        return product if b is None else product + b[rows]
 
     constraints: list[cp.Constraint] = [taken(slice(cones.linear)) >= 0] if cones.linear else []
     for places in cones.groups:

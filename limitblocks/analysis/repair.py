@@ -6,16 +6,15 @@ whose proof judges them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from limitblocks.analysis.scales import compatible_with, unmoved
+from limitblocks.analysis.scales import compatible_with
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, Indices
-from limitblocks.problem import LimitProblem, State
+from limitblocks.problem import LimitProblem
 from limitblocks.problem.plane import Planar
 
 EVERYWHERE = 1e-2  # of the joint that lacks most: the least that a joint is opened
@@ -29,14 +28,14 @@ class Repair:
 
     def balanced(self, load_factor: float, x: Array) -> Array:
         """Return the nearest stresses that balance the loads, to rounding."""
-        p, state = self.splitting.p, self._there(load_factor=load_factor, x=x)
-        loads = p.dead + state.load_factor * p.live
-        return self._here(x=self.splitting.projection.onto(loads, state.x)).x
+        p = self.splitting.p
+        loads = p.dead + load_factor / p.load_factor * p.live
+        return p.stress * self.splitting.projection.onto(loads, x / p.stress)
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that satisfy the flow rule with the rates, to rounding."""
-        state = self._there(u=u, y=y)
-        return self._here(y=self.splitting.following(state.u, state.y)).y
+        p = self.splitting.p
+        return self.splitting.following(u / p.rate, y / p.multiplier) * p.multiplier
 
     def opened(self, amount: Array) -> tuple[Array, Array]:
         """Return rates and multipliers of a mechanism that opens every joint by about `amount` (R,).
@@ -44,27 +43,14 @@ class Repair:
         NaN where none was found, as where the structure can be wedged: where C^T x = 0 with F x in K, F x not
         zero (theorem of alternatives; Boyd & Vandenberghe 2004, Section 5.8).
         """
-        p, there = self.splitting.p, self._there(y=amount).y
+        p = self.splitting.p
+        there = amount / p.multiplier
         there[p.cones.heads] = np.maximum(there[p.cones.heads] / there.max(), EVERYWHERE)
         found = self.splitting.mechanism(there)
         if found is None:
-            return np.full_like(self._nothing.u, np.nan), np.full_like(self._nothing.y, np.nan)
+            return np.full_like(p.dead, np.nan), np.full_like(amount, np.nan)
         u, y = found
-        here = self._here(u=u, y=self.splitting.following(u, y))
-        return here.u, here.y
-
-    def _there(self, **parts: Any) -> State:
-        """Parts of a state in units of the splitting."""
-        return self.splitting.p.of_problem(replace(self._nothing, **parts))
-
-    def _here(self, **parts: Any) -> State:
-        """Parts of a state in units of the problem."""
-        return self.splitting.p.in_problem(replace(self._nothing, **parts))
-
-    @cached_property
-    def _nothing(self) -> State:
-        p = self.splitting.p
-        return unmoved(p.problem, 0.0, np.zeros(p.C.shape[0]))
+        return u * p.rate, self.splitting.following(u, y) * p.multiplier
 
 
 @dataclass(frozen=True, eq=False)

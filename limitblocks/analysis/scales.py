@@ -60,6 +60,16 @@ class Scaled:
         return unit(largest)[p.cones.member]
 
     @cached_property
+    def rate(self) -> Array:
+        """Unit of each displacement rate, shape (6 n,)."""
+        return self.load_factor / self.equation
+
+    @cached_property
+    def multiplier(self) -> Array:
+        """Unit of each flow multiplier, shape (R,)."""
+        return self.load_factor / self.row
+
+    @cached_property
     def C(self) -> sparse.csr_array:
         """Compatibility matrix, shape (s, 6 n)."""
         return in_units(self.problem.C, self.stress, 1.0 / self.equation)
@@ -100,17 +110,8 @@ class Scaled:
         return State(
             state.load_factor * self.load_factor,
             state.x * self.stress,
-            state.u * self.load_factor / self.equation,
-            state.y * self.load_factor / self.row,
-        )
-
-    def of_problem(self, state: State) -> State:
-        """Return a state in the units of the problem in those of these numbers."""
-        return State(
-            state.load_factor / self.load_factor,
-            state.x / self.stress,
-            state.u * self.equation / self.load_factor,
-            state.y * self.row / self.load_factor,
+            state.u * self.rate,
+            state.y * self.multiplier,
         )
 
     def raised(self, y: Array) -> Array:
@@ -207,9 +208,10 @@ def compatible(p: Scaled, u: Array, y: Array, solve: Callable[[Array], Array] | 
 
 def compatible_with(F: sparse.csr_array, strain: Array) -> Array:
     """Return the smallest y with F^T y = strain, where there is one."""
-    solve = solver_of(F.T @ F)
+    across = F.T
+    solve = solver_of(across @ F)
     y = F @ solve(strain)
-    return np.asarray(y + F @ solve(strain - F.T @ y))
+    return np.asarray(y + F @ solve(strain - across @ y))
 
 
 def repaired(p: Scaled, state: State) -> State:

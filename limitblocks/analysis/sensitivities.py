@@ -121,12 +121,10 @@ def _given(model: Model, bounds: Bounds) -> tuple[LimitProblem, State]:
     """The problem and the state of the bounds in SI units, its rates those of the free blocks."""
     refuse_kind(bounds, Bounds, "bounds")
     refuse_other(model, bounds)
-    supports = set(model.supports)
-    free = [k for k, block in enumerate(model.blocks) if block.name not in supports]
     return model.problem, State(
         bounds.lower,
         bounds.generalised_stresses,
-        bounds.displacement_rates[free].ravel(),
+        bounds.displacement_rates[model.free].ravel(),
         bounds.flow_multipliers,
     )
 

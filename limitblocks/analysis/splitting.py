@@ -37,7 +37,7 @@ class Splitting:
     @cached_property
     def projection(self) -> Projection:
         """Onto equilibrium; the distance is that of the yield rows."""
-        square = sparse.csr_array(self.p.F.T @ self.p.F)
+        square = self.p.F.T @ self.p.F
         if square.nnz == np.count_nonzero(square.diagonal()) == square.shape[0]:  # every row is one stress
             return Projection(self.p.C, sparse.csr_array(sparse.diags_array(1.0 / square.diagonal())))
         weights = InterfaceBlocks(self.p.problem).inverse(square)
@@ -54,9 +54,15 @@ class Splitting:
 
     def mechanism(self, amount: Array) -> tuple[Array, Array] | None:
         """Return rates and multipliers that open joints by about `amount` (R,); None if none were found."""
-        F, nothing = self.p.F, np.zeros_like(self.p.dead)
-        y = self._within(lambda y: y - F @ self._nearest(y, nothing)[0], amount)
-        return None if y is None else (self._nearest(y, nothing)[1], y)
+        F, nothing, u = self.p.F, np.zeros_like(self.p.dead), np.zeros_like(self.p.dead)
+
+        def following(rows: Array) -> Array:
+            nonlocal u
+            x, u = self._nearest(rows, nothing)
+            return np.asarray(rows - F @ x)
+
+        y = self._within(following, amount)
+        return None if y is None else (u, y)
 
     def following(self, u: Array, y: Array) -> Array:
         """Return the nearest multipliers that follow the rates, to rounding, brought into K."""

@@ -42,6 +42,12 @@ class Measure:
         return np.asarray(p.dead + z.load_factor * p.live - p.balance @ z.x)
 
     @cached_property
+    def broken(self) -> Array:
+        """Strain rates C u + F^T y that break the associated flow rule, shape (s,)."""
+        p, z = self.problem, self.state
+        return np.asarray(p.C @ z.u + p.F.T @ z.y)
+
+    @cached_property
     def block(self) -> Array:
         """What acts on each block, in its unit of force, shape (n,)."""
         p, z = self.problem, self.state

@@ -141,18 +141,17 @@ def static_residuals(
     )
 
 
-def kinematic_residuals(
-    flow: Flow, state: State, force: Array, measure: Measure | None = None
-) -> tuple[Residual, ...]:
-    """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface."""
-    p, measure = flow.problem, measure or Measure(flow.problem, state)
-    strain_rates = p.C @ state.u + flow.strains(state.x, state.y)
-    k = p.member_interface
+def kinematic_residuals(measure: Measure, force: Array, broken: Array) -> tuple[Residual, ...]:
+    """Residuals of the mechanism, Eqs (54), (55) and (58): the power of a `force` (m,) of each interface.
+
+    `broken` (s,) are the strain rates that break the flow rule.
+    """
+    p, state, k = measure.problem, measure.state, measure.problem.member_interface
     negative = np.minimum(p.cones.margin(state.y), 0.0) / p.units.row[p.cones.heads]
     return (
         residual(
             "flow",
-            largest_of(p, strain_rates) * force,
+            largest_of(p, broken) * force,
             f"compatibility and flow rule, Eq. (54), {POWER}",
             measure.power,
             p.interfaces,
@@ -183,7 +182,7 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
     return Residuals(
         (
             *static_residuals(p, state.load_factor, state.x, measure),
-            *kinematic_residuals(flow, state, measure.pressed, measure),
+            *kinematic_residuals(measure, measure.pressed, p.C @ state.u + flow.strains(state.x, state.y)),
             residual(
                 "complementarity",
                 product,
@@ -205,12 +204,12 @@ def mcp_residuals(flow: Flow, state: State) -> Residuals:
 
 def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
     """Recompute every residual of a pair of bounds; the state's load factor is the lower one."""
-    p, measure = flow.problem, Measure(flow.problem, state)
-    power = p.g @ state.y - p.dead @ state.u
+    problem, measure = flow.problem, Measure(flow.problem, state)
+    power = problem.g @ state.y - problem.dead @ state.u
     return Residuals(
         (
-            *static_residuals(p, state.load_factor, state.x, measure),
-            *kinematic_residuals(flow, state, measure.interface, measure),
+            *static_residuals(problem, state.load_factor, state.x, measure),
+            *kinematic_residuals(measure, measure.interface, measure.broken),
             residual(
                 "power",
                 power - upper,
@@ -220,7 +219,7 @@ def bounds_residuals(flow: Flow, state: State, upper: float) -> Residuals:
             residual("gap", upper - state.load_factor, "gap between the bounds", measure.load_factor),
             residual(
                 "worth",
-                worth_of_violations(p, state, measure),
+                worth_of_violations(problem, state, measure),
                 "what the violations of both states may be worth in the load factor, over it",
                 measure.load_factor,
             ),
@@ -238,10 +237,9 @@ def worth_of_violations(problem: LimitProblem, state: State, measure: Measure | 
     x, u, y, cones = state.x, state.u, state.y, problem.cones
     measure = measure or Measure(problem, state)
     s, unbalanced = measure.slack, measure.unbalanced
-    flow = problem.C @ u + problem.F.T @ y
     outside = [np.maximum(-cones.margin(rows), 0.0) for rows in (s, y)]
     return float(
-        np.abs(x) @ np.abs(flow)
+        np.abs(x) @ np.abs(measure.broken)
         + np.abs(unbalanced) @ np.abs(u)
         + abs(state.load_factor * (problem.live @ u - 1.0))
         + outside[0] @ np.abs(y[cones.heads])

@@ -46,7 +46,7 @@ def spanning_tree(problem: LimitProblem, room: Array) -> Tree:
     pair, first = np.unique(between[order], return_index=True)
     best = order[first]  # of several between two blocks
     i, j = pairs[best].T.astype(np.int32)  # scipy before 1.15 has no ways in graphs of longer indices
-    graph = sparse.coo_array((length[best], (i, j)), shape=(n + 1, n + 1)).tocsr()
+    graph = sparse.csr_array((length[best], j, np.searchsorted(i, np.arange(n + 2))), shape=(n + 1, n + 1))
     _, ways = csgraph.dijkstra(graph, directed=False, indices=[n], return_predecessors=True)
     parent = np.asarray(ways[0, :n], dtype=np.int64)
     i, j = np.sort([np.arange(n), parent], axis=0)

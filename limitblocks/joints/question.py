@@ -49,7 +49,7 @@ class Question:
             compliance=np.ones(B.shape[1]),
             ends=np.array([[-1, 0]]),
             row_interface=np.zeros(len(rows.modes), dtype=np.int64),
-            row_mode=tuple(Mode(mode) for mode in rows.modes),
+            row_mode=np.array([Mode(mode) for mode in rows.modes], dtype=object),
             friction=np.array([rows.friction]),
             units=Units(one, one, one, one, 1.0, np.ones(len(rows.modes))),
             blocks=("j",),

@@ -98,10 +98,10 @@ def _numbers(groups: Sequence[_Group], unit: Array, m: int) -> dict[str, Any]:
         row_mode[group.row_index] = np.array(_modes(group.rows), dtype=object)
         half_sides[group.interfaces] = group.rows.half_sides
         friction[group.interfaces] = group.rows.friction
-    row_interface.flags.writeable = False
+    row_interface.flags.writeable = row_mode.flags.writeable = False
     numbers = {"g": g / unit, "pivot": pivot / unit, "half_sides": half_sides, "friction": friction}
     kept = {name: read_only(values) for name, values in numbers.items()}
-    return {**kept, "row_interface": row_interface, "row_mode": tuple(row_mode)}
+    return {**kept, "row_interface": row_interface, "row_mode": row_mode}
 
 
 def _modes(rows: YieldRows) -> list[Mode]:

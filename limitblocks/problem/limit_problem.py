@@ -7,11 +7,11 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices, in_columns, read_only, tied
 from limitblocks.problem.cones import Cones
-from limitblocks.problem.modes import Mode
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +115,7 @@ class LimitProblem:
         Free blocks i and j of each interface, -1 for a support.
     row_interface : Indices, shape (R,)
         Interface of each row.
-    row_mode : tuple of Mode
+    row_mode : array of Mode, shape (R,)
         Failure mode of each row.
     friction : Array, shape (m,)
         Friction coefficient of each interface.
@@ -142,7 +142,7 @@ class LimitProblem:
     compliance: Array
     ends: Indices
     row_interface: Indices
-    row_mode: tuple[Mode, ...]
+    row_mode: npt.NDArray[np.object_]
     friction: Array
     units: Units
     blocks: tuple[str, ...]
@@ -171,7 +171,7 @@ class LimitProblem:
     @cached_property
     def acting(self) -> sparse.csc_array:
         """|C|^T: the sum of sizes in each equation of equilibrium per size of each stress, shape (6 n, s)."""
-        return sparse.csc_array(abs(self.C).T)
+        return abs(self.C).T
 
     @cached_property
     def parts(self) -> Indices:

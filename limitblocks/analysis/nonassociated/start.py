@@ -115,9 +115,7 @@ def solution(model: Model, flow: Flow, given: Start, tolerance: float) -> State 
 
 def state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated) -> State:
     """Return a result as a dimensionless state."""
-    supports = set(model.supports)
-    places = [k for k, block in enumerate(model.blocks) if block.name not in supports]
-    rates = result.displacement_rates[places].ravel()
+    rates = result.displacement_rates[model.free].ravel()
     return problem.dimensionless(
         State(result.load_factor, result.generalised_stresses, rates, result.flow_multipliers)
     )

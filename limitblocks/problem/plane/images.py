@@ -38,8 +38,10 @@ def images(kind: Place, blocks: Indices, rates: Array) -> tuple[Indices, Array]:
         off = apart[..., :6].max(axis=(1, 2, 3)) / scale
         # where two interfaces meet, points of theirs coincide: their middles tell which is which; of two
         # interfaces between the same blocks any fits with all six stresses, but one alone by a rotation
-        skew = np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2))
-        far = np.maximum(apart.max(axis=(1, 2, 3)), skew * scale)
+        far = apart.max(axis=(1, 2, 3))
+        if table.shape[1] > 1:
+            skew = np.abs(back @ back.transpose(0, 2, 1) - np.eye(c)).max(axis=(1, 2))
+            far = np.maximum(far, skew * scale)
         fits = (k < number) & (off <= EXACT) & (far < least)
         image, least = np.where(fits, there, image), np.where(fits, far, least)
         turn = np.where(fits[:, None, None], back.transpose(0, 2, 1), turn)

@@ -144,11 +144,11 @@ def _same_units_at(problem: LimitProblem, kind: Mirrored) -> bool:
 
 def _strain_by_end(problem: LimitProblem) -> Array:
     """Strain rates (s, 2, 6) per rate of the block at each end of the interface; zero for a support."""
-    C = problem.C.tocoo()
-    k = problem.stress_interface[C.row]
-    end = (problem.ends[k, 0] != C.col // 6).astype(int)
-    strain = np.zeros((problem.C.shape[0], 2, 6))
-    strain[C.row, end, C.col % 6] = C.data
+    C = problem.C
+    row, (block, rate) = np.repeat(np.arange(C.shape[0]), np.diff(C.indptr)), np.divmod(C.indices, 6)
+    end = (problem.ends[problem.stress_interface[row], 0] != block).astype(int)
+    strain = np.zeros((C.shape[0], 2, 6))
+    strain[row, end, rate] = C.data
     return strain
 
 

@@ -112,14 +112,13 @@ class Planar:
         Only then elastic strains of symmetric stresses are symmetric, too.
         """
         S = self.stresses
-        own = np.asarray(S.multiply(S).T @ weights)
-        squares = self._squares
-        off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / squares)
+        own = squares(S, weights)
+        off = sparse.diags_array(weights) @ S - S @ sparse.diags_array(own / self._lengths)
         return None if abs(off).max() > EXACT * weights.max() else own
 
     def stresses_of(self, x: Array) -> Array:
         """Return stresses of the whole problem, averaged with their mirror image, as reduced ones."""
-        return np.asarray(self.stresses.T @ x / self._squares)
+        return np.asarray(self.stresses.T @ x / self._lengths)
 
     def symmetric(self, x: Array) -> bool:
         """Whether stresses of the whole problem are their own mirror image."""
@@ -127,12 +126,12 @@ class Planar:
         return bool(off <= SYMMETRIC * np.abs(x).max(initial=0.0))
 
     @cached_property
-    def _squares(self) -> Array:
-        return _squares(self.stresses)
+    def _lengths(self) -> Array:
+        return _lengths(self.stresses)
 
     def rates_of(self, u: Array) -> Array:
         """Return rates of the whole problem, averaged with their mirror image, as reduced ones."""
-        return np.asarray(self.rates.T @ u / _squares(self.rates) / self.live)
+        return np.asarray(self.rates.T @ u / _lengths(self.rates) / self.live)
 
     def multipliers_of(self, y: Array) -> Array:
         """Return the reduced multipliers nearest to those of the whole problem.
@@ -141,11 +140,19 @@ class Planar:
         """
         M = self.multipliers
         if np.diff(M.indptr).max(initial=0) <= 1:  # no row is part of two
-            return np.asarray(M.T @ y / _squares(M) / self.live)
+            return np.asarray(M.T @ y / _lengths(M) / self.live)
         return np.asarray(linalg.splu(sparse.csc_array(M.T @ M)).solve(M.T @ y) / self.live)
 
 
-def _squares(matrix: sparse.csr_array) -> Array:
+def squares(matrix: sparse.csr_array, weights: Array | None = None) -> Array:
+    """Return the sums of the squares of the entries of each column, those of each row times its weight."""
+    entries = matrix.data**2
+    if weights is not None:
+        entries *= np.repeat(weights, np.diff(matrix.indptr))
+    return np.bincount(matrix.indices, entries, matrix.shape[1]).astype(np.float64, copy=False)
+
+
+def _lengths(matrix: sparse.csr_array) -> Array:
     """Squared lengths of the columns, one for nothing."""
-    squares = np.bincount(matrix.indices, matrix.data**2, matrix.shape[1])
-    return np.where(squares > 0.0, squares, 1.0)
+    found = squares(matrix)
+    return np.where(found > 0.0, found, 1.0)

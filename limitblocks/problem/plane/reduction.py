@@ -18,7 +18,7 @@ from limitblocks.arrays import Array, Indices, equal_rows, largest_in_rows, read
 from limitblocks.problem.cones import Cones
 from limitblocks.problem.limit_problem import LimitProblem, in_units
 from limitblocks.problem.plane.mirror import Mirror, Mirrored
-from limitblocks.problem.plane.planar import Planar
+from limitblocks.problem.plane.planar import Planar, squares
 from limitblocks.problem.plane.rounding import EXACT
 from limitblocks.problem.plane.rows import Choice, PlaneRows, plane_rows
 
@@ -44,16 +44,16 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
     rates = _rates(mirror, blocks)
     source, weights, cones = rows
     units = problem.units.row
-    W = in_units(weights, 1.0 / units[source], units)
+    W, back = in_units(weights, 1.0 / units[source], units), rates.T
     kept, interface = np.unique(problem.row_interface[source], return_inverse=True)
     B = _cleaned(problem.resultants @ stresses)
     F = _cleaned(W @ problem.F @ stresses)
     six = (6 * kept[:, None] + np.arange(6)).ravel()
     planar = replace(
         problem,
-        C=_cleaned(sparse.csr_array(stresses.T) @ problem.C @ rates),
-        dead=read_only(rates.T @ problem.dead),
-        live=read_only(rates.T @ problem.live),
+        C=_cleaned(stresses.T.tocsr() @ problem.C @ rates),
+        dead=read_only(back @ problem.dead),
+        live=read_only(back @ problem.live),
         F=F,
         G=F if choice is Choice.FEW else _cleaned(W @ problem.G @ stresses),
         g=read_only(W @ problem.g),
@@ -61,21 +61,21 @@ def reduced(problem: LimitProblem, mirror: Mirror, choice: Choice = Choice.FEW) 
         pivot=read_only(np.zeros(len(source))),
         half_sides=problem.half_sides[kept],
         resultants=B if len(six) == B.shape[0] else B[six],
-        compliance=read_only(stresses.multiply(stresses).T @ problem.compliance),
+        compliance=read_only(squares(stresses, problem.compliance)),
         ends=_ends(problem.ends[kept], mirror.image, blocks),
         row_interface=interface,
-        row_mode=_taken(problem.row_mode, source),
+        row_mode=problem.row_mode[source],
         friction=problem.friction[kept],
         units=problem.units.of(blocks, kept, source),
         blocks=_taken(problem.blocks, blocks),
         interfaces=_taken(problem.interfaces, kept),
         centroids=problem.centroids[blocks],
     )
-    return Planar(planar, stresses, rates, sparse.csr_array(W.T), blocks, mirror.flat, problem.units)
+    return Planar(planar, stresses, rates, W.T.tocsr(), blocks, mirror.flat, problem.units)
 
 
 def _taken(values: tuple[Any, ...], places: Indices) -> tuple[Any, ...]:
-    return tuple(map(values.__getitem__, places.tolist()))
+    return tuple([values[place] for place in places.tolist()])
 
 
 def _rates(mirror: Mirror, blocks: Indices) -> sparse.csr_array:
@@ -124,12 +124,11 @@ def _stresses_and_rows(
             own, X = first[its], basis[its][:, :, :d]
             new = width + np.arange(len(own) * d).reshape(-1, 1, d)
             width += len(own) * d
-            image = kind.image[own]
-            turned = np.where(paired[its], kind.turn[own] @ X, X)
-            for there, Y, also in ((own, X, np.ones(len(own), dtype=bool)), (image, turned, image != own)):
-                old = kind.places.columns[there][:, :, None]
-                keep = (Y != 0.0) & also[:, None, None]
-                triplets.append([np.broadcast_to(v, X.shape)[keep] for v in (Y, old, new)])
+            two = kind.image[own] != own
+            turned = np.where(paired[its][two], kind.turn[own[two]] @ X[two], X[two])
+            for there, Y, column in ((own, X, new), (kind.image[own[two]], turned, new[two])):
+                old, keep = kind.places.columns[there][:, :, None], Y != 0.0
+                triplets.append([np.broadcast_to(v, Y.shape)[keep] for v in (Y, old, column)])
             parts += _rows_of(kind, own, X, choice, mirror.flat)
     data, old, new = (np.concatenate(part) for part in zip(*triplets, strict=True))
     stresses = sparse.coo_array((data, (old, new)), shape=(problem.C.shape[0], width)).tocsr()
