@@ -103,13 +103,14 @@ class Layout:
         return np.minimum(first, last), last
 
     @cached_property
-    def _cell_stresses(self) -> Indices:
+    def cell_stresses(self) -> Indices:
+        """Stresses of each cell, shape (cells, size); s where there is none."""
         return self.stresses.reshape(-1, self.coupled)
 
     @cached_property
     def padding(self) -> Array:
         """Ones on the diagonals of places without a stress, shape (cells, size, size)."""
-        empty = self._cell_stresses == len(self.stress_place)
+        empty = self.cell_stresses == len(self.stress_place)
         return np.asarray(np.eye(empty.shape[1]) * empty[:, :, None])
 
     @cached_property
@@ -118,7 +119,7 @@ class Layout:
         per_interface = self.stresses.shape[1] // self.coupled
         inside = (self._reach[0] // self.coupled)[self.problem.cones.member] if per_interface > 1 else 0
         cell = self.problem.row_interface * per_interface + inside
-        return owned(cell, len(self._cell_stresses))[0]
+        return owned(cell, len(self.cell_stresses))[0]
 
     def rows(self, matrix: sparse.csr_array) -> Array:
         """Return the rows of a (R, s) matrix in the places of their own cell, shape (R, size)."""
@@ -133,7 +134,7 @@ class Layout:
 
     def per_cell(self, x: Array) -> Array:
         """Return stresses (s,) by cell, shape (cells, size)."""
-        return np.append(x, 0.0).take(self._cell_stresses)
+        return np.append(x, 0.0).take(self.cell_stresses)
 
     def by_interface(self, cells: Array) -> Array:
         """Return matrices of cells (cells, size, size) as diagonal blocks of interfaces, shape (m, k, k)."""

@@ -44,7 +44,7 @@ class Newton:
     @property
     def sign(self) -> float:
         """Sign of det J, but for a factor that is the same all along the path."""
-        return float(np.prod(np.sign(self.determinants))) * _sign(self.lu.factors)
+        return float(np.prod(np.sign(self.determinants))) * sign_of(self.lu.factors)
 
     def solve(self, *sides: Equations) -> list[Point]:
         """Return the direction d with J d = -q for each q, refined far down the path.
@@ -152,7 +152,7 @@ def _largest(columns: Array) -> Array:
     return np.array([np.abs(column).max() for column in columns.T])
 
 
-def _sign(lu: linalg.SuperLU) -> float:
+def sign_of(lu: linalg.SuperLU) -> float:
     """Sign of a determinant: of the pivots and of the two permutations."""
     pivots = float(np.prod(np.sign(lu.U.diagonal())))
     same = np.array_equal(lu.perm_r, lu.perm_c)

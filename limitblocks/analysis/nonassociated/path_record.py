@@ -17,6 +17,7 @@ UNSETTLED = "its load factor still changing"
 #: Told of the iterations of searches within another analysis, which has its own progress.
 WATCH: ContextVar[Callable[[Iteration], None] | None] = ContextVar("watch", default=None)
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
+DISPLACED = "path in displacements, rounded corners of yield"
 
 
 def recorder(
@@ -45,6 +46,12 @@ def off_load_path(how: str) -> tuple[str, ...]:
             *symmetric,
             "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
             "load_factor_range shows others",
+        )
+    if DISPLACED in how:
+        return (
+            *symmetric,
+            "loading with rounded corners of yield led near this solution, and rounds of the fixed point to "
+            "it: it need not be exactly that of the load path; load_factor_range shows others",
         )
     if ROUNDS in how:
         return (

@@ -9,6 +9,7 @@ from itertools import islice
 import numpy as np
 
 from limitblocks.analysis.nonassociated.closing import NEAR, Closing
+from limitblocks.analysis.nonassociated.displacement_path import pushed_over
 from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
@@ -23,7 +24,7 @@ from limitblocks.analysis.nonassociated.means import (
     follow,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED
+from limitblocks.analysis.nonassociated.path_record import DISPLACED, INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.settling import exact_nearby
 from limitblocks.analysis.pivot import pivoted
@@ -95,6 +96,13 @@ class Given:
             return closing(state), how + closing.how
         except KeyboardInterrupt:
             return state, f"{how}, {INTERRUPTED}"
+
+    def displaced(self, closing: Closing) -> Iterator[Way]:
+        """Give the end of a path in displacements, closed by rounds, where the problem has one."""
+        found = pushed_over(self.flow, self.x0, self.scale, closing, self.record)
+        if found is not None:
+            state, stopped = found
+            yield state, DISPLACED + (f", {INTERRUPTED}" if stopped else closing.how)
 
     def increments(self) -> Way:
         """Return the end of the load path, pushed by increments; the last one where the user stops it."""
@@ -238,6 +246,8 @@ def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
             yield state, how
         if not ended:
             yield given.closed_in_rounds(state, how, closing)
+        if one is means[0]:
+            yield from given.displaced(closing)
 
 
 def _large_planar_ways(given: Given) -> Iterator[Way]:

@@ -1,0 +1,186 @@
+"""A path in displacements: rigid blocks on elastic contact points are pushed until they collapse.
+
+    dead + a live = C^T x(C u),   live . u = tau
+
+x(e) are the forces of contact points at strains e, x0 at the permanent loads, with rounded corners of yield
+(:mod:`limitblocks.analysis.nonassociated.contact_points`). Where tau grows without limit and x stands still,
+u / tau is the mechanism of Eqs (54)-(59) for rounded yield, and rounds of the fixed point lead to that of
+yield itself. The curve folds where the structure snaps, and is followed by arclength as the tracked path is,
+in the energy of the joints. There is neither slack nor multiplier: points that open or carry next to nothing,
+whose rows start and stop to yield all the time, do not shorten its steps, as they do those of the tracked
+path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from limitblocks.analysis.nonassociated.contact_points import ContactPoints, contact_points
+from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_newton import sign_of
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.polish import defect
+from limitblocks.arrays import Array
+from limitblocks.evidence.elimination import Factors
+from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.evidence.results import Iteration
+from limitblocks.problem import Flow, State
+
+ROUNDED = 0.01  # of the unit of force of an interface: sharper corners have more folds, rounder ones, too
+FIRST, LEAST, LONGEST = 0.1, 1e-7, 1.0  # lengths of steps, of the displacements so far
+CUT = 0.35  # of the length after a failure
+PACE = (2.0, 2.0, 2.0, 1.4, 1.0, 1.0, 0.7)  # of the length after so many corrections
+FARTHEST = 3.0  # lengths that a correction may have
+BALANCED = 1e-9  # loads left over, of the unit of a block
+AHEAD, STILL = 10.0, 1e-3  # times tau in which the load factor of a collapse changes by no more than this
+BUDGET = 700  # factorisations: facades of 160 to 508 blocks take 230 to 570
+
+
+class Move(NamedTuple):
+    """Displacements (6 n,), load factor and tau of a point, or of a direction."""
+
+    u: Array
+    load_factor: float
+    tau: float
+
+    def plus(self, t: float, other: Move) -> Move:
+        """Return the sum with t times another."""
+        return Move(self.u + t * other.u, self.load_factor + t * other.load_factor, self.tau + t * other.tau)
+
+
+class DisplacementPath:
+    """The path of a problem with contact points on the way: its last point, and what is worth telling."""
+
+    def __init__(self, flow: Flow, points: ContactPoints, scale: float) -> None:
+        self.flow, self.points, self.layout = flow, points, Layout(flow)
+        p, k = flow.problem, len(points.friction)
+        self.cell = np.minimum(self.layout.cell_stresses[:, 0] // 3, k)  # the last one is empty
+        self.factorisations = 0
+        self.start = self._factors(points.forces(np.zeros((k, 3)))[1])
+        elastic = self._tangent(self.start[0])
+        work = elastic.load_factor  # per tau**2
+        self.unit = scale, scale / work
+        self.energy = scale**2 / work
+        self.at = Move(np.zeros_like(p.dead), 0.0, 0.0)
+
+    def state(self, at: Move) -> State:
+        """Return a point as a state of rates; that of the permanent loads has none."""
+        x = self._forces(at)[0]
+        return State(at.load_factor, x, at.u / (at.tau or 1.0), np.zeros_like(self.flow.problem.g))
+
+    def _forces(self, at: Move) -> tuple[Array, Array]:
+        forces, slope = self.points.forces((self.flow.problem.C @ at.u).reshape(-1, 3))
+        return forces.ravel(), slope
+
+    def _factors(self, slope: Array) -> tuple[Factors, float]:
+        """Factors of [[-K, live], [live^T, 0]], K = C^T dx/de C, and the sign of its determinant."""
+        C = self.layout.compatibility
+        cells = np.concatenate([slope, np.zeros_like(slope[:1])])[self.cell]
+        factors = self.layout.factors(np.swapaxes(C, 1, 2) @ (self.layout.by_interface(cells) @ C))
+        self.factorisations += 1
+        return factors, sign_of(factors.factors)
+
+    def _tangent(self, factors: Factors) -> Move:
+        d = factors.solve(np.append(np.zeros_like(self.flow.problem.dead), 1.0))
+        return Move(d[:-1], float(d[-1]), 1.0)
+
+    def points_met(self, record: Callable[[Iteration], None]) -> Iterator[Move]:
+        """Follow the path from the permanent loads, and give each of its points, until no step succeeds."""
+        (factors, first), length, failures = self.start, FIRST, 0
+        sign = first
+        while self.factorisations < BUDGET and length > LEAST:
+            turn, size = self._tangent(factors), max(1.0, self.product(self.at, self.at) ** 0.5)
+            step = sign * first * length * size / self.product(turn, turn) ** 0.5
+            try:
+                found = self.corrected(self.at.plus(step, turn), turn, FARTHEST * length * size)
+                if found is None:
+                    raise np.linalg.LinAlgError
+                at, corrections = found
+                factors, sign = self._factors(self._forces(at)[1])
+            except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+                length, failures = CUT * length, failures + 1
+                continue
+            self.at, length = at, min(PACE[min(corrections, len(PACE) - 1)] * length, LONGEST)
+            theta = self.unit[1] / max(abs(at.tau), self.unit[1])
+            load_factor = float(at.load_factor / self.flow.problem.units.live)
+            record(Iteration(load_factor, "path", theta, {"theta": theta}, self.factorisations, failures))
+            yield at
+
+    def product(self, a: Move, b: Move) -> float:
+        """Return the product of two directions: the energy of elastic joints, and of load factors."""
+        C, stiffness = self.flow.problem.C, self.points.stiffness.ravel()
+        energy = float((C @ a.u) @ (stiffness * (C @ b.u))) / self.energy
+        return energy + a.load_factor * b.load_factor / self.unit[0] ** 2
+
+    def corrected(self, z: Move, along: Move, longest: float) -> tuple[Move, int] | None:
+        """Return the point of the path in the plane through z normal to a direction, and the corrections."""
+        p, first = self.flow.problem, z
+        for k in range(len(PACE) + 2):
+            x, slope = self._forces(z)
+            left = p.balance @ x - p.dead - z.load_factor * p.live
+            if np.linalg.norm(left) < BALANCED:
+                return z, k
+            factors, _ = self._factors(slope)
+            turn = self._tangent(factors)
+            d = factors.solve(np.append(left, z.tau - p.live @ z.u))
+            step = Move(d[:-1], float(d[-1]), 0.0)
+            off = self.product(along, z.plus(-1.0, first).plus(1.0, step))
+            step = step.plus(-off / self.product(along, turn), turn)
+            if not self.product(step, step) < longest**2:  # or not a number
+                return None
+            z = z.plus(1.0, step)
+        return None
+
+
+def pushed_over(
+    flow: Flow,
+    x0: Array,
+    scale: float,
+    closing: Callable[[State], State],
+    record: Callable[[Iteration], None],
+) -> tuple[State, bool] | None:
+    """Follow the path to a collapse and close it there; None if the problem is not one of contact points.
+
+    Parameters
+    ----------
+    flow : Flow
+        The limit problem and its flow rule, without dilatancy.
+    x0 : Array, shape (s,)
+        Stresses under the permanent loads, dimensionless.
+    scale : float
+        Load factor that steps are measured by, dimensionless.
+    closing : callable
+        Leads from a state near a solution to it.
+    record : callable
+        Told of each point.
+
+    Returns
+    -------
+    State, bool
+        The solution or the state that rounds from the end lead to, and whether the user stopped it.
+    """
+    points = contact_points(flow, x0, ROUNDED)
+    if points is None:
+        return None
+    path, met = DisplacementPath(flow, points, scale), list[Move]()
+    try:
+        for at in path.points_met(record):
+            met.append(at)
+            if _collapses(met):
+                found = closing(path.state(at))
+                if defect(flow, found) <= TOLERANCE:
+                    return found, False
+                met.clear()
+        return closing(path.state(path.at)), False
+    except KeyboardInterrupt:
+        return path.state(path.at), True
+
+
+def _collapses(met: list[Move]) -> bool:
+    """Whether the load factor stood still while tau grew to a multiple."""
+    now = met[-1]
+    before = [at for at in met if 0.0 < at.tau <= now.tau / AHEAD]
+    return bool(before) and abs(now.load_factor - before[-1].load_factor) <= STILL * abs(now.load_factor)

@@ -1,0 +1,159 @@
+"""The path in displacements of structures with contact points, and what elastic contact points carry."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import displacement_path, ways
+from limitblocks.analysis.nonassociated.closing import Closing
+from limitblocks.analysis.nonassociated.contact_points import ContactPoints, contact_points
+from limitblocks.analysis.nonassociated.displacement_path import ROUNDED, pushed_over
+from limitblocks.analysis.nonassociated.means import LARGE_MEANS
+from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, permanent
+from limitblocks.analysis.polish import defect
+from limitblocks.problem import Flow
+
+
+def sample(rounding, count=300):
+    rng = np.random.default_rng(1)
+    stiffness = rng.uniform(0.5, 2.0, (count, 3))
+    stiffness[:, 1] = stiffness[:, 0]
+    points = ContactPoints(rng.uniform(0.0, 1.0, count), stiffness, rng.normal(size=(count, 3)), rounding)
+    return points, rng.normal(size=(count, 3)), rng
+
+
+def test_forces_are_those_of_coulomb_friction_without_dilatancy_where_corners_are_sharp():
+    points, strains, _ = sample(1e-9)
+    elastic = points.x0 + strains * points.stiffness
+    N = np.minimum(elastic[:, 2], 0.0)
+    v = np.linalg.norm(elastic[:, :2], axis=1)
+    share = np.minimum(1.0, -points.friction * N / v)
+    expected = np.column_stack([share[:, None] * elastic[:, :2], N])
+    assert np.abs(points.forces(strains)[0] - expected).max() < 1e-8
+
+
+@pytest.mark.parametrize("rounding", [1e-9, 0.01, 1.0])
+def test_forces_are_within_yield_however_round_its_corners_are(rounding):
+    points, strains, _ = sample(rounding)
+    forces, _ = points.forces(30.0 * strains)
+    assert (forces[:, 2] < 0.0).all()
+    assert (np.linalg.norm(forces[:, :2], axis=1) <= -points.friction * forces[:, 2] * (1.0 + 1e-9)).all()
+
+
+def test_derivatives_of_the_forces_are_those_of_differences():
+    points, strains, rng = sample(0.1)
+    strains[0] = -points.x0[0] / points.stiffness[0]  # no force at all
+    direction, h = rng.normal(size=strains.shape), 1e-6
+    ahead, behind = points.forces(strains + h * direction)[0], points.forces(strains - h * direction)[0]
+    slope = np.einsum("kij,kj->ki", points.forces(strains)[1], direction)
+    assert np.abs((ahead - behind) / (2.0 * h) - slope).max() < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("joint", "dilatancy"),
+    [
+        (lb.OrdunaLourenco(0.6), 0.0),
+        (lb.PointContact(0.0), 0.0),
+        (lb.PointContact(0.6, cone="inner"), 0.0),
+        (lb.PointContact(0.6), 0.3),
+        (lb.PointContact(0.6), 0.6),
+    ],
+)
+def test_other_joints_and_dilatancy_have_no_such_path(joint, dilatancy):
+    problem = lb.structures.block(joint, width=1.0, height=1.0).problem
+    x0 = np.zeros(problem.C.shape[0])
+    assert contact_points(Flow(problem, dilatancy), x0, ROUNDED) is None
+
+
+def test_a_structure_with_a_tie_has_no_such_path():
+    wall = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=3)
+    TIE
+    assert contact_points(Flow(problem), np.zeros(problem.C.shape[0]), ROUNDED) is None
+
+
+def solved(model, record=lambda _: None):
+    """The solution of Eqs (54)-(59) that the path leads to, its load factor, and the flow rule."""
+    problem = own_units(model, bracket(model))
+    flow = Flow(problem)
+    x0, scale = permanent(problem, problem.compliance), load_scale(problem, bracket(model).associated)
+    state, _ = pushed_over(flow, x0, scale, Closing(flow, 1e-8), record)
+    return state.load_factor / problem.units.live, defect(flow, state)
+
+
+@pytest.mark.parametrize(
+    ("friction", "width", "height", "expected"),
+    [(0.5, 1.0, 4.0, 0.25), (0.2, 1.0, 2.0, 0.2), (0.9, 0.3, 1.0, 0.3)],
+)
+def test_a_block_slides_or_rocks(friction, width, height, expected):
+    block = lb.structures.block(lb.PointContact(friction), width=width, height=height)
+    load_factor, left = solved(block)
+    assert left <= 1e-8
+    assert abs(load_factor - expected) < 1e-6
+
+
+def test_a_wedge_in_a_groove_slides_along_it():
+    """Mu / sin w without dilatancy, w half of the angle of the groove."""
+    wedge = lb.structures.EXAMPLES["wedge"](lb.PointContact(0.4))
+    along = replace(wedge, live=lb.mass_proportional((1.0, 0.0, 0.0)))
+    load_factor, left = solved(along)
+    assert left <= 1e-8
+    assert abs(load_factor - 0.4 * np.sqrt(2.0)) < 1e-6
+
+
+def test_the_path_turns_where_the_structure_snaps():
+    """A corner pushed out: displacements have to fall on the way, and the sign of det J says so."""
+    corner = lb.structures.EXAMPLES["corner"](lb.PointContact(0.7))
+    model = replace(corner, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    met = []
+    load_factor, left = solved(model, met.append)
+    assert left <= 1e-8
+    assert load_factor <= bracket(model).associated
+    theta = np.array([one.step_size for one in met])
+    assert (np.diff(theta) > 0.0).sum() >= 3
+    assert theta[-1] < 0.1
+
+
+def large(monkeypatch, budget=1):
+    """Small models take the means of large ones, whose first path is cut."""
+    first, *others = LARGE_MEANS
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (first._replace(budget=budget), *others))
+    corner = lb.structures.EXAMPLES["corner"](lb.PointContact(0.6))
+    return replace(corner, live=lb.mass_proportional((1.0, 0.0, 0.0)))
+
+
+def test_a_large_structure_of_contact_points_is_pushed_in_displacements(monkeypatch):
+    found = lb.nonassociated(large(monkeypatch))
+    assert found.how.startswith("path in displacements, rounded corners of yield, ")
+    assert found.how.endswith("of the fixed point")
+    assert any("rounded corners of yield" in remark for remark in found.remarks)
+    assert found.residuals.worst.value <= 1e-8
+
+
+def test_a_structure_of_other_joints_goes_on_to_a_larger_barrier(monkeypatch):
+    model = large(monkeypatch)
+    other = lb.structures.EXAMPLES["corner"](lb.OrdunaLourenco(0.6))
+    assert "barrier 3" in lb.nonassociated(replace(other, live=model.live)).how
+
+
+def test_a_path_that_used_up_its_budget_ends_in_rounds(monkeypatch):
+    """From the first points rounds do not close it."""
+    monkeypatch.setattr(displacement_path, "BUDGET", 10)
+    corner = lb.structures.EXAMPLES["corner"](lb.PointContact(0.7))
+    met = []
+    _, left = solved(replace(corner, live=lb.mass_proportional((0.0, 1.0, 0.0))), met.append)
+    assert met[-1].inner <= 10 + len(displacement_path.PACE) + 3
+    assert np.isfinite(left)
+
+
+def test_the_user_may_stop_it(monkeypatch):
+    def stop(one):
+        if one.kind == "path" and one.residuals["theta"] < 1.0:
+            raise KeyboardInterrupt
+
+    found = lb.nonassociated(large(monkeypatch), progress=stop, throw=False)
+    assert found.status is lb.results.Status.INTERRUPTED
+    assert found.how == "path in displacements, rounded corners of yield, interrupted"
+    assert found.residuals["equilibrium"] <= 1e-8
