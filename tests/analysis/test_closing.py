@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from paths import start
 
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import closing, ways
@@ -122,6 +123,36 @@ def test_pivots_are_not_tried_far_from_a_solution(monkeypatch):
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(closing, "pivoted", never)
     assert lb.nonassociated(lb.structures.EXAMPLES["corner"](lb.OrdunaLourenco(0.6))).converged
+
+
+@pytest.mark.parametrize(("budget", "begin"), [(5, 0), (100, 1)])
+def test_rounds_begin_where_less_is_left_than_the_loads(budget, begin, monkeypatch):
+    """The path of this corner is at a residual of 16 after five factorisations, and at .48 after 100."""
+    begun = []
+
+    def closed(flow, _nearest, state, _tolerance):
+        begun.append(defect(flow, state))
+        return state, 0
+
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (LARGE_MEANS[0]._replace(budget=budget),))
+    monkeypatch.setattr(closing, "closed", closed)
+    lb.nonassociated(corner(), throw=False)
+    assert len(begun) == begin
+    assert max(begun, default=0.0) < 1.0
+
+
+def test_the_first_path_is_followed_alone_where_rounds_do_not_begin(monkeypatch):
+    """That of the load path is asked for; the next one would solve the corner."""
+    first, *others = LARGE_MEANS
+    monkeypatch.setattr(ways, "LARGE", 10)
+    monkeypatch.setattr(ways, "LARGE_MEANS", (first._replace(budget=5), *others))
+    flow, x0, _ = start(corner())
+    scale = load_scale(flow.problem, bracket(corner()).associated)
+    given = ways.Given(flow, x0, scale, 1e-8, lambda _: None)
+    state, how = ways.first_to_solve(given, MEANS, first=True)
+    assert "small barrier" in how
+    assert defect(flow, state) > 1.0
 
 
 def test_a_large_model_is_solved_by_a_short_path_and_rounds(monkeypatch):

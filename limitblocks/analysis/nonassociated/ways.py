@@ -35,6 +35,7 @@ from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, State, Turning
 
 LARGE = 100  # blocks in space: beyond it long paths take more than 40 times as long as bounds
+FAR = 1.0  # residual of the end of a path: from nine ends farther off, of groin vaults, rounds close none
 LARGEST = 300  # beyond it one path takes what time there is
 LARGE_IN_PLANE = 500  # beyond it increments take 35 times as long as bounds
 SMALL = Barrier().size
@@ -139,14 +140,14 @@ def first_to_solve(
         means = own_means(len(flow.problem.blocks), _in_space(flow), flow.dissipative, half is no_half)
     large = means in (LARGE_MEANS, LARGEST_MEANS)
     if large:
-        ways = _large_ways(given, means)
+        ways = _large_ways(given, means[:1] if first else means)
     elif means is LARGE_PLANAR_MEANS:
         ways = _large_planar_ways(given)
     else:
         ways = _ways(given, means)
-    if first:  # that of a large model comes without rounds and with them
-        ways = islice(ways, 2 if large else 1)
-    elif len(means) > 1:
+    if first and not large:
+        ways = islice(ways, 1)
+    elif not first and len(means) > 1:
         ways = _then(ways, half, given)
     for state, how in ways:
         met.append((state, how))
@@ -241,10 +242,11 @@ def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
     closing = Closing(given.flow, given.tolerance)
     for one in means:
         state, how = given.tracked(one, closing=closing)
-        ended = how.endswith(INTERRUPTED) or defect(given.flow, state) <= given.tolerance
+        left = defect(given.flow, state)
+        ended = how.endswith(INTERRUPTED) or left <= given.tolerance
         if ended or one is means[0]:
             yield state, how
-        if not ended:
+        if not ended and left < FAR:
             yield given.closed_in_rounds(state, how, closing)
         if one is means[0]:
             yield from given.displaced(closing)
