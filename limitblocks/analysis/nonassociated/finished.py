@@ -52,10 +52,11 @@ def finished(
     throw: bool,
     confirm: bool = True,
     limit: float | None = None,
+    why: str = "",
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance.
 
-    With a `limit` of the backward error, unless that is within it.
+    With a `limit` of the backward error, unless that is within it; the error says `why`, if that is known.
     """
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
@@ -94,7 +95,7 @@ def finished(
         fixed_point_change=change,
     )
     if throw and not result.accepted:
-        raise _refused(model, flow, result)
+        raise _refused(model, flow, result, why)
     return result
 
 
@@ -125,7 +126,7 @@ def _evidence(
         return state, error, None, True
 
 
-def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
+def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> NotConverged:
     """The error that says why a result is no solution."""
     problem, worst = flow.problem, result.residuals.worst
     state = state_without_solution(flow)
@@ -143,10 +144,14 @@ def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
     if result.status is Status.UNSETTLED:
         why = "the load factor still changed as its path was followed on"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
-    said = f"; {UNBOUNDED}" if result.astray else reached
+    said = f"; {UNBOUNDED}" if result.astray and not known else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
-        for note in (*uncarried_words(uncarried(model, model.tolerances)), ASK_FIRST):
+        for note in (
+            *(known,) * bool(known),
+            *uncarried_words(uncarried(model, model.tolerances)),
+            ASK_FIRST,
+        ):
             error.add_note(note)
     return error
 

@@ -49,6 +49,10 @@ TOO_SMALL = (
     "increments of the load path fail, however small; Settings(first=10) of limitblocks.settings, "
     "settings= of load_path, begins with a larger one"
 )
+SPRINGS_BACK = (
+    "; from load factor {:.6g} on the structure springs back, farther than they follow: a smaller barrier, "
+    "Settings(barrier=1e-6), may"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +117,7 @@ def pushed(
     path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
     first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     pushes: list[Pushed] = []
-    state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
+    state = at_rest(flow, x0)
     used = failures = 0
     while used < settings.budget and rho * LEAST < first:
         met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
@@ -138,7 +142,15 @@ def pushed(
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
+    if met.returned:
+        reached = pushes[-1].state.load_factor if pushes else 0.0
+        why += SPRINGS_BACK.format(reached / flow.problem.units.live)
     return tuple(pushes), polish(flow, state), why
+
+
+def at_rest(flow: Flow, x0: Array) -> State:
+    """The state of the permanent loads, of stresses `x0`."""
+    return State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
 
 
 def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals | None, State | None]:
@@ -167,5 +179,9 @@ def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
     state = polish(flow, reached)
     if tolerance < defect(flow, state) < DEGENERATE:
         state = pivoted(flow, reached)
-    near = abs(state.load_factor - before) <= DRIFT * max(abs(state.load_factor), abs(before))
-    return state if near and defect(flow, state) <= tolerance else None
+    return state if near(state, before) and defect(flow, state) <= tolerance else None
+
+
+def near(state: State, load_factor: float) -> bool:
+    """Whether a polished state is that of an increment that ends at this load factor."""
+    return abs(state.load_factor - load_factor) <= DRIFT * max(abs(state.load_factor), abs(load_factor))
