@@ -6,7 +6,7 @@ from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, off_load_path
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, RETURNS, UNSETTLED, off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
@@ -144,7 +144,7 @@ def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> Not
     if result.status is Status.UNSETTLED:
         why = "the load factor still changed as its path was followed on"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
-    said = f"; {UNBOUNDED}" if result.astray and not known else reached
+    said = f"; {UNBOUNDED}" if result.astray and RETURNS not in known else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
         for note in (

@@ -22,6 +22,7 @@ from limitblocks.analysis.nonassociated.increment import (
 )
 from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_record import RETURNS
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.stretch import ARRIVED
@@ -50,7 +51,7 @@ TOO_SMALL = (
     "settings= of load_path, begins with a larger one"
 )
 SPRINGS_BACK = (
-    "; from load factor {:.6g} on the structure springs back, farther than they follow: a smaller barrier, "
+    f"; near load factor {{:.6g}} the structure {RETURNS}, farther than they follow: a smaller barrier, "
     "Settings(barrier=1e-6), may"
 )
 
@@ -118,13 +119,15 @@ def pushed(
     first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     pushes: list[Pushed] = []
     state = at_rest(flow, x0)
-    used = failures = 0
+    used, failures, sprung = 0, 0, None
     while used < settings.budget and rho * LEAST < first:
         met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
         used += met.factorisations
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
+            if met.returned:
+                sprung = pushes[-1].state.load_factor if pushes else 0.0
             if met.returned and pushes:  # a snap longer than the increment: once more, from farther back
                 last = pushes.pop()
                 path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
@@ -142,9 +145,8 @@ def pushed(
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
-    if met.returned:
-        reached = pushes[-1].state.load_factor if pushes else 0.0
-        why += SPRINGS_BACK.format(reached / flow.problem.units.live)
+    if sprung is not None:
+        why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
     return tuple(pushes), polish(flow, state), why
 
 

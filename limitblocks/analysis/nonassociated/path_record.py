@@ -15,6 +15,7 @@ from limitblocks.evidence.results import ITERATIONS, Iteration
 CLOSED, INTERRUPTED = "closed", "interrupted"
 UNSETTLED = "its load factor still changing"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
+RETURNS = "springs back"
 
 log = logging.getLogger(ITERATIONS)
 
