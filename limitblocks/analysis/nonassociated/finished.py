@@ -11,7 +11,7 @@ from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.analysis.uncarried import uncarried, uncarried_words
-from limitblocks.arrays import read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
 from limitblocks.evidence.crushing import beyond_stress_block
@@ -64,14 +64,11 @@ def finished(
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
     status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
-    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
-    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
-    bounds, claimed = enclosing.bounds, enclosing.of(flow)
-    dead = (
-        bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
-    )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
+    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
+    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
+    claimed = enclosing.of(flow)
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
@@ -80,7 +77,7 @@ def finished(
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
-        dead_load_stresses=dead,
+        dead_load_stresses=_dead_load_stresses(model, enclosing),
         residuals=residuals,
         backward_error=error,
         status=status,
@@ -97,6 +94,13 @@ def finished(
     if throw and not result.accepted:
         raise _refused(model, flow, result, why)
     return result
+
+
+def _dead_load_stresses(model: Model, enclosing: Bracket) -> Array:
+    """Those of the bounds, where these were found."""
+    if enclosing.bounds:
+        return enclosing.bounds.dead_load_stresses
+    return dead_load_state(model.problem) * model.problem.stress_units
 
 
 def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:

@@ -122,23 +122,20 @@ def load_path(
         return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
-    found = (
-        None if planar is None else _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
-    )
-    if found is None:
-        found = load(flow, start_stresses(model, problem, weights, start), weights)
+    found = planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+    found = found or load(flow, start_stresses(model, problem, weights, start), weights)
     record(end(flow, found.last))
     collapse = finished(
         model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw, why=found.why
     )
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
+    remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
-        remarks = compared(collapse.load_factor, tracked)
     except KeyboardInterrupt:  # the load path is complete
-        tracked, remarks = np.nan, (NOT_COMPARED,)
-    remarks += (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
+        return LoadPath(steps, collapse, folds, trace, np.nan, (NOT_COMPARED, *remarks))
+    remarks = (*compared(collapse.load_factor, tracked), *remarks)
     return LoadPath(steps, collapse, folds, trace, tracked, remarks)
 
 

@@ -21,7 +21,7 @@ from limitblocks.analysis.nonassociated.increment import (
     increment,
 )
 from limitblocks.analysis.nonassociated.path import DEGENERATE
-from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_record import RETURNS
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -128,13 +128,7 @@ def pushed(
             failures += 1
             if met.returned:
                 sprung = pushes[-1].state.load_factor if pushes else 0.0
-            if met.returned and pushes:  # a snap longer than the increment: once more, from farther back
-                last = pushes.pop()
-                path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
-            elif met.returned and not path.behind:  # beyond the permanent loads
-                path = replace(path, behind=BEHIND / rho)
-            else:
-                rho *= settings.growth**2
+            path, rho = _again(path, rho, pushes, met.returned, settings.growth)
             continue
         state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
@@ -148,6 +142,16 @@ def pushed(
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
     return tuple(pushes), polish(flow, state), why
+
+
+def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:
+    """Where the increment after one that failed starts, and how large it is; a push may be taken back."""
+    if returned and pushes:  # a snap longer than the increment: once more, from farther back
+        last = pushes.pop()
+        return replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
+    if returned and not path.behind:  # beyond the permanent loads
+        return replace(path, behind=BEHIND / rho), rho
+    return path, rho * growth**2
 
 
 def at_rest(flow: Flow, x0: Array) -> State:
