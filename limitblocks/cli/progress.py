@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 import time
@@ -25,41 +26,41 @@ Tell = Callable[[str, float | None], None]
 def of_iterations(verb: str) -> Iterator[Callable[[Iteration], None]]:
     """Give a callback for the iterations of an analysis."""
     with _told(verb) as tell:
-        yield lambda one: tell(f"{one.kind}: {_in_words(one.load_factor)}", _share(one))
+        yield lambda one: tell(_of(one), _share(one))
 
 
 @contextmanager
 def of_stages(verb: str) -> Iterator[Callable[[str], None]]:
     """Give a callback for the stages of an analysis."""
-    with _told(verb) as tell:
+    with _told_within(verb) as tell:
         yield lambda stage: tell(stage, None)
 
 
 @contextmanager
 def of_points(verb: str) -> Iterator[Callable[[CapacityPoint], None]]:
     """Give a callback for the points of a capacity curve."""
-    with _told(verb) as tell:
+    with _told_within(verb) as tell:
         yield lambda one: tell(f"{one.displacement:.6g} m: load factor {one.load_factor:.6g}", None)
 
 
 @contextmanager
 def of_settlement(verb: str) -> Iterator[Callable[[SettlementPoint], None]]:
     """Give a callback for the points of a support that settles."""
-    with _told(verb) as tell:
+    with _told_within(verb) as tell:
         yield lambda one: tell(f"{one.displacement:.6g} m: reaction {one.reaction:.6g} N", None)
 
 
 @contextmanager
 def of_places(verb: str) -> Iterator[Callable[[float, float], None]]:
     """Give a callback for the places of a vehicle."""
-    with _told(verb) as tell:
+    with _told_within(verb) as tell:
         yield lambda x, factor: tell(f"X = {x:.6g} m: {_in_words(factor)}", None)
 
 
 @contextmanager
 def of_a_count(verb: str) -> Iterator[Callable[[int, int], None]]:
     """Give a callback for the number of analyses that are done, and of all."""
-    with _told(verb) as tell:
+    with _told_within(verb) as tell:
         yield lambda done, total: tell(f"{done} of {total}", done / total)
 
 
@@ -76,26 +77,42 @@ def _told(verb: str) -> Iterator[Tell]:
     from rich.console import Console
 
     console = Console(stderr=True)
-    with _bar(verb, console) if console.is_terminal else _lines(verb) as tell, _within(tell) as told:
-        yield told
+    with _bar(verb, console) if console.is_terminal else _lines(verb) as tell:
+        yield tell
 
 
 @contextmanager
-def _within(tell: Tell) -> Iterator[Tell]:
+def _told_within(verb: str) -> Iterator[Tell]:
     """Tell after what is told of an analysis how one within it goes, such as at the next point of a curve."""
-    from limitblocks.analysis.nonassociated.path_record import WATCH
+    from limitblocks.evidence.results import ITERATIONS
 
-    said = [""]
+    log, said = logging.getLogger(ITERATIONS), [""]
+    with _told(verb) as tell:
 
-    def outer(text: str, share: float | None) -> None:
-        said[:] = [f"{text}; next "]
-        tell(text, share)
+        def outer(text: str, share: float | None) -> None:
+            said[:] = [f"{text}; next "]
+            tell(text, share)
 
-    watch = WATCH.set(lambda one: tell(f"{said[0]}{one.kind}: {_in_words(one.load_factor)}", None))
-    try:
-        yield outer
-    finally:
-        WATCH.reset(watch)
+        heard = _Heard(lambda one: tell(f"{said[0]}{_of(one)}", None))
+        level = log.level
+        log.setLevel(logging.DEBUG)
+        log.addHandler(heard)
+        try:
+            yield outer
+        finally:
+            log.removeHandler(heard)
+            log.setLevel(level)
+
+
+class _Heard(logging.Handler):
+    """Passes on the iterations that are logged."""
+
+    def __init__(self, show: Callable[[Iteration], None]) -> None:
+        super().__init__()
+        self.show = show
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self.show(record.msg)  # type: ignore[arg-type] # the Iteration itself
 
 
 @contextmanager
@@ -134,6 +151,10 @@ def _lines(verb: str) -> Iterator[Tell]:
     finally:
         ended.set()
         thread.join()
+
+
+def _of(one: Iteration) -> str:
+    return f"{one.kind}: {_in_words(one.load_factor)}"
 
 
 def _in_words(load_factor: float) -> str:

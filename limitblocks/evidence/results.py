@@ -15,6 +15,9 @@ from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 from limitblocks.shown import Result, kept
 
+#: Logger told of each Iteration, at debug level: also of a search within another analysis.
+ITERATIONS = "limitblocks.iterations"
+
 
 @dataclass(frozen=True)
 class Iteration:
@@ -42,6 +45,9 @@ class Iteration:
     residuals: dict[str, float]
     inner: int
     failures: int
+
+    def __str__(self) -> str:
+        return f"{self.kind}: load factor {self.load_factor:.6g}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

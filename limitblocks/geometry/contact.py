@@ -114,12 +114,7 @@ def find_contacts(
     ModelError
         Blocks have the same name, or a tolerance is out of range.
     """
-    if isinstance(joint, type):
-        raise ModelError(
-            f"joint is the class {joint.__name__}, expected one made of it: {joint.__name__}(...)"
-        )
-    blocks = sequence_of("blocks", blocks, Block)
-    _refuse_same_names(blocks)
+    blocks = _checked(blocks, joint)
     names = [block.name for block in blocks]
     if len(blocks) < 2:
         return Contacts((), (), (), tuple(names), (), tolerances=chosen(gap, angle, width))
@@ -152,10 +147,16 @@ def find_contacts(
     )
 
 
-def _refuse_same_names(blocks: Sequence[Block]) -> None:
+def _checked(blocks: Sequence[Block], joint: object) -> tuple[Block, ...]:
+    if isinstance(joint, type):
+        raise ModelError(
+            f"joint is the class {joint.__name__}, expected one made of it: {joint.__name__}(...)"
+        )
+    blocks = sequence_of("blocks", blocks, Block)
     repeated = [name for name, times in Counter(block.name for block in blocks).items() if times > 1]
     if repeated:
         raise ModelError(*(f"several blocks are named {name!r}; names must be unique" for name in repeated))
+    return blocks
 
 
 def _ends(names: Sequence[str], faces: FaceTable, patches: Patches) -> list[tuple[str, str]]:

@@ -101,11 +101,7 @@ def verification(
     collapse = collapse_of(model, result)
     refuse_unproven(model, result)
     _refuse(demand, collapse_demand, damage_demand, curve, floor)
-    if np.shape(damping) != (2,):
-        raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
-    if q is None:
-        raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
-    q, confidence = number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
+    q, confidence = _factors(q, confidence, damping)
     place = Place(floor, number(elastic_period, "T_0", "s", least=0.0, most=MOST))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
@@ -151,6 +147,15 @@ def _refuse(demand: object, *others: object) -> None:
             refuse_kind(own, kind, word)
         if isinstance(own, Spectrum) and own.a_g > MOST_GROUND:
             raise ModelError(f"a_g is {own.a_g:g} m/s2, {own.a_g / G:.3g} g; expected at most 2 g: its unit?")
+
+
+def _factors(q: float | None, confidence: float, damping: tuple[float, float]) -> tuple[float, float]:
+    """Return q and FC; ModelError where they are out of range, or the damping is not that of two states."""
+    if np.shape(damping) != (2,):
+        raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
+    if q is None:
+        raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
+    return number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)
 
 
 def _oscillator(

@@ -25,6 +25,13 @@ LOADED = (
     "The mechanism with the vehicle at its worst position, drawn {:.3g} times, linearly; its size is "
     "arbitrary. Dashed: the moving blocks before they moved."
 )
+SLIDING = "may be less where joints slide: nonassociated of worst.model, or of what --model writes"
+DRIVEN = (
+    "Associated load factor of the axle loads given, with the vehicle at each position, in place of the "
+    "model's own live load; the fill disperses the axles. Every mechanism found bounds the load factor at "
+    "all positions; tried is where they carry least, until that is attained. That no other position is worse "
+    "is searched for, not proven."
+)
 
 
 def settlement_section(_model: Model, found: Settlement) -> Section:
@@ -113,23 +120,14 @@ def vehicle_section(_model: Model, found: WorstPosition) -> Section:
     return Section(
         title="Vehicle on the deck",
         own=True,
-        meaning=(
-            "Associated load factor of the axle loads given, with the vehicle at each position, in place of "
-            "the model's own live load; the fill disperses the axles. Every mechanism found bounds the load "
-            "factor at all positions; tried is where they carry least, until that is attained. That no other "
-            "position is worse is searched for, not proven."
-        ),
+        meaning=DRIVEN,
         headline=cut(found.bounds.lower),
         quantity=f"associated load factor of the vehicle, worst found: axle 1 at X = {found.position:.4g} m",
         values=(
             *_vehicle_rows(found),
             ("Static load factor", at_least(found.bounds.lower), "at the worst position"),
             ("Kinematic load factor", at_most(found.bounds.upper), "at the worst position"),
-            (
-                "Without dilatancy",
-                "not computed",
-                "may be less where joints slide: nonassociated of worst.model, or of what --model writes",
-            ),
+            ("Without dilatancy", "not computed", SLIDING),
             (
                 "Axles on the structure",
                 kilonewtons(-float(acting[2])),

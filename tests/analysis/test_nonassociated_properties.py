@@ -1,5 +1,6 @@
 """Properties of the non-associated answer: bracket, associated limit, invariance, restart, honesty."""
 
+import logging
 from dataclasses import replace
 
 import numpy as np
@@ -144,6 +145,17 @@ def test_progress_and_history_have_every_residual(kind):
         assert point.kind == "path"
         assert point.residuals == {"theta": point.step_size}
         assert 0.0 < point.step_size <= 1.2
+
+
+def test_iterations_within_another_analysis_are_logged(kind, caplog):
+    model = wall(kind)
+    with caplog.at_level(logging.DEBUG, "limitblocks.iterations"):
+        found = lb.nonassociated(model)
+        assert tuple(record.msg for record in caplog.records) == found.history
+        assert caplog.messages[-1] == f"polish: load factor {found.load_factor:.6g}"
+        caplog.clear()
+        lb.practice.adequacy(model, lb.practice.PartialFactors(1.0, 1.0, 1.0), without_dilatancy=True)
+    assert {record.msg.kind for record in caplog.records} == {"path", "polish"}
 
 
 def test_the_answer_says_which_path_it_was(reference):

@@ -6,12 +6,12 @@ from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, off_load_path
+from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, RETURNS, UNSETTLED, off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.analysis.uncarried import uncarried, uncarried_words
-from limitblocks.arrays import read_only
+from limitblocks.arrays import Array, read_only
 from limitblocks.errors import NoSolution, NotConverged
 from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
 from limitblocks.evidence.crushing import beyond_stress_block
@@ -52,10 +52,11 @@ def finished(
     throw: bool,
     confirm: bool = True,
     limit: float | None = None,
+    why: str = "",
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance.
 
-    With a `limit` of the backward error, unless that is within it.
+    With a `limit` of the backward error, unless that is within it; the error says `why`, if that is known.
     """
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
@@ -63,14 +64,11 @@ def finished(
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
     status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
-    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
-    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
-    bounds, claimed = enclosing.bounds, enclosing.of(flow)
-    dead = (
-        bounds.dead_load_stresses if bounds else dead_load_state(model.problem) * model.problem.stress_units
-    )
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
+    remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
+    remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
+    claimed = enclosing.of(flow)
     result = Nonassociated(
         load_factor=si.load_factor,
         frictionless=claimed.frictionless,
@@ -79,7 +77,7 @@ def finished(
         generalised_stresses=read_only(si.x),
         displacement_rates=in_model_order(model, si.u),
         flow_multipliers=read_only(si.y),
-        dead_load_stresses=dead,
+        dead_load_stresses=_dead_load_stresses(model, enclosing),
         residuals=residuals,
         backward_error=error,
         status=status,
@@ -94,8 +92,15 @@ def finished(
         fixed_point_change=change,
     )
     if throw and not result.accepted:
-        raise _refused(model, flow, result)
+        raise _refused(model, flow, result, why)
     return result
+
+
+def _dead_load_stresses(model: Model, enclosing: Bracket) -> Array:
+    """Those of the bounds, where these were found."""
+    if enclosing.bounds:
+        return enclosing.bounds.dead_load_stresses
+    return dead_load_state(model.problem) * model.problem.stress_units
 
 
 def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:
@@ -125,7 +130,7 @@ def _evidence(
         return state, error, None, True
 
 
-def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
+def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> NotConverged:
     """The error that says why a result is no solution."""
     problem, worst = flow.problem, result.residuals.worst
     state = state_without_solution(flow)
@@ -143,10 +148,14 @@ def _refused(model: Model, flow: Flow, result: Nonassociated) -> NotConverged:
     if result.status is Status.UNSETTLED:
         why = "the load factor still changed as its path was followed on"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
-    said = f"; {UNBOUNDED}" if result.astray else reached
+    said = f"; {UNBOUNDED}" if result.astray and RETURNS not in known else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
-        for note in (*uncarried_words(uncarried(model, model.tolerances)), ASK_FIRST):
+        for note in (
+            *(known,) * bool(known),
+            *uncarried_words(uncarried(model, model.tolerances)),
+            ASK_FIRST,
+        ):
             error.add_note(note)
     return error
 

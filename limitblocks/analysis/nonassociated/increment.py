@@ -31,6 +31,8 @@ SPANS = (10.0, 1000.0)
 NO_BARRIER = 1e-10  # mu at the end of an increment; below it the eliminated equations lose their digits
 SHARP = 1e-8  # size of the barrier where an increment snaps: by about its root a fold comes early
 FELL = 1e-3  # of the load factor at its start: an increment that loses more may have snapped unseen
+# That loses so much and is lost without the barrier has begun beyond a snap: facades that soften lose .4 %.
+OVER = 0.1
 FARTHER = (1.0, 2.0, 4.0)  # times tau
 FARTHEST = 1000.0  # theta where a path that counts tau from before its start has gone back beyond that
 FADING = 0.5 * REFINED  # theta where the barrier begins to fade: directions are refined from there on
@@ -113,7 +115,8 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
         if again.returned:
             return Tried(None, used, returned=True)
         if again.increment is None:
-            return Tried(replace(met.increment, rounded=bool(met.increment.folds)), used)
+            over = bool(met.increment.folds) or _fell(path, met.increment.end, OVER)
+            return Tried(replace(met.increment, rounded=over), used)
         beyond = _fell(path, again.increment.visits[0].point)  # a small step from x0: over a snap
         stands = replace(again.increment, rounded=beyond)
         if stands.folds or not met.increment.folds:
@@ -121,11 +124,11 @@ def increment(path: Path, weights: Array, rho: float, left: float = NO_BARRIER) 
     return Tried(stands, used)
 
 
-def _fell(path: Path, reached: Point) -> bool:
-    """Whether the load factor is lower at a point of an increment than at its start."""
+def _fell(path: Path, reached: Point, share: float = FELL) -> bool:
+    """Whether the load factor is lower at a point of an increment than at its start, by a share of it."""
     p = path.flow.problem
     start = (path.layout.balance @ path.x0 - p.dead) @ p.live / (p.live @ p.live)
-    return bool(reached.load_factor < start - FELL * abs(start))
+    return bool(reached.load_factor < start - share * abs(start))
 
 
 def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[float, ...]) -> Tried:

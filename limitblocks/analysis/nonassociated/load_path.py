@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Literal, NamedTuple
 
 import numpy as np
 
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
-from limitblocks.analysis.nonassociated.loading import Pushed, pushed
+from limitblocks.analysis.nonassociated.loading import Pushed, at_rest, near, pushed
 from limitblocks.analysis.nonassociated.loop import end_of_first_path
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
@@ -24,7 +24,7 @@ from limitblocks.analysis.nonassociated.start import (
 )
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, NotConverged, refuse_kind
+from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
@@ -35,8 +35,13 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 from limitblocks.problem.plane import Choice
 
 ROUNDED = (
-    "a snap could be followed with the barrier of the increments only, which rounds it, or was passed over: "
-    "the load factor before it is low by some percent"
+    "a snap could be followed with the barrier of the increments only, which rounds it: the load factor "
+    "before it is low by some percent"
+)
+PASSED_OVER = (
+    "a snap was passed over: from one step to the next the load factor falls from {:.6g} to {:.6g}, and may "
+    "have been higher before; a smaller barrier, such as Settings(barrier=1e-6) of limitblocks.settings, may "
+    "follow it"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
 
@@ -117,28 +122,36 @@ def load_path(
         return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
-    found = (
-        None if planar is None else _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
-    )
-    if found is None:
-        found = load(flow, start_stresses(model, problem, weights, start), weights)
+    found = planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+    found = found or load(flow, start_stresses(model, problem, weights, start), weights)
     record(end(flow, found.last))
-    try:
-        collapse = finished(model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw)
-    except NotConverged as error:
-        if found.why:
-            error.add_note(found.why)
-        raise
+    collapse = finished(
+        model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw, why=found.why
+    )
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
+    remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
-        remarks = compared(collapse.load_factor, tracked)
     except KeyboardInterrupt:  # the load path is complete
-        tracked, remarks = np.nan, (NOT_COMPARED,)
-    if any(one.increment.rounded for one in found.pushes):
-        remarks += (ROUNDED,)
+        return LoadPath(steps, collapse, folds, trace, np.nan, (NOT_COMPARED, *remarks))
+    remarks = (*compared(collapse.load_factor, tracked), *remarks)
     return LoadPath(steps, collapse, folds, trace, tracked, remarks)
+
+
+def _of_snaps(pushes: tuple[Pushed, ...], unit: float) -> Iterator[str]:
+    """What is said of snaps that were rounded or passed over; `unit` is that of the live load."""
+    if any(one.increment.rounded and one.increment.folds for one in pushes):
+        yield ROUNDED
+    starts = (0.0, *(one.state.load_factor for one in pushes))
+    falls = [
+        (before, one.state.load_factor)
+        for before, one in zip(starts, pushes, strict=False)
+        if one.increment.rounded and not one.increment.folds
+    ]
+    if falls:
+        before, after = max(falls, key=lambda fall: fall[0] - fall[1])
+        yield PASSED_OVER.format(before / unit, after / unit)
 
 
 class _Loaded(NamedTuple):
@@ -177,6 +190,9 @@ def _loaded(
         if not met:
             raise
         pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
+    reached = pushes[-1].state if pushes else at_rest(flow, x0)
+    if why and not near(last, reached.load_factor):  # the path does not lead there
+        last = reached
     return _Loaded(x0, pushes, last, how, why)
 
 

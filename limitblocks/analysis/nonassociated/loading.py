@@ -21,7 +21,8 @@ from limitblocks.analysis.nonassociated.increment import (
     increment,
 )
 from limitblocks.analysis.nonassociated.path import DEGENERATE
-from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
+from limitblocks.analysis.nonassociated.path_record import RETURNS
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.stretch import ARRIVED
@@ -48,6 +49,10 @@ USED_UP = (
 TOO_SMALL = (
     "increments of the load path fail, however small; Settings(first=10) of limitblocks.settings, "
     "settings= of load_path, begins with a larger one"
+)
+SPRINGS_BACK = (
+    f"; near load factor {{:.6g}} the structure {RETURNS}, farther than they follow: a smaller barrier, "
+    "Settings(barrier=1e-6), may"
 )
 
 
@@ -113,21 +118,17 @@ def pushed(
     path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
     first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     pushes: list[Pushed] = []
-    state = State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
-    used = failures = 0
+    state = at_rest(flow, x0)
+    used, failures, sprung = 0, 0, None
     while used < settings.budget and rho * LEAST < first:
         met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
         used += met.factorisations
         if met.increment is None or proof is None:
             log.info("increment rho %.2g failed after %d", rho, met.factorisations)
             failures += 1
-            if met.returned and pushes:  # a snap longer than the increment: once more, from farther back
-                last = pushes.pop()
-                path, rho = replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
-            elif met.returned and not path.behind:  # beyond the permanent loads
-                path = replace(path, behind=BEHIND / rho)
-            else:
-                rho *= settings.growth**2
+            if met.returned:
+                sprung = pushes[-1].state.load_factor if pushes else 0.0
+            path, rho = _again(path, rho, pushes, met.returned, settings.growth)
             continue
         state = met.increment.end.state
         pushes.append(Pushed(path.x0, met.increment, state, proof, met.factorisations, failures))
@@ -138,7 +139,24 @@ def pushed(
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
+    if sprung is not None:
+        why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
     return tuple(pushes), polish(flow, state), why
+
+
+def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:
+    """Where the increment after one that failed starts, and how large it is; a push may be taken back."""
+    if returned and pushes:  # a snap longer than the increment: once more, from farther back
+        last = pushes.pop()
+        return replace(path, x0=last.start), 1.0 / (1.0 / rho + 1.0 / last.increment.rho)
+    if returned and not path.behind:  # beyond the permanent loads
+        return replace(path, behind=BEHIND / rho), rho
+    return path, rho * growth**2
+
+
+def at_rest(flow: Flow, x0: Array) -> State:
+    """The state of the permanent loads, of stresses `x0`."""
+    return State(0.0, x0, np.zeros(flow.problem.C.shape[1]), np.zeros(len(flow.problem.g)))
 
 
 def _ended(flow: Flow, met: Tried, tolerance: float) -> tuple[Tried, Residuals | None, State | None]:
@@ -167,5 +185,9 @@ def _closed(flow: Flow, met: Increment, tolerance: float) -> State | None:
     state = polish(flow, reached)
     if tolerance < defect(flow, state) < DEGENERATE:
         state = pivoted(flow, reached)
-    near = abs(state.load_factor - before) <= DRIFT * max(abs(state.load_factor), abs(before))
-    return state if near and defect(flow, state) <= tolerance else None
+    return state if near(state, before) and defect(flow, state) <= tolerance else None
+
+
+def near(state: State, load_factor: float) -> bool:
+    """Whether a polished state is that of an increment that ends at this load factor."""
+    return abs(state.load_factor - load_factor) <= DRIFT * max(abs(state.load_factor), abs(load_factor))

@@ -108,7 +108,7 @@ def track(
         if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled:
             end = UNSETTLED
         best, left = walk.settling.best, walk.settling.left
-        if best is None:
+        if best is None or (end == INTERRUPTED and defect(flow, walk.state) < left):  # nothing starts from it
             best, left = walk.state, defect(flow, walk.state)
     counts = walk.factorisations, walk.failures, tuple(walk.points)
     return best, Tracked(walk.path.barrier, seed, end, left, *counts)

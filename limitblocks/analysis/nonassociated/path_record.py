@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
+import logging
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
-from contextvars import ContextVar
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.evidence.results import Iteration
+from limitblocks.evidence.results import ITERATIONS, Iteration
 
 CLOSED, INTERRUPTED = "closed", "interrupted"
 UNSETTLED = "its load factor still changing"
-#: Told of the iterations of searches within another analysis, which has its own progress.
-WATCH: ContextVar[Callable[[Iteration], None] | None] = ContextVar("watch", default=None)
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
 DISPLACED = "path in displacements, rounded corners of yield"
+RETURNS = "springs back"
+
+log = logging.getLogger(ITERATIONS)
 
 
 def recorder(
@@ -25,10 +26,10 @@ def recorder(
 ) -> tuple[list[Iteration], Callable[[Iteration], None]]:
     """Return the history of a search, and what adds to it and tells the user."""
     history: list[Iteration] = []
-    progress = progress or WATCH.get()
 
     def record(iteration: Iteration) -> None:
         history.append(iteration)
+        log.debug(iteration)
         if progress is not None:
             progress(iteration)
 
