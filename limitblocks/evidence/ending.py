@@ -10,8 +10,8 @@ UNBOUNDED = (
 )
 
 BELOW_ZERO = (
-    "the load factor is below zero: in this state the structure falls under its dead loads, unless the live "
-    "load acts the other way; stability says whether it stands without stresses that are wedged in"
+    "the load factor is below zero: in this state the structure falls with the live load acting the other "
+    "way, or under its dead loads before that; stability says whether it stands under them by itself"
 )
 
 

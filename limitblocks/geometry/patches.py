@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from functools import reduce
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -91,17 +93,29 @@ def common_areas(first: Any, second: Any, least: Array, grid: float) -> Any:
     """Return the intersections (m,) of polygons, right to the area `least` (m,).
 
     GEOS 3.14 can return the whole of a polygon for its intersection with one that it only shares a side
-    with. The order of the corners matters to it, so all is done twice; where the areas differ, or a point
-    within is not in both polygons, on a grid.
+    with, or points alone for polygons that share sides but for rounding errors. The order of the corners
+    matters to it, so all is done twice; where the areas differ, a point within is not in both polygons, or
+    nothing is left of polygons that overlap by exact predicates, on a grid.
     """
     common = shapely.intersection(first, second)
     again = shapely.intersection(shapely.normalize(first), shapely.normalize(second))
     doubtful = np.abs(shapely.area(common) - shapely.area(again)) > least
     within = shapely.point_on_surface(common)
     outside = ~(shapely.intersects(within, first) & shapely.intersects(within, second))
-    doubtful |= outside & (shapely.area(common) > least)
+    some = shapely.area(common) > least
+    doubtful |= np.where(some, outside, shapely.relate_pattern(first, second, "T********"))
     common[doubtful] = shapely.intersection(first[doubtful], second[doubtful], grid_size=grid)
     return common
+
+
+def common_part(shapes: Sequence[Any], grid: float) -> Any:
+    """Return the area common to all of some polygons, on a grid; see :func:`common_areas`."""
+
+    def both(one: Any, other: Any) -> Any:
+        parts = shapely.get_parts(shapely.intersection(one, other, grid_size=grid))
+        return shapely.MultiPolygon([part for part in parts if part.geom_type == "Polygon"])
+
+    return reduce(both, shapes) if shapes else shapely.Polygon()
 
 
 def _above(faces: FaceTable, face: Indices, place: Array, normal: Array) -> Array:

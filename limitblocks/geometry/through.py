@@ -7,7 +7,10 @@ import shapely
 
 from limitblocks.arrays import Array, Indices, repeated
 from limitblocks.geometry.faces import FaceTable
-from limitblocks.geometry.patches import Patches
+from limitblocks.geometry.patches import Patches, common_part
+
+#: Grid on which common parts are made, relative to the root of the least area.
+_GRID = 1e-6
 
 
 def between(faces: FaceTable, tried: Patches, touching: Patches) -> Indices:
@@ -26,10 +29,9 @@ def between(faces: FaceTable, tried: Patches, touching: Patches) -> Indices:
     third = np.full(len(tried.a), -1)
     for k, first, second in zip(*_sandwiches(faces, tried, touching), strict=True):
         if third[k] < 0:
-            common = shapely.intersection_all([
-                tried.shape[k], *(_in_plane_of(tried, k, touching, other) for other in (first, second))
-            ])  # fmt: skip
-            if common.area > tried.least[k]:
+            covered = [_in_plane_of(tried, k, touching, other) for other in (first, second)]
+            grid = _GRID * float(np.sqrt(tried.least[k]))
+            if common_part([tried.shape[k], *covered], grid).area > tried.least[k]:
                 ends = faces.block[[touching.a[first], touching.b[first]]]
                 third[k] = ends[1] if ends[0] in faces.block[[tried.a[k], tried.b[k]]] else ends[0]
     return third

@@ -29,6 +29,7 @@ from limitblocks.joints.torsion import (
 
 STRENGTH_RANGE = (1e4, 60e6)  # Pa: Eq. (42) is for concrete up to 60 N/mm2; below, it is a slip of units
 HINGE = 1e-9  # relative distance from the boundary that counts as on it
+GRID = 1e-14  # of the size of a polygon: the places of an overlay
 
 
 def shear_strength(friction: float, N: Any) -> Array:
@@ -174,7 +175,9 @@ def effective_areas(polygon: Region, eccentricities: Any) -> Any:
     gauge = (cross(e[..., None, :] / size, side) / cross(p, side)).max(axis=-1)  # 1 on the boundary
     inside = np.where(np.abs(gauge - 1) < HINGE, 1 - 2 * HINGE, 1.0)[..., None] * e
     reflected = shapely.polygons(2 * (centroid + inside)[..., None, :] - centroid - size * p)
-    return np.where(gauge < 1 + HINGE, shapely.intersection(shape, reflected), Polygon())
+    # without a grid GEOS 3.14 can lose all that polygons share which are one but for rounding errors
+    common = shapely.convex_hull(shapely.intersection(shape, reflected, grid_size=GRID * size))
+    return np.where(gauge < 1 + HINGE, common, Polygon())
 
 
 def torsion_bending(polygon: Region, friction: float, N: Any, M1: Any, M2: Any) -> Array:

@@ -141,7 +141,7 @@ class Floor:
 
     Floor spectrum of Circolare 7/2019, Eqs [C7.2.5], [C7.2.6] (after Degli Abbati, Cattari & Lagomarsino
     2018): in each mode 1.1 xi_k^-0.5 eta(xi) times the largest acceleration between `a` T_k and `b` T_k,
-    falling on both sides, at T = 0 to the largest acceleration. The first mode is that of [C8.7.1.12].
+    falling on both sides, at T = 0 to the largest acceleration. T_1 of [C8.7.1.12] is the longest period.
     The text has xi_k in per cent; under the root of [C7.2.6] it is taken as a ratio, for 1.1 x 5^-0.5 would
     be less than one at resonance.
     """
@@ -190,7 +190,7 @@ class Floor:
 
     def displacement(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
         """Return S_eZ(T) (T / 2 pi)^2, m, and beyond b T_1 no less than there, Eq. [C8.7.1.12]."""
-        first = self.modes[0].period
+        first = max(mode.period for mode in self.modes)
         found = self.acceleration(ground, period, damping) * (period / (2.0 * np.pi)) ** 2
         if period <= self.b * first:
             return found

@@ -10,12 +10,13 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Block
-from limitblocks.geometry.patches import common_areas
+from limitblocks.geometry.patches import common_areas, common_part
 from limitblocks.geometry.pieces import convex_pieces
 from limitblocks.geometry.polygon import centroids, longest_side
 from limitblocks.practice.displaced import CLOSED, Contact, placed, seated
 from limitblocks.practice.resting import face_at, tilted
 
+GRID = 1e-13  # of the size of the structure: the places of an overlay
 OFF = 1e-6  # of the size of the structure: a corner as far beyond the rim of a face is off it
 
 
@@ -33,7 +34,7 @@ def trimmed(own: Contact, blocks: Sequence[Block], size: float) -> list[Contact]
         face_at(blocks[k], out, point, seen[:2])
         for k, out in zip(own.ends, (own.axes_i[2], -own.axes_j[2]), strict=True)
     ]
-    shared = shapely.intersection_all([face for face in faces if not face.is_empty])
+    shared = common_part([face for face in faces if not face.is_empty], GRID * size)
     corners = shapely.points(own.rest[closed] @ seen[:2].T)
     if shapely.distance(shapely.MultiPoint(corners).convex_hull, shared) > OFF * size:
         return []

@@ -100,7 +100,8 @@ def verdict(found: Answer, demand: float) -> Verdict | None:
     said = f"the {word} {number} is {rounded_down(ratio)} times the demand {demand:.4g}"
     if ratio < 0.0:
         said = (
-            f"the {word} {number} is below zero: in this state the structure falls before the live load acts"
+            f"the {word} {number} is below zero: in this state the structure falls before the live load acts "
+            "or with it acting the other way (stability says whether it stands without it)"
         )
         meaning = f"the demand {demand:.4g} cannot be met"
     elif ratio < 1.0:

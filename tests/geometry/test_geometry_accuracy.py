@@ -162,6 +162,28 @@ def test_no_contact_through_a_sheet_thinner_than_the_gap(thickness, gap):
     assert found.warnings == lines
 
 
+def test_no_contact_through_a_sheet_of_one_outline_with_both_blocks():
+    # GEOS 3.14 gives three points for what these triangles share
+    outline = [(-1.0826224749179432, 1.5906080059394767), (-1.6236903546688657, -0.9961253203921594)]
+    outline += [(-1.297334139339837, -1.411874789744348)]
+    turn = np.array(
+        [
+            [-0.06552653773768188, -0.7321911501966856, -0.6779398147518457],
+            [-0.9657541721699012, -0.12439471742113245, 0.2276946051494096],
+            [-0.2510481065225171, 0.6696432437136743, -0.6989655029828636],
+        ]
+    )
+    place = np.array([-7.202242697362427, 3.158860022483715, -14.325253506523497])
+    heights = {"low": (0, 1), "sheet": (1, 1.003), "high": (1.003, 2)}
+    faces = ((2, 1, 0), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5))
+    blocks = []
+    for name, levels in heights.items():
+        corners = np.concatenate([np.column_stack([outline, np.full(3, z)]) for z in levels])
+        blocks.append(lb.Block(name, corners @ turn.T + place, faces, 1e4))
+    found = lb.find_contacts(blocks, None, gap=1e-2)
+    assert ends(found.interfaces) == {("low", "sheet"), ("sheet", "high")}
+
+
 def test_a_sheet_under_a_part_holds_all_apart():
     found = lb.find_contacts(sheet(9e-4, size=0.5), None)
     assert ends(found.interfaces) == {("low", "sheet"), ("sheet", "high")}

@@ -272,6 +272,19 @@ def test_neighbours_across_a_joint_of_a_dome_share_a_side_only():
     assert shapely.area(common_areas(*pair, np.array([1e-9]), 1e-9)) == pytest.approx([0.0], abs=1e-9)
 
 
+def test_polygons_that_rounding_errors_tell_apart_share_all():
+    # GEOS 3.14 gives points alone, whatever the order of the corners
+    first = [(0.2232847149593827, 0.9747532693279398), (-0.5056467476711092, -0.8627406137244437)]
+    first += [(-0.1278292018801929, -0.991796196376389), (0.156509730351191, -0.9876764168012707)]
+    first += [(0.4820043055643253, -0.876168847550204), (0.9990661420406534, -0.0432069881848416)]
+    other = [first[5], (first[0][0], 0.9747532693279397), first[1], (-0.127829201880193, -0.9917961963763889)]
+    other += [(0.1565097303511908, -0.9876764168012707), (0.4820043055643253, -0.8761688475502039)]
+    pair = [np.array([shapely.Polygon(corners)]) for corners in (first, other)]
+    for one, two in (pair, pair[::-1]):
+        found = common_areas(one, two, np.array([1e-9]), 1e-9)
+        np.testing.assert_allclose(shapely.area(found), polygon.areas(np.array([first])), rtol=1e-8)
+
+
 def wavy(name, low, high, n=12):
     """Column of unit width between two surfaces Z = low(X, Y) and high(X, Y), in triangles."""
     x, y = (grid.ravel() for grid in np.meshgrid(*[np.linspace(0, 1, n)] * 2, indexing="ij"))

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from limitblocks.errors import GeometryError, ModelError
+from limitblocks.geometry.polygon import areas
 from limitblocks.joints.interaction import (
     approximate_torsion_bending,
     approximate_torsion_shear,
@@ -188,3 +189,14 @@ def test_impossible_questions_are_named():
     ell = np.array([(0, 0), (3, 0), (3, 1), (1, 1), (1, 4), (0, 4.0)])
     with pytest.raises(GeometryError, match="convex"):
         effective_areas(ell, (0, 0))
+
+
+def test_a_polygon_symmetric_but_for_rounding_errors_is_effective_whole():
+    """GEOS 3.14 gives points, without an area, for some of these parallelograms and their reflections."""
+    rng = np.random.default_rng(0)
+    corners = SQUARE * rng.uniform(0.3, 1.0, (4000, 1, 2)) @ rng.normal(size=(4000, 2, 2))
+    corners += rng.normal(0.0, 1e-15, corners.shape)
+    wide = np.abs(areas(corners)) > 0.3
+    parallelograms = [p if areas(p) > 0.0 else p[::-1] for p in corners[wide]]
+    found = [effective_areas(p, (0.0, 0.0)).item() for p in parallelograms]
+    np.testing.assert_allclose([one.area for one in found], [areas(p) for p in parallelograms], rtol=1e-9)

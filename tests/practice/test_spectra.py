@@ -11,6 +11,15 @@ from limitblocks.practice.spectra import Place
 SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 
 
+def test_order_of_the_modes_does_not_matter():
+    """T_1 of [C8.7.1.12] is that of the fundamental mode: S_eZ(T_1) (1.1 T_1 / 2 pi)^2 from 1.1 T_1 on."""
+    modes = FloorMode(0.5, 1.3, 1.0), FloorMode(0.15, -0.4, 1.0)
+    floor = Floor(modes)
+    expected = floor.acceleration(SITE, 0.5) * (1.1 * 0.5 / (2 * np.pi)) ** 2
+    assert floor.displacement(SITE, 0.6) == pytest.approx(expected)
+    assert Floor(modes[::-1]).displacement(SITE, 0.6) == pytest.approx(expected)
+
+
 def test_displacement_of_a_floor_does_not_fall_beyond_its_first_mode():
     """[C8.7.1.12]: beyond b T_1 at least S_eZ(T_1) (b T_1 / 2 pi)^2."""
     floor = Floor((FloorMode(period=0.5, participation=1.3, shape=1.0),))

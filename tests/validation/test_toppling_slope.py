@@ -1,10 +1,12 @@
 """Goodman & Bray (1976), blocks in contact over whole faces: what other solutions there are."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 import limitblocks as lb
+from limitblocks import structures
 
 WIDTH, DIP, OWN = 10.0, math.pi / 6, 25e3
 HEIGHTS = [*range(4, 41, 4), *range(34, 3, -6)]
@@ -63,3 +65,18 @@ def test_a_push_on_one_stiff_block_is_followed_from_the_first_increment():
     path = lb.load_path(slope(lb.PointContact(0.9)))
     assert path.load_factor == pytest.approx(0.9 * math.cos(DIP) - math.sin(DIP), rel=1e-9)
     assert sum(0.0 < step.load_factor < 0.2 for step in path.steps if step.kind != "polish") >= 3
+
+
+def test_a_stone_that_its_load_presses_down_falls_only_where_the_load_lifts_it():
+    """Sliding: .25 W + .1 a W = .3 (W + a W), a = -.25; the stone stands, and the load may grow at will."""
+    stone = structures.block(lb.PointContact(0.3), width=1.0, height=0.2)
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    dead, live = lb.self_weight() + 0.25 * push, lb.self_weight() + 0.1 * push
+    model = replace(stone, dead=dead, live=live)
+    assert lb.stability(model).stands
+    with pytest.raises(lb.errors.UnlimitedLoad):
+        lb.bounds(model)
+    result = lb.nonassociated(model)
+    assert result.load_factor == pytest.approx(-0.25)
+    assert any("with the live load acting the other way" in remark for remark in result.remarks)
+    assert "or with it acting the other way" in lb.report(model, result, demand=1.0).text.replace("\n", " ")
