@@ -110,6 +110,7 @@ def study(
         errors=tuple(row["error"] for row in rows),
         samples=n,
         indices=indices,
+        remarks=tuple(row.get("remarks", "") for row in rows),
     )
 
 
@@ -217,15 +218,16 @@ def one_row(
     try:
         model = maker(**values)
     except FAILURES as error:
-        outcome, mode = failed(error), ""
+        outcome, mode, remarks = failed(error), "", ""
     else:
-        outcome, mode = analyse(model, analysis, settings), ""
+        outcome, mode, remarks = analyse(model, analysis, settings), "", ""
         if outcome.result is not None and not outcome.error:
             words = {
                 part for state in interface_states(model, outcome.result).state for part in state.split("-")
             }
-            mode = "-".join(sorted(words - {"stick"}))
-    return {"row": number, "load_factor": float(outcome.load_factor), "mode": mode, "error": outcome.error}
+            mode, remarks = "-".join(sorted(words - {"stick"})), "; ".join(outcome.result.remarks)
+    found = {"row": number, "load_factor": float(outcome.load_factor)}
+    return found | {"mode": mode, "error": outcome.error, "remarks": remarks}
 
 
 def _answers(tasks: Sequence[tuple[Any, ...]], workers: int | None, client: Any) -> Iterator[Row]:
