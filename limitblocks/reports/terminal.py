@@ -19,6 +19,7 @@ from limitblocks.reports.document import Text as Text_
 from limitblocks.reports.sections import section
 
 _WIDTH = 100  # of the report as text
+_COLUMNS, _WIDE = 8, 160  # of more columns a table may be as wide, before a name is broken over lines
 _SCREEN = 24  # rows of tables beyond which what counts is scrolled away
 _ROWS, _ENDS = 60, 8  # of a table at most; of a longer one the first and the last
 _NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?(e[-+]?\d+)?|nan|inf)")
@@ -36,6 +37,8 @@ def text(document: Document, width: int = _WIDTH) -> str:
     for one in document.chapters:
         console.print(Text(f"\n{one.title}\n{'=' * len(one.title)}", style="bold"))
         for part in one.parts:
+            wide = isinstance(part, Table) and len(part.heads) > _COLUMNS
+            console.width = max(width, _WIDE) if wide else width
             console.print(_renderable(part), crop=False)
     return stream.getvalue()
 

@@ -336,3 +336,14 @@ def test_an_empty_report_says_so_in_a_line(house):
 def test_one_block_is_one_block():
     facts = dict(fact_rows(lb.report(lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)).facts))
     assert facts["Unit weight 20 kN/m³"].startswith("1 block, ")
+
+
+def test_no_name_of_an_interface_is_broken_over_lines_as_text():
+    model = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=5)
+    found = lb.bounds(model)
+    states = lb.interface_states(model, found)
+    moving = [name for name, state in zip(states.names, states.state, strict=True) if state != "stick"]
+    lines = lb.report(model, found).text.splitlines()
+    assert moving
+    for name in moving:
+        assert any(line.startswith(f"{name} ") for line in lines), name
