@@ -223,7 +223,7 @@ def test_an_unknown_key_at_the_top_is_compared_with_those_there(tmp_path):
 
 
 def test_missing_file_directory_and_pipe(tmp_path):
-    for name, said in (("none.json", "No such file"), (".", "not a file"), ("a\0b", "cannot be read")):
+    for name, said in (("none.json", "No such file"), (".", "is a folder"), ("a\0b", "cannot be read")):
         with pytest.raises(lb.ModelError, match=said):
             lb.read(tmp_path / name)
     if hasattr(os, "mkfifo"):
