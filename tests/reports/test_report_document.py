@@ -18,6 +18,7 @@ from limitblocks.reports.answer import Answer, answer, verdict
 from limitblocks.reports.document import Chapter, Table
 from limitblocks.reports.facts import fact_rows
 from limitblocks.reports.interfaces import relative_motion
+from limitblocks.reports.markdown import escaped
 from limitblocks.reports.pdf import latin, pdf
 from limitblocks.reports.words import at_least, at_most
 
@@ -347,3 +348,8 @@ def test_no_name_of_an_interface_is_broken_over_lines_as_text():
     assert moving
     for name in moving:
         assert any(line.startswith(f"{name} ") for line in lines), name
+
+
+def test_an_ampersand_is_escaped_in_markdown_where_it_would_begin_an_entity_alone(house):
+    assert "Orduña & Lourenço (2005)" in lb.report(house).markdown
+    assert escaped("A & B, R&amp;D, &#38;") == r"A & B, R\&amp;D, \&\#38;"
