@@ -143,6 +143,6 @@ def _grouped(words: list[str]) -> Iterator[str]:
     for word in dict.fromkeys(filter(None, words)):
         numbers = [number for number, said in enumerate(words, 1) if said == word]
         first, last = numbers[0], numbers[-1]
-        run = len(numbers) > 2 and numbers == [*range(first, last + 1)]
+        run = len(numbers) > 1 and numbers == [*range(first, last + 1)]
         which = f"{first} to {last}" if run else ", ".join(map(str, numbers))
         yield f"{'rows' if len(numbers) > 1 else 'row'} {which}: {word}"

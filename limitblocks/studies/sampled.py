@@ -17,7 +17,16 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
-from limitblocks.studies.pool import ANALYSES, FAILURES, Analysis, Progress, analyse, failed, in_order
+from limitblocks.studies.pool import (
+    ANALYSES,
+    FAILURES,
+    INTERRUPTED,
+    Analysis,
+    Progress,
+    analyse,
+    failed,
+    in_order,
+)
 from limitblocks.studies.sample_result import SampledStudy
 from limitblocks.studies.samples import Sampler, sampled_values
 
@@ -247,4 +256,4 @@ def _of_task(task: tuple[Any, ...]) -> Row:
 
 
 def _undone(k: int) -> Row:
-    return {"row": k, "load_factor": np.nan, "mode": "", "error": "interrupted before this one was done"}
+    return {"row": k, "load_factor": np.nan, "mode": "", "error": INTERRUPTED}
