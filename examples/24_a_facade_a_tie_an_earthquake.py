@@ -86,7 +86,7 @@ def picture(folder, curves):
     turn = np.linspace(0.0, np.arctan(curves[0].load_factors[0]))
     law = np.tan(turn[-1] - turn)
     axis.plot(H * np.sin(turn), law, "k--", linewidth=1, label="tan(theta0 - theta)")
-    axis.set(xlabel="displacement of the top, m", ylabel="load factor", ylim=(0, None), xlim=(0, None))
+    axis.set(xlabel="displacement of the top (m)", ylabel="load factor", ylim=(0, None), xlim=(0, None))
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
     figure.savefig(folder / "24_a_facade_a_tie_an_earthquake.png")

@@ -83,7 +83,7 @@ def picture(folder, worst):
     figure, axis = plt.subplots(figsize=(3.5, 2.6))
     axis.plot(worst.positions[order], worst.load_factors[order], "o-")
     axis.plot(worst.position, worst.bounds.lower, "s", color="tab:red", label="worst position")
-    axis.set(xlabel="first axle at X, m", ylabel="load factor of 50 + 50 kN", ylim=(0, None))
+    axis.set(xlabel="X of the first axle (m)", ylabel="load factor of 50 + 50 kN", ylim=(0, None))
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
     figure.savefig(folder / "26_a_bridge_of_two_spans.png")

@@ -74,7 +74,7 @@ def picture(folder, carried):
     z = np.linspace(0, 4, 50)
     axis.plot(z, min(MU, B / H) * (1 - WATER * z * B / W), "k--", linewidth=1, label="(b / h) (1 - U / W)")
     axis.axhline(REQUIRED, color="tab:red", linewidth=1, label="required")
-    axis.set(xlabel="water over the base, m", ylabel="load factor", ylim=(0, None))
+    axis.set(xlabel="water over the base (m)", ylabel="load factor", ylim=(0, None))
     axis.legend()
     folder.mkdir(parents=True, exist_ok=True)
     figure.savefig(folder / "27_water_a_tie_or_a_weight.png")

@@ -40,6 +40,12 @@ def test_dependency_has_a_lower_bound(requirement):
     assert ">=" in requirement or requirement.startswith("limitblocks[")
 
 
+def test_every_extra_is_described():
+    page = (ROOT / "docs" / "installation.md").read_text(encoding="utf-8")
+    described = re.findall(r"^\| `(\w+)` \|", page, re.MULTILINE)
+    assert set(described) == set(PROJECT["optional-dependencies"])
+
+
 def test_no_file_names_a_folder_of_one_machine():
     listing = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     try:

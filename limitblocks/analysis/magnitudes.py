@@ -35,6 +35,8 @@ _OF_FILL, _OF_PRESSURE = 2.5e3, 1.2e3
 _HEAVY_FILL = 3e4
 #: Ground acceleration at life safety, m/s2, below which it may be in g: .05 g, the most of the calmest zone.
 _CALM = 0.49
+#: One beyond which it may have been given in m/s2 for g: .7 g, twice that of zone 1 (OPCM 3519/2006).
+_FIERCE = 6.9
 #: Dead force on a block, N and over its weight, below which it may be in kN: a hand pulls with more.
 _FAINT, _FAINT_SHARE = 1e2, 1e-2
 #: Distance of a force's line from the centroid of its block, over the size of the block: a bracket has 1.
@@ -138,6 +140,9 @@ def of_ground(a_g: float) -> list[str]:
     """Return the question for the ground acceleration of a site at life safety, m/s2."""
     if a_g < _CALM:
         return [f"a_g is {a_g:.3g} m/s2, {a_g / 9.81:.2g} g: g? {a_g:.3g} g = {9.81 * a_g:.3g} m/s2"]
+    if a_g > _FIERCE:
+        g = a_g / 9.81
+        return [f"a_g is {a_g:.3g} m/s2, {g:.3g} g: m/s2? {g:.3g} m/s2 = {g / 9.81:.3g} g"]
     return []
 
 

@@ -10,8 +10,8 @@ from limitblocks.shown import coordinate
 
 #: Axle load, N, below which it may be in kN: a bicycle has 500.
 _LIGHT = 1e3
-#: Of the size of the structure: levels that are nearer are the same.
-_SAME = 1e-6
+#: Levels, m, that are nearer are the same: a message shows no more.
+_SAME = 1e-3
 
 
 def of_passive(coefficient: float) -> list[str]:
@@ -31,9 +31,8 @@ def of_axles(axles: Sequence[float]) -> list[str]:
 def of_level(model: Model, level: float, what: str) -> list[str]:
     """Return the question for the level, m, of a road or fill where that of a model ends elsewhere."""
     levels = {term.level for _, term in model.dead.terms if isinstance(term, Fill)}
-    off = _SAME * max(block.size for block in model.blocks)
     return [
         f"the {what} is at {coordinate(level)} m, the fill of the model ends at {coordinate(own)} m: meant?"
         for own in sorted(levels)
-        if abs(own - level) > off
+        if abs(own - level) > _SAME
     ]

@@ -71,6 +71,7 @@ def run(name: Name) -> None:
     """Run an example; its pictures and reports go to the folder `output` here."""
     with clean_errors():
         file = find(name)
+        before = _written()
         sys.path.insert(0, str(file.parent))  # as `python FILE` does
         words, sys.argv = sys.argv, [str(file)]
         try:
@@ -82,6 +83,13 @@ def run(name: Name) -> None:
         finally:
             sys.argv = words
             sys.path.remove(str(file.parent))
+        for path, _ in sorted(_written() - before):
+            typer.echo(path)
+
+
+def _written() -> set[tuple[Path, int]]:
+    """What is in the folder of pictures, with when it was written."""
+    return {(path, path.stat().st_mtime_ns) for path in Path("output").glob("*") if path.is_file()}
 
 
 @examples.command()

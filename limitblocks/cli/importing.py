@@ -84,7 +84,7 @@ def import_blocks(
     with clean_errors():
         from limitblocks.analysis.uncarried import uncarried, uncarried_words
         from limitblocks.io.blocks import read_blocks
-        from limitblocks.io.formats.dxf.elevation import read_drawing
+        from limitblocks.io.formats.dxf.elevation import read_drawing, refuse_with_thickness
         from limitblocks.io.structure_file import model_of
         from limitblocks.mechanics.loads import mass_proportional
 
@@ -99,6 +99,7 @@ def import_blocks(
             read |= {"up": up, "twisted": twisted}
             imported = read_blocks(file, **read)
         else:
+            refuse_with_thickness(up=up, twisted=twisted)
             imported = read_drawing(file, thickness=thickness, layers=layers or None, **read)
         _refuse_no_supports(file, imported, supports)
         tolerances: Any = {"gap": gap, "angle": angle, "width": width}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import groupby
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
@@ -128,18 +128,21 @@ def _tell(study: Study, asked: Asked) -> None:
         typer.echo(result_text(study))
     else:
         rows = study.rows()
-        errors = [row.pop("error") for row in rows]
+        said = [[row.pop(word) for row in rows] for word in ("error", "remarks")]
+        if all(isnan(row.get("frictionless", 0.0)) for row in rows):  # not claimed
+            rows = [{key: value for key, value in row.items() if key != "frictionless"} for row in rows]
         words = [study.head(key).replace("_", " ") for key in rows[0]]
         heads = tuple(word[0].upper() + word[1:] for word in words)
         print_table("", heads, [row_in_short(row) for row in rows])
-        print_warnings(_grouped(errors))
+        print_warnings(line for words in said for line in _grouped(words))
         typer.echo(f"\n{study}")
 
 
-def _grouped(errors: list[str]) -> Iterator[str]:
-    """A line for the rows after one another that have the same error."""
-    for error, rows in groupby(enumerate(errors, 1), key=lambda row: row[1]):
-        numbers = [number for number, _ in rows]
-        which = f"rows {numbers[0]} to {numbers[-1]}" if len(numbers) > 1 else f"row {numbers[0]}"
-        if error:
-            yield f"{which}: {error}"
+def _grouped(words: list[str]) -> Iterator[str]:
+    """A line for the rows of which the same is said."""
+    for word in dict.fromkeys(filter(None, words)):
+        numbers = [number for number, said in enumerate(words, 1) if said == word]
+        first, last = numbers[0], numbers[-1]
+        run = len(numbers) > 1 and numbers == [*range(first, last + 1)]
+        which = f"{first} to {last}" if run else ", ".join(map(str, numbers))
+        yield f"{'rows' if len(numbers) > 1 else 'row'} {which}: {word}"

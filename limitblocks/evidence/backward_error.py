@@ -165,7 +165,11 @@ def far_off(error: BackwardError, residuals: Residuals, tolerance: float) -> tup
     """Return a remark where residuals are within the tolerance and yet no model nearby is known."""
     if error.value <= LARGE or residuals.worst.value > tolerance:
         return ()
-    known = f"by {error.value:.1g}" if np.isfinite(error.value) else "by as much as is not known"
+    known = (
+        f"by {error.value:.1g} of its friction, edges or loads"
+        if np.isfinite(error.value)
+        else "by as much as is not known"
+    )
     return (
         f"the residuals are within {tolerance:g}, yet the state is exact only for a model changed {known}: "
         "the load factor may be farther off than they are, and another solution near it may carry less",

@@ -17,6 +17,7 @@ from limitblocks.evidence.load_path_result import LoadPath
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.mechanism import find_mechanism
+from limitblocks.evidence.other_convention import other_convention
 from limitblocks.evidence.proof import proof_of
 from limitblocks.evidence.residuals import (
     OF_BOUNDS,
@@ -170,6 +171,7 @@ def _checked(
     remarks = given_power(flow, state, tolerance) + locked_shear(flow, state)
     remarks += locked_tension(model, flow, state) + beyond_stress_block(model, claim.stress_resultants)
     remarks += far_off(error, judged, tolerance) if upper is None else ()
+    remarks += other_convention(problem, state) if judged["equilibrium"] > tolerance else ()
     return Check(Residuals(entries), tolerance, error, limit, mechanism_found, remarks, model.digest)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,6 +19,8 @@ _DEFAULT = Tolerances()
 _EXACT = 1e-7
 #: Share of the smaller block in an overlap beyond which it is within the other.
 _TWICE = 0.9
+#: Blocks within another from which on it is a frame, not a stone drawn twice.
+_MANY = 4
 
 
 @dataclass(frozen=True, repr=False)
@@ -62,13 +65,26 @@ class Contacts(Shown):
     @property
     def faults(self) -> tuple[str, ...]:
         """A sentence for each thing that makes the interfaces no answer, with its remedy."""
-        overlaps = (f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps)
-        return (*self._remedy_of_all, *overlaps, *([self._coarse] if self._coarse and self.chosen else []))
+        coarse = [self._coarse] if self._coarse and self.chosen else []
+        return (*self._remedy_of_all, *self._overlap_words, *coarse)
 
     def require(self) -> None:
         """Raise GeometryError with all `faults`; do nothing where there is none."""
         if self.faults:
             raise GeometryError(*self.faults)
+
+    @property
+    def _overlap_words(self) -> list[str]:
+        """A line for each block that holds many others, and for each other overlap, with its remedy."""
+        pairs = [(one.block_i, one.block_j) for one in self.overlaps if one.share > _TWICE]
+        holds = {name: count for name, count in Counter(sum(pairs, ())).items() if count >= _MANY}
+        frames = [
+            f"block {name!r} holds {count} others: a frame, or the outline of the whole? leave it out, in a "
+            "drawing by its layer: layers (--layers) names those to take"
+            for name, count in holds.items()
+        ]
+        rest = [one for one in self.overlaps if not holds.keys() & {one.block_i, one.block_j}]
+        return frames + [f"{overlap}{self._remedy(overlap)}" for overlap in rest]
 
     def _remedy(self, overlap: Overlap) -> str:
         if overlap.share > _TWICE:
@@ -121,9 +137,9 @@ class Contacts(Shown):
         """A line for each kind of thing found beside the interfaces, and for each overlap."""
         lines = [self._coarse] if self._coarse else []
         lines += [*self._remedy_of_all]
-        lines += [f"{overlap}{self._remedy(overlap)}" for overlap in self.overlaps[:_SHOWN]]
-        if len(self.overlaps) > _SHOWN:
-            lines.append(f"and {len(self.overlaps) - _SHOWN} more overlaps")
+        lines += self._overlap_words[:_SHOWN]
+        if len(self._overlap_words) > _SHOWN:
+            lines.append(f"and {len(self._overlap_words) - _SHOWN} more overlaps")
         lines += self.near_words
         lines += self._line("blocks without any interface", self.isolated)
         lines += self._line("contacts left out because they are too small", self.slivers)

@@ -148,7 +148,7 @@ def _said(fault: Any, form: type[Document], within: str) -> str:
             return "is missing"
         case "extra_forbidden":
             key, top = str(fault["loc"][-1]), not within and len(fault["loc"]) == 1
-            return "unknown key" + near(key, form.model_fields if top else _keys(form) - {key})
+            return f"unknown key{_meant(key, form, top)}"
         case "union_tag_not_found":
             return "type is missing"
         case "union_tag_invalid":
@@ -168,8 +168,19 @@ def _said(fault: Any, form: type[Document], within: str) -> str:
             return f"{_expected(fault)}, not {_value(fault['input'])}{_newer(fault)}"
 
 
+def _meant(key: str, form: type[Document], top: bool) -> str:
+    """What was meant by an unknown key: one like it, or that it stands in the wrong place."""
+    homes = _homes(form)
+    alike = near(key, form.model_fields if top else {*homes} - {key})
+    if homes.get(key) and not (top and alike):
+        return f" here; it belongs in {' or '.join(map(repr, homes[key]))}"
+    return alike
+
+
 def _expected(fault: Any) -> str:
     """What pydantic expected; its own words where a user knows them."""
+    if fault["type"] == "string_type" and fault["loc"][-1:] == ("joint",):
+        return "expected the name of one of the joints"
     if fault["type"] in _COUNTS:
         return _COUNTS[fault["type"]].format(**fault["ctx"])
     said = fault["msg"].partition(", unable to parse")[0]
@@ -183,7 +194,15 @@ def _newer(fault: Any) -> str:
 
 
 @cache
-def _keys(form: type[Document]) -> frozenset[str]:
+def _homes(form: type[Document]) -> dict[str, list[str]]:
+    """Every key of a file, with the keys whose objects may have it; none of what stands at the top."""
     schema = form.model_json_schema()
-    parts = (schema, *schema.get("$defs", {}).values())
-    return frozenset(key for part in parts for key in part.get("properties", ()))
+    kinds = {f'"#/$defs/{name}"': part for name, part in schema.get("$defs", {}).items()}
+    homes: dict[str, set[str]] = {}
+    for part in (schema, *kinds.values()):
+        for home, held in part.get("properties", {}).items():
+            homes.setdefault(home, set())
+            inner = [kind for ref, kind in kinds.items() if ref in json.dumps(held)]
+            for key in {key for kind in inner for key in kind.get("properties", ())}:
+                homes.setdefault(key, set()).add(home)
+    return {key: sorted(found) for key, found in homes.items()}

@@ -16,7 +16,7 @@ from limitblocks.geometry import Block, Contacts, find_contacts
 from limitblocks.geometry.twisted import Twisted
 from limitblocks.io import faults, model_file
 from limitblocks.io.blocks import contents_of, is_model_file
-from limitblocks.io.formats.dxf.elevation import elevation
+from limitblocks.io.formats.dxf.elevation import elevation, refuse_with_thickness
 from limitblocks.io.imported import blocks_of
 from limitblocks.io.made import refused
 from limitblocks.io.open_joints import open_joints
@@ -164,6 +164,8 @@ def look(
         own = "m, as limitblocks reads model files", "Z, as in every model file"
         return _look(path, "limitblocks model", model.blocks, *own, marked=tuple(model.supports))
     with faults.named(path):
+        if thickness is not None:
+            refuse_with_thickness(up=up, twisted=twisted)
         contents = contents_of(path) if thickness is None else elevation(path, thickness, units, layers)
         where = frame(contents, units, up)
         made = blocks_of(contents, where, twisted)

@@ -194,11 +194,17 @@ def _rows(given: Any, names: list[str] | None, still: Sequence[str] = ()) -> Arr
         twice = [name for name, count in Counter(names).items() if count > 1]
         wrong = [f"two are named {name!r} in the model; give a list in its order" for name in twice]
         known = set(names)
-        wrong += [
-            f"no {name!r} in the model{faults.near(name, known)}" for name in given if name not in known
-        ]
+        wrong += [_unknown(name, known) for name in given if name not in known]
         wrong += [f"{name!r} is missing" for name in names if name not in given and name not in still]
         if wrong:
             raise ModelError(*wrong)
         given = [given.get(name, _STILL) for name in names]
     return read_only(given).reshape(-1, 6)
+
+
+def _unknown(name: str, known: set[str]) -> str:
+    """A line for a name that the model does not have; it may have the interface the other way round."""
+    i, bar, j = name.partition("|")
+    if bar and (turned := f"{j}|{i}") in known:
+        return f"no {name!r} in the model, but {turned!r}: forces on {j!r}, n out of it"
+    return f"no {name!r} in the model{faults.near(name, known)}"

@@ -32,7 +32,12 @@ def plain_bytes(path: Path, expected: str) -> bytes:
     """
     try:
         if path.exists() and not path.is_file():  # reading a pipe or a device may never end
-            raise ModelError(f"is not a file; name a file of {expected}")
+            wrong = (
+                "is a folder; name a file in it"
+                if path.is_dir()
+                else f"is not a file; name a file of {expected}"
+            )
+            raise ModelError(wrong)
         with path.open("rb") as stream:
             data = stream.read(LARGEST_FILE + 1)
     except OSError as error:

@@ -22,6 +22,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
         if filled
         else ()
     )
+    alone = (f"the curve is its first point alone: {curve.ended}",) if len(curve.points) == 1 else ()
     # what snaps through zero has its last point beyond
     end = last.displacement if curve.zero is None else curve.zero
     ended = "end of the curve" if curve.zero is None else "load factor zero"
@@ -42,7 +43,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
             ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),
         ),
         judged=(last.result.residuals, last.result.tolerance),
-        warnings=beyond + curve.remarks,
+        warnings=alone + beyond + curve.remarks,
         curve=_capacity_curve(curve),
         parts=(_points(curve),),
     )

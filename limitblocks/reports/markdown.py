@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table, Text
 
 MARK = "<!-- limitblocks report -->"
-_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$&])")
+_SPECIAL = re.compile(r"([\\`*_{}\[\]<>#|~$]|&(?=[#\w]))")  # an & alone is no entity
 _LIST = re.compile(r"^(\s*)([-+]|\d+[.)])(?=\s|$)")  # what would begin a list at the start of a line
 
 

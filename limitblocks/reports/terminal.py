@@ -18,11 +18,11 @@ from limitblocks.reports.document import Cell, Document, Figure, Heading, Headli
 from limitblocks.reports.document import Text as Text_
 from limitblocks.reports.sections import section
 
-_TO_THE_RIGHT = ("Value", "Step", "Load factor")
 _WIDTH = 100  # of the report as text
+_COLUMNS, _WIDE = 8, 160  # of more columns a table may be as wide, before a name is broken over lines
 _SCREEN = 24  # rows of tables beyond which what counts is scrolled away
 _ROWS, _ENDS = 60, 8  # of a table at most; of a longer one the first and the last
-_NUMBER = re.compile(r"[-+]?\d+(\.\d*)?(e[-+]?\d+)?")
+_NUMBER = re.compile(r"[-+]?(\d+(\.\d*)?(e[-+]?\d+)?|nan|inf)")
 
 
 def text(document: Document, width: int = _WIDTH) -> str:
@@ -37,6 +37,8 @@ def text(document: Document, width: int = _WIDTH) -> str:
     for one in document.chapters:
         console.print(Text(f"\n{one.title}\n{'=' * len(one.title)}", style="bold"))
         for part in one.parts:
+            wide = isinstance(part, Table) and len(part.heads) > _COLUMNS
+            console.width = max(width, _WIDE) if wide else width
             console.print(_renderable(part), crop=False)
     return stream.getvalue()
 
@@ -75,7 +77,8 @@ def print_warnings(warnings: Iterable[str]) -> None:
 
 def print_table(title: str, heads: tuple[str, ...], rows: Any) -> None:
     """Print rows of text in columns; without heads, the first column is the name of each row."""
-    right = tuple(k for k, head in enumerate(heads) if head in _TO_THE_RIGHT)
+    columns = enumerate(zip(*rows, strict=True)) if heads else ()
+    right = tuple(k for k, cells in columns if all(map(_NUMBER.fullmatch, cells)))
     Console().print(_table(Table.of(title, heads, rows, right)), crop=False)
 
 
@@ -106,7 +109,7 @@ def _table(part: Table) -> RichTable:
     )
     for k, head in enumerate(part.heads):
         justify: Literal["left", "right"] = "right" if k in part.right else "left"
-        table.add_column(head, justify=justify, overflow="fold", min_width=_longest_number(part, k))
+        table.add_column(head, justify=justify, overflow="fold", min_width=_unbroken(part, k))
     if not part.heads:
         table.add_column(no_wrap=True)
         table.add_column(overflow="fold")
@@ -115,7 +118,8 @@ def _table(part: Table) -> RichTable:
     return table
 
 
-def _longest_number(part: Table, column: int) -> int | None:
-    """Letters of the longest cell that is a number: half of 2.5e-09 on a line of its own reads as another."""
-    words = (row[column].text for row in part.rows)
-    return max((len(word) for word in words if _NUMBER.fullmatch(word)), default=None)
+def _unbroken(part: Table, column: int) -> int:
+    """Letters of the longest number or word of the head: half of 2.5e-09 on its own line reads as another."""
+    cells = (row[column].text for row in part.rows)
+    numbers = (cell for cell in cells if _NUMBER.fullmatch(cell))
+    return max(map(len, (*part.heads[column].split(), *numbers)), default=1)

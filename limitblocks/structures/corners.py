@@ -45,7 +45,8 @@ def facade(
     block_length, block_height : float
         Dimensions of a block, m; the walls are block_length / 2 thick.
     openings : sequence of Opening
-        (left, sill, width, height) in the facade, m, as for :func:`wall`.
+        (left, sill, width, height) in the facade, m, as for :func:`wall`; left out, a door
+        (1.2, 0, 1.2, 2.4) and a window (4, 1.2, 1.2, 1.2), which need the default size.
     unit_weight : float
         N/m3.
     direction : sequence of float

@@ -23,7 +23,7 @@ from limitblocks.model import Model
 Analysis = Literal["bounds", "nonassociated"]
 Result = Bounds | Nonassociated
 Progress = Callable[[int, int], None]
-INTERRUPTED = "KeyboardInterrupt: interrupted before this one was done"
+INTERRUPTED = "interrupted before this one was done"
 #: What costs its own row only: errors of this package, and those of numbers in a maker or a solver.
 FAILURES = (LimitBlocksError, ArithmeticError, ValueError, MemoryError)
 ANALYSES: dict[str, Callable[..., Result]] = {"bounds": bounds, "nonassociated": nonassociated}

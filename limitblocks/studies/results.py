@@ -85,7 +85,7 @@ class Study(Rows):
         where = ", ".join(f"{name} {in_short(value)}{units.get(name, '')}" for name, value in here)
         least, result = self.load_factors[self.least], self.results[self.least]
         made = f"{many(len(self.errors), 'analysis', 'analyses')}, {FLOWS[self.analysis]}"
-        said = "".join(f"; {one}" for one in result.remarks) if result else ""
+        said = f"; there: {'; '.join(result.remarks)}" if result and result.remarks else ""
         return f"{made}: least load factor {least:.6g} at {where}{self._elsewhere}{lost}{said}"
 
     @property
@@ -210,4 +210,6 @@ def _answer(load_factor: float, result: Result | None, error: str, analysis: str
     names = ("lower", "upper") if analysis == "bounds" else ("frictionless", "associated")
     beside = {name: np.nan if error else float(getattr(result, name)) for name in names}
     worst = np.nan if error or result is None else result.residuals.worst.value
-    return {"load_factor": load_factor} | beside | {"worst_residual": worst, "error": error}
+    remarks = "" if error or result is None else "; ".join(result.remarks)
+    words = {"error": error, "remarks": remarks}
+    return {"load_factor": load_factor} | beside | {"worst_residual": worst} | words

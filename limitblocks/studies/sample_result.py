@@ -40,6 +40,8 @@ class SampledStudy(Rows):
         Independent samples: the first rows; more belong to Sobol indices.
     indices : bool
         Whether the rows suit Sobol indices.
+    remarks : tuple of str, length rows
+        What each analysis remarks on its answer, empty where it remarks nothing or nothing was kept.
     """
 
     analysis: str
@@ -50,6 +52,7 @@ class SampledStudy(Rows):
     errors: tuple[str, ...]
     samples: int
     indices: bool
+    remarks: tuple[str, ...] = ()
 
     @property
     def failures(self) -> int:
@@ -118,10 +121,12 @@ class SampledStudy(Rows):
 
     def rows(self) -> list[dict[str, Any]]:
         """Return a row for each analysis, plain numbers and text."""
-        answers = zip(self.values.tolist(), self.load_factors.tolist(), self.modes, self.errors, strict=True)
+        remarks = self.remarks or ("",) * len(self.errors)
+        columns = self.load_factors.tolist(), self.modes, self.errors, remarks
+        names = (*self.names, "load_factor", "mode", "error", "remarks")
         return [
-            dict(zip(self.names, values, strict=True)) | {"load_factor": a, "mode": mode, "error": error}
-            for values, a, mode, error in answers
+            dict(zip(names, (*values, *answer), strict=True))
+            for values, *answer in zip(self.values.tolist(), *columns, strict=True)
         ]
 
     def to_dict(self) -> dict[str, Any]:
@@ -142,7 +147,15 @@ class SampledStudy(Rows):
         few = len(self._known()) < FEW
         ends = f"{'least and largest' if few else '5 % to 95 %'} {low:.6g} to {high:.6g}"
         found = f"{FLOWS[self.analysis]} load factor {middle:.6g}, {ends}"
-        return f"{said}: {found}{failed}{self._left_out}"
+        return f"{said}: {found}{failed}{self._left_out}{self._remarked}"
+
+    @property
+    def _remarked(self) -> str:
+        """How many answers have a remark, and the most frequent one."""
+        counted = Counter(one for one in self.remarks if one)
+        if not counted:
+            return ""
+        return f"; {counted.total()} with remarks, such as: {counted.most_common(1)[0][0]}"
 
     @property
     def _left_out(self) -> str:

@@ -17,7 +17,16 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import LimitBlocksError, ModelError
 from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
-from limitblocks.studies.pool import ANALYSES, FAILURES, Analysis, Progress, analyse, failed, in_order
+from limitblocks.studies.pool import (
+    ANALYSES,
+    FAILURES,
+    INTERRUPTED,
+    Analysis,
+    Progress,
+    analyse,
+    failed,
+    in_order,
+)
 from limitblocks.studies.sample_result import SampledStudy
 from limitblocks.studies.samples import Sampler, sampled_values
 
@@ -110,6 +119,7 @@ def study(
         errors=tuple(row["error"] for row in rows),
         samples=n,
         indices=indices,
+        remarks=tuple(row.get("remarks", "") for row in rows),
     )
 
 
@@ -217,15 +227,16 @@ def one_row(
     try:
         model = maker(**values)
     except FAILURES as error:
-        outcome, mode = failed(error), ""
+        outcome, mode, remarks = failed(error), "", ""
     else:
-        outcome, mode = analyse(model, analysis, settings), ""
+        outcome, mode, remarks = analyse(model, analysis, settings), "", ""
         if outcome.result is not None and not outcome.error:
             words = {
                 part for state in interface_states(model, outcome.result).state for part in state.split("-")
             }
-            mode = "-".join(sorted(words - {"stick"}))
-    return {"row": number, "load_factor": float(outcome.load_factor), "mode": mode, "error": outcome.error}
+            mode, remarks = "-".join(sorted(words - {"stick"})), "; ".join(outcome.result.remarks)
+    found = {"row": number, "load_factor": float(outcome.load_factor)}
+    return found | {"mode": mode, "error": outcome.error, "remarks": remarks}
 
 
 def _answers(tasks: Sequence[tuple[Any, ...]], workers: int | None, client: Any) -> Iterator[Row]:
@@ -245,4 +256,4 @@ def _of_task(task: tuple[Any, ...]) -> Row:
 
 
 def _undone(k: int) -> Row:
-    return {"row": k, "load_factor": np.nan, "mode": "", "error": "interrupted before this one was done"}
+    return {"row": k, "load_factor": np.nan, "mode": "", "error": INTERRUPTED}

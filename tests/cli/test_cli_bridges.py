@@ -41,6 +41,8 @@ def test_a_vehicle_leaves_the_model_with_itself_at_its_worst(bridge, tmp_path):
 
 def test_levels_off_the_fill_of_the_model_are_asked_about(bridge, tmp_path):
     file, level = bridge
+    rounded = run("vehicle", file, "--axles", "1e5", "--level", round(level + 4e-4, 3), "--count", 3)
+    assert "meant?" not in rounded.stderr
     road = run("vehicle", file, "--axles", "1e5", "--level", level + 0.1, "--count", 3)
     assert f"the fill of the model ends at {level:.3f}"[:-1] in road.stderr
     fill = "backfill", file, "--unit-weight", "18e3", "--passive", 3, "--weight", "-o"

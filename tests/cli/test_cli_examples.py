@@ -31,7 +31,8 @@ def test_run_writes_the_pictures_here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     done = run("examples", "run", "01")
     assert done.exit_code == 0, done.output
-    assert list((tmp_path / "output").iterdir())
+    (picture,) = (tmp_path / "output").iterdir()
+    assert done.stdout.splitlines()[-1] == str(Path("output") / picture.name)
 
 
 def test_show_is_the_file():

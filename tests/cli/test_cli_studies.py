@@ -91,6 +91,37 @@ def test_no_number_of_a_table_is_broken_in_two(file):
     """Half of 2.5e-09 on a line of its own reads as 2.5."""
     line = ["directions", str(file), "--count", "8", "--workers", "1"]
     done = CliRunner().invoke(cli.app, ["study", *line], env={"COLUMNS": "70"})
-    rows = [row.split() for row in done.stdout.splitlines() if row[:1].isdigit()][:8]
+    rows = [row.split() for row in done.stdout.splitlines() if row.strip()[:1].isdigit()][:8]
     assert [len(row) for row in rows] == [8] * 8
     assert all(float(row[-1]) <= 1e-6 for row in rows)
+
+
+def test_what_an_analysis_remarks_stands_by_its_rows(tmp_path):
+    """Pushed along a diagonal Eq. (39) has more than the stress block, along a side it has not."""
+    blocks = [
+        lb.Block.box("ground", (6, 6, 1), (0, 0, -0.5)),
+        lb.Block.box("pier", (1, 1, 4), (0, 0, 2), 20e3),
+    ]
+    model = model_of(blocks, ["ground"], lb.OrdunaLourenco(0.9, compressive_strength=400e3))
+    file, rows = model.save(tmp_path / "pier.json"), tmp_path / "rows.csv"
+    done = run("directions", file, "--count", 8, "--workers", 1, "--csv", rows)
+    assert "warning: rows 2, 4, 6, 8: " in done.stdout
+    with rows.open(newline="") as stream:
+        said = ["times the moment" in row["remarks"] for row in csv.DictReader(stream)]
+    assert said == 4 * [False, True]
+
+
+def test_no_word_of_the_head_of_a_table_is_broken_in_two(file):
+    line = ["directions", str(file), "--count", "3", "--workers", "1", "--nonassociated"]
+    done = CliRunner().invoke(cli.app, ["study", *line], env={"COLUMNS": "80"})
+    assert {"Frictionless", "Associated", "residual"} <= set(done.stdout.split())
+
+
+def test_a_column_that_no_row_claims_is_left_out(tmp_path):
+    """Without friction an arch does not stand, so that no frictionless load factor is claimed."""
+    model = lb.structures.arch(lb.PointContact(0.6), radius=2.0, thickness=0.5, voussoirs=7)
+    done = run(
+        "directions", model.save(tmp_path / "arch.json"), "--count", 1, "--workers", 1, "--nonassociated"
+    )
+    assert "Associated" in done.stdout
+    assert "Frictionless" not in done.stdout

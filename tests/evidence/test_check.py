@@ -1,5 +1,6 @@
 """The MCP checker on hand-made solutions: a sliding block, true and mutilated in every way."""
 
+import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -156,3 +157,33 @@ def test_the_checker_runs_without_the_solver_stack():
     )
     folder = lb.__path__[0]
     subprocess.run([sys.executable, "-c", code, folder], check=True)
+
+
+@pytest.mark.parametrize(
+    ("factors", "said"),
+    [
+        ((1.0,) * 6, None),
+        ((1e-3,) * 6, "1000 times the stress resultants would be in equilibrium: another unit of force?"),
+        (
+            (-1.0,) * 6,
+            "-1 times the stress resultants would be in equilibrium: N is negative in compression?",
+        ),
+        ((1.0, 1.0, -1.0, 1.0, 1.0, 1.0), "no interface is compressed: N is negative in compression"),
+        ((0.9, 1.0, 1.0, 1.0, 1.0, 1.0), None),  # wrong, and by no convention
+    ],
+)
+def test_another_unit_or_sign_than_ours_is_asked_about(model, claim, factors, said):
+    Q = claim.stress_resultants * np.array(factors)
+    remarks = check_mcp(model, replace(claim, stress_resultants=Q)).remarks
+    asked = [one for one in remarks if "equilibrium" in one or "compressed" in one]
+    assert [one.startswith(said) for one in asked] == [True] if said else not asked
+
+
+def test_an_interface_named_the_other_way_round_is_told_so(model, claim, tmp_path):
+    interface = model.interfaces[0]
+    here, there = interface.block_i, interface.block_j
+    forces = {f"{there}|{here}": claim.stress_resultants[0].tolist()}
+    file = tmp_path / "claim.json"
+    file.write_text(json.dumps({"load_factor": MU, "stress_resultants": forces}))
+    with pytest.raises(lb.ModelError, match=rf"but '{here}\|{there}': forces on '{here}', n out of it"):
+        lb.read_result(file, model)

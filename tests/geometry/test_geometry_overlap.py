@@ -92,3 +92,17 @@ def test_a_block_drawn_twice_is_said(at, said):
     (overlap,) = find_contacts(blocks, None).overlaps
     assert overlap.share == pytest.approx(1.0 - at)
     assert ("drawn twice; delete one" in find_contacts(blocks, None).faults[0]) is said
+
+
+def test_a_frame_is_one_line_not_one_for_each_stone():
+    stones = [Block.box(f"s{k}", (1, 1, 1), (2 * k, 0, 0)) for k in range(20)]
+    frame = Block.box("frame", (50, 1, 5), (20, 0, 0))
+    found = find_contacts([*stones, frame], None)
+    assert len(found.overlaps) == 20
+    for said in (found.faults, found.warnings):
+        (line,) = (
+            line for line in said if "frame" in line and "isolated" not in line and "interface" not in line
+        )
+        assert line.startswith("block 'frame' holds 20 others")
+    with pytest.raises(GeometryError, match="block 'frame' holds 20 others"):
+        found.require()

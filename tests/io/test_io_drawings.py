@@ -213,3 +213,32 @@ def test_an_elevation_is_looked_at_before_it_is_imported(tmp_path):
     assert "--thickness 0.5 --supports layer:GROUND" in said
     with pytest.raises(lb.ModelError, match="thickness"):
         lb.files.look(path, thickness=-1.0)
+
+
+def a_stone(tmp_path):
+    """A stone of 800 x 400 mm; the drawing does not say that these are mm."""
+    corners = [(0, 0), (800, 0), (800, 400), (0, 400)]
+    return drawn(tmp_path / "a.dxf", lambda space: space.add_lwpolyline(corners, close=True), units=0)
+
+
+def test_a_thickness_in_another_unit_than_m_is_asked_about(tmp_path):
+    path = a_stone(tmp_path)
+    for deep, asked in ((0.01, False), (0.6, False), (60.0, False), (600.0, True)):
+        notes = lb.files.read_drawing(path, thickness=deep, units="mm").notes
+        assert any("millimetres? thickness is in m: 0.6" in note for note in notes) is asked, deep
+
+
+def test_a_drawing_in_another_unit_than_said_is_no_sheet_of_two_faces(tmp_path):
+    wrong = r"thickness is 0.6 m and an outline 800 m long \(median\): say the unit .*--units mm"
+    with pytest.raises(lb.ModelError, match=wrong):
+        lb.files.read_drawing(a_stone(tmp_path), thickness=0.6, units="m")
+
+
+@pytest.mark.parametrize("option", ["--up", "--twisted"])
+def test_what_is_of_solids_is_refused_with_a_thickness_by_look_and_import_alike(tmp_path, option):
+    given = ["--thickness", "0.6", option, "y" if option == "--up" else "fit"]
+    made = ["--friction", "0.6", "--unit-weight", "20e3", "--live", "1,0,0", "--supports", "0"]
+    for command in (["look"], ["import", *made]):
+        said = CliRunner().invoke(app, [command[0], str(a_stone(tmp_path)), *command[1:], *given])
+        assert said.exit_code == 2
+        assert f"leave {option[2:]} ({option}) out" in said.stderr

@@ -78,6 +78,14 @@ FAULTS = {
         find("blocks", 1, "unitweight", to=1),
         ["blocks[1].unitweight: unknown key; did you mean 'unit_weight'"],
     ),
+    "key of a box beside it": (
+        listed("blocks", 1, "size", to=[1.0, 1.0, 1.0]),
+        ["blocks[1].size: unknown key here; it belongs in 'box'"],
+    ),
+    "joint in place of its name": (
+        listed("interfaces", 0, "joint", to={"type": "PointContact", "friction": 0.5}),
+        ["interfaces[0].joint: expected the name of one of the joints, not {"],
+    ),
     "unknown key at the top": (find("suports", to=[]), ["suports: unknown key; did you mean 'supports'"]),
     "later version": (find("schema_version", to=2), ["schema_version: expected 1, not 2", "newer version"]),
     "decimal comma": (
@@ -223,7 +231,7 @@ def test_an_unknown_key_at_the_top_is_compared_with_those_there(tmp_path):
 
 
 def test_missing_file_directory_and_pipe(tmp_path):
-    for name, said in (("none.json", "No such file"), (".", "not a file"), ("a\0b", "cannot be read")):
+    for name, said in (("none.json", "No such file"), (".", "is a folder"), ("a\0b", "cannot be read")):
         with pytest.raises(lb.ModelError, match=said):
             lb.read(tmp_path / name)
     if hasattr(os, "mkfifo"):

@@ -251,7 +251,10 @@ def test_damage_is_named_in_one_line(name, files, tmp_path):
 def test_what_is_no_file_of_blocks_is_refused(suffix, tmp_path):
     folder = tmp_path / f"folder{suffix}"
     folder.mkdir()
-    for path, said in ((folder, "is not a file"), (tmp_path / f"none{suffix}", "cannot be read")):
+    for path, said in (
+        (folder, "is a folder; name a file in it"),
+        (tmp_path / f"none{suffix}", "cannot be read"),
+    ):
         with pytest.raises(lb.ModelError, match=said):
             lb.files.read_blocks(path)
     for data in (b"", b" \n"):

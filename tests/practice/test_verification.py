@@ -240,6 +240,13 @@ def test_a_ground_acceleration_that_may_be_in_g_is_asked_about(facade, answer):
     assert verification(facade, answer, Spectrum(0.5, 1.2, 2.5, 0.5), q=2.0).remarks == ()
 
 
+def test_a_ground_acceleration_that_may_be_in_m_s2_is_asked_about(facade, answer):
+    """1.5 m/s2 = .153 g, given as 1.5 g; .6 g is a fierce site."""
+    (said,) = verification(facade, answer, Spectrum(1.5 * 9.81, 1.2, 2.5, 0.5), q=2.0).remarks
+    assert said == "a_g is 14.7 m/s2, 1.5 g: m/s2? 1.5 m/s2 = 0.153 g"
+    assert verification(facade, answer, Spectrum(0.6 * 9.81, 1.2, 2.5, 0.5), q=2.0).remarks == ()
+
+
 def test_scale_of_the_mechanism_does_not_matter(facade, answer):
     """Bounds and the answer without dilatancy have one mechanism here, in one scale or another."""
     found = verification(facade, answer, SITE, q=2.0, confidence=1.0)

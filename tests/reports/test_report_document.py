@@ -18,6 +18,7 @@ from limitblocks.reports.answer import Answer, answer, verdict
 from limitblocks.reports.document import Chapter, Table
 from limitblocks.reports.facts import fact_rows
 from limitblocks.reports.interfaces import relative_motion
+from limitblocks.reports.markdown import escaped
 from limitblocks.reports.pdf import latin, pdf
 from limitblocks.reports.words import at_least, at_most
 
@@ -336,3 +337,19 @@ def test_an_empty_report_says_so_in_a_line(house):
 def test_one_block_is_one_block():
     facts = dict(fact_rows(lb.report(lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0)).facts))
     assert facts["Unit weight 20 kN/m³"].startswith("1 block, ")
+
+
+def test_no_name_of_an_interface_is_broken_over_lines_as_text():
+    model = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=5)
+    found = lb.bounds(model)
+    states = lb.interface_states(model, found)
+    moving = [name for name, state in zip(states.names, states.state, strict=True) if state != "stick"]
+    lines = lb.report(model, found).text.splitlines()
+    assert moving
+    for name in moving:
+        assert any(line.startswith(f"{name} ") for line in lines), name
+
+
+def test_an_ampersand_is_escaped_in_markdown_where_it_would_begin_an_entity_alone(house):
+    assert "Orduña & Lourenço (2005)" in lb.report(house).markdown
+    assert escaped("A & B, R&amp;D, &#38;") == r"A & B, R\&amp;D, \&\#38;"

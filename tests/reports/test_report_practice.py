@@ -241,3 +241,11 @@ def test_a_point_whose_dead_loads_alone_fall_says_so():
     point = SimpleNamespace(changes=("a|b opens",), shift=-0.458)
     assert _changes(point).endswith("the dead loads alone do not stand: solved from 0.458 of the live load")
     assert _changes(SimpleNamespace(changes=(), shift=0.0)) == "none"
+
+
+def test_a_curve_of_one_point_is_warned_of(facade, answers):
+    """Nothing but the load factor at rest is known: its end at 0 m is no displacement capacity."""
+    one = replace(answers[2], points=answers[2].points[:1], zero=None, ended="no checked answer beyond 0 m")
+    said = "the curve is its first point alone: no checked answer beyond 0 m"
+    assert said in lb.report(facade, one).text.replace("\n", " ")
+    assert "first point alone" not in lb.report(facade, answers[2]).text

@@ -223,7 +223,7 @@ def test_sobol_indices_of_a_product():
 def test_table(tmp_path):
     pandas = pytest.importorskip("pandas")
     found = lb.study(block, {"friction": (0.2, 0.6)}, 2)
-    assert list(found.to_frame().columns) == ["friction", "load_factor", "mode", "error"]
+    assert list(found.to_frame().columns) == ["friction", "load_factor", "mode", "error", "remarks"]
     written = pandas.read_csv(found.write_csv(tmp_path / "a.csv"))
     assert written["load_factor"].tolist() == pytest.approx(found.load_factors.tolist())
 
@@ -259,3 +259,17 @@ def test_misuse(ask, words):
 def test_study_without_indices_has_none():
     with pytest.raises(lb.ModelError, match="indices=True"):
         lb.study(block, {"friction": (0.2, 0.6)}, 2).sobol()
+
+
+def remarking(friction):
+    """A pier pushed along the diagonal, of which Eq. (39) carries more than the stress block."""
+    joint = lb.OrdunaLourenco(friction, compressive_strength=400e3)
+    return lb.structures.block(joint, width=1.0, height=4.0, direction=(1.0, 1.0, 0.0))
+
+
+def test_what_an_answer_remarks_is_kept_in_rows_and_file(tmp_path):
+    file = tmp_path / "rows.jsonl"
+    first, again = (lb.study(remarking, {"friction": (0.8, 0.9)}, 2, file=file) for _ in range(2))
+    for found in (first, again):  # the second reads what the first wrote
+        assert all("times the moment" in row["remarks"] for row in found.rows())
+        assert "; 2 with remarks, such as: " in str(found)

@@ -20,6 +20,9 @@ from limitblocks.io.imported import ImportedBlocks, UnitWeight, foreign, importe
 from limitblocks.io.placed import Contents, frame
 from limitblocks.io.solid import Solid
 
+#: Thickness over the length of an outline below which a prism is a sheet, and beyond which it may be in mm.
+_LEAF, _DEEP = 1e-3, 1e2
+
 
 def read_drawing(
     file: str | Path,
@@ -77,9 +80,37 @@ def elevation(
         found = _contents(drawing, [layers] if isinstance(layers, str) else layers)
     notes = [*dxf.unit_notes(drawing), *found.notes]
     contents = found._replace(metres=dxf.metres_per_unit(drawing), notes=notes, up="z")
-    depth = np.array([1.0, thickness / frame(contents, units, "z").metres, 1.0])
+    metres = frame(contents, units, "z").metres
+    lengths = [metres * _length(solid) for solid in found.solids]
+    asked = _of_thickness(thickness, float(np.median(lengths))) if lengths else []
+    depth = np.array([1.0, thickness / metres, 1.0])
     solids = [solid._replace(vertices=solid.vertices * depth) for solid in found.solids]
-    return contents._replace(solids=solids)
+    return contents._replace(solids=solids, notes=[*notes, *asked])
+
+
+def refuse_with_thickness(**given: str | None) -> None:
+    """Raise ModelError for what solids may be told and an elevation, upright with plane faces, may not."""
+    for name, value in given.items():
+        if value:
+            raise ModelError(
+                f"{name} is {value!r}, of an elevation x is X, y is Z and faces are plane: "
+                f"leave {name} (--{name}) out"
+            )
+
+
+def _length(solid: Solid) -> float:
+    """Return the longest side of an outline, in the unit of the drawing."""
+    return float(np.ptp(solid.vertices[:, [0, 2]], axis=0).max())
+
+
+def _of_thickness(thickness: float, length: float) -> list[str]:
+    """Return the question for a thickness that is hardly in m, of outlines `length` m long; refuse sheets."""
+    off = f"thickness is {thickness:g} m and an outline {length:.3g} m long (median)"
+    if thickness < _LEAF * length:
+        raise ModelError(f"{off}: say the unit of the drawing, units='mm' (--units mm), or a thickness in m")
+    return (
+        [f"{off}: millimetres? thickness is in m: {thickness / 1e3:g}"] if thickness > _DEEP * length else []
+    )
 
 
 def _contents(drawing: Any, layers: Sequence[str] | None) -> Contents:
