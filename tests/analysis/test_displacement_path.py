@@ -13,6 +13,7 @@ from limitblocks.analysis.nonassociated.displacement_path import ROUNDED, pushed
 from limitblocks.analysis.nonassociated.means import LARGE_MEANS
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, permanent
 from limitblocks.analysis.polish import defect
+from limitblocks.practice import reinforced, tie
 from limitblocks.problem import Flow
 
 
@@ -69,7 +70,9 @@ def test_other_joints_and_dilatancy_have_no_such_path(joint, dilatancy):
 
 def test_a_structure_with_a_tie_has_no_such_path():
     wall = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=3)
-    TIE
+    block = wall.blocks[-1]
+    rod = tie(block.name, block.centroid, wall.supports[0], (-3.0, 0.0, 0.0), area=1e-4, strength=235e6)
+    problem = reinforced(wall, rod).problem
     assert contact_points(Flow(problem), np.zeros(problem.C.shape[0]), ROUNDED) is None
 
 

@@ -47,7 +47,7 @@ class ContactPoints:
         soft, elastic = 2.0 * self.rounding, self.x0 + strains * self.stiffness
         n, V = elastic[:, 2], elastic[:, :2]
         root = np.hypot(n, soft)
-        N = np.where(n > 0.0, -(soft**2) / (n + root), n - root) / 2.0  # the same, without cancellation
+        N = np.minimum(n, 0.0) - soft**2 / (np.abs(n) + root) / 2.0  # the same, without cancellation
         dN = -N / root
         v, c = np.hypot(*V.T), -self.friction * N
         out, off = np.hypot(v + c, soft), np.hypot(v - c, soft)
