@@ -21,7 +21,6 @@ import numpy as np
 from limitblocks.analysis.nonassociated.contact_points import ContactPoints, contact_points
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_newton import sign_of
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
 from limitblocks.analysis.polish import defect
 from limitblocks.arrays import Array
 from limitblocks.evidence.elimination import Factors
