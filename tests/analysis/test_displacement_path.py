@@ -105,6 +105,22 @@ def test_a_wedge_in_a_groove_slides_along_it():
     assert abs(load_factor - 0.4 * np.sqrt(2.0)) < 1e-6
 
 
+@pytest.mark.parametrize(
+    ("name", "push", "apart"),
+    [
+        ("eccentric_lintel", (1.0, 0.0, 0.0), 1e-4),
+        ("arch_bridge", (1.0, 0.0, 0.0), 1e-4),
+        ("corner", (1.0, 0.0, 0.0), 1e-2),
+    ],
+)
+def test_it_ends_where_increments_of_loading_do(name, push, apart):
+    """Slip that stops and where it began are not kept, and corners are rounded: the corner is .7 % off."""
+    model = replace(lb.structures.EXAMPLES[name](lb.PointContact(0.6)), live=lb.mass_proportional(push))
+    load_factor, left = solved(model)
+    assert left <= 1e-8
+    assert abs(load_factor / lb.load_path(model).load_factor - 1.0) < apart
+
+
 def test_the_path_turns_where_the_structure_snaps():
     """A corner pushed out: displacements have to fall on the way, and the sign of det J says so."""
     corner = lb.structures.EXAMPLES["corner"](lb.PointContact(0.7))
@@ -149,6 +165,16 @@ def test_a_path_that_used_up_its_budget_ends_in_rounds(monkeypatch):
     _, left = solved(replace(corner, live=lb.mass_proportional((0.0, 1.0, 0.0))), met.append)
     assert met[-1].inner <= 10 + len(displacement_path.PACE) + 3
     assert np.isfinite(left)
+
+
+def test_a_singular_start_is_no_path(monkeypatch):
+    def singular(*_):
+        raise RuntimeError("Factor is exactly singular")
+
+    monkeypatch.setattr(displacement_path.DisplacementPath, "_factors", singular)
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
+    x0 = permanent(problem, problem.compliance)
+    assert pushed_over(Flow(problem), x0, 1.0, lambda state: state, lambda _: None) is None
 
 
 def test_the_user_may_stop_it(monkeypatch):

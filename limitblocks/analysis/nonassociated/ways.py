@@ -237,18 +237,23 @@ def _from_centroid(given: Given, means: Sequence[Means]) -> Iterator[Way]:
 def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
 
-    That of the first comes without rounds as well: one half costs less, and follows the load path.
+    That of the first comes without rounds as well: one half costs less, and follows the load path. So does
+    the path in displacements: a facade of 223 blocks pushed along ends at .178, by rounds of the first .125.
+    Beyond 300 blocks rounds come before it: of a house of 505 pushed along it takes a minute, in vain.
     """
     closing = Closing(given.flow, given.tolerance)
     for one in means:
         state, how = given.tracked(one, closing=closing)
-        left = defect(given.flow, state)
+        left, first = defect(given.flow, state), one is means[0]
         ended = how.endswith(INTERRUPTED) or left <= given.tolerance
-        if ended or one is means[0]:
+        if ended or first:
             yield state, how
+        largest = len(given.flow.problem.blocks) > LARGEST
+        if first and not largest:
+            yield from given.displaced(closing)
         if not ended and left < FAR:
             yield given.closed_in_rounds(state, how, closing)
-        if one is means[0]:
+        if first and largest:
             yield from given.displaced(closing)
 
 
