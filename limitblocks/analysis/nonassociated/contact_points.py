@@ -76,7 +76,6 @@ def contact_points(flow: Flow, x0: Array, rounding: float) -> ContactPoints | No
         eps, of the unit of force of an interface.
     """
     p, k = flow.problem, flow.problem.cones.linear
-    stiffness = 1.0 / p.compliance
     F, G = p.F.copy(), flow.matrix(x0).copy()
     F.eliminate_zeros()
     G.eliminate_zeros()
@@ -91,9 +90,6 @@ def contact_points(flow: Flow, x0: Array, rounding: float) -> ContactPoints | No
     sliding[slip[:, 0]] = 1  # without dilatancy: shear alone
     if not (same and apart and np.array_equal(np.diff(G.indptr), 1 - sliding)):
         return None
-    stiffness = stiffness.reshape(k, 3)
-    if not np.array_equal(stiffness[:, 0], stiffness[:, 1]):
-        return None
     friction = np.empty(k)
     friction[points[:, 0] // 3] = -F.data[slip[:, 0]] / np.abs(F.data[slip[:, 1]])
-    return ContactPoints(friction, stiffness, x0.reshape(k, 3), rounding)
+    return ContactPoints(friction, 1.0 / p.compliance.reshape(k, 3), x0.reshape(k, 3), rounding)
