@@ -122,7 +122,7 @@ def test_it_ends_where_increments_of_loading_do(name, push, apart):
 
 
 def test_the_path_turns_where_the_structure_snaps():
-    """A corner pushed along: displacements fall on the way. Without the sign of det J it takes 900 factors."""
+    """A corner pushed along: displacements fall at times; it takes 900 factors without the sign of det J."""
     corner = lb.structures.EXAMPLES["corner"](lb.PointContact(0.8))
     model = replace(corner, live=lb.mass_proportional((1.0, 0.0, 0.0)))
     met = []
