@@ -178,6 +178,16 @@ def test_a_path_that_used_up_its_budget_ends_in_rounds(monkeypatch):
     assert np.isfinite(left)
 
 
+def test_steps_that_run_away_end_in_rounds_without_a_warning(monkeypatch):
+    """A tangent without energy: steps are infinite."""
+    product = displacement_path.DisplacementPath.product
+    monkeypatch.setattr(
+        displacement_path.DisplacementPath, "product", lambda self, a, b: 0.0 * product(self, a, b)
+    )
+    load_factor, left = solved(lb.structures.block(lb.PointContact(0.5), width=1.0, height=4.0))
+    assert np.isfinite([load_factor, left]).all()
+
+
 def test_a_singular_start_is_no_path(monkeypatch):
     def singular(*_):
         raise RuntimeError("Factor is exactly singular")

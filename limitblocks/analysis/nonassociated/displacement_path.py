@@ -113,8 +113,8 @@ class DisplacementPath:
     def product(self, a: Move, b: Move) -> float:
         """Return the product of two directions: the energy of elastic joints, and of load factors."""
         C, stiffness = self.flow.problem.C, self.points.stiffness.ravel()
-        energy = float((C @ a.u) @ (stiffness * (C @ b.u))) / self.energy
-        return energy + a.load_factor * b.load_factor / self.unit[0] ** 2
+        energy = (C @ a.u) @ (stiffness * (C @ b.u)) / self.energy
+        return np.float64(energy + a.load_factor * b.load_factor / self.unit[0] ** 2)  # infinite over zero
 
     def corrected(self, z: Move, along: Move, longest: float) -> tuple[Move, int] | None:
         """Return the point of the path in the plane through z normal to a direction, and the corrections."""
@@ -136,6 +136,7 @@ class DisplacementPath:
         return None
 
 
+@np.errstate(all="ignore")  # a point that ran away is not accepted
 def pushed_over(
     flow: Flow,
     x0: Array,
