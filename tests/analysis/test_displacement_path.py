@@ -133,6 +133,45 @@ def test_the_path_turns_where_the_structure_snaps():
     assert met[-1].inner < 450
 
 
+def test_the_path_starts_where_rounded_corners_carry_less_than_the_permanent_loads():
+    """A flat arch that hardly stands: without the first point found so no step succeeds."""
+    arch = lb.structures.EXAMPLES["segmental_arch"](lb.PointContact(0.6))
+    met = []
+    load_factor, left = solved(replace(arch, live=lb.mass_proportional((1.0, 0.0, 0.0))), met.append)
+    assert met
+    assert left <= 1e-8
+    assert load_factor <= bracket(arch).associated
+
+
+def test_a_solution_far_from_the_path_is_not_where_it_ends(monkeypatch):
+    """Rounds led a facade of 223 blocks, pushed along, from .1812 to .1731; the path goes on, to .1827."""
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=4.0).problem
+    x0, found = permanent(problem, problem.compliance), []
+
+    def closing(state):
+        found.append(replace(state, load_factor=state.load_factor * (1.001 if found else 0.99)))
+        return found[-1]
+
+    monkeypatch.setattr(displacement_path, "defect", lambda *_: 0.0)
+    state, _ = pushed_over(Flow(problem), x0, 1.0, closing, lambda _: None)
+    assert len(found) == 2
+    assert state is found[1]
+
+
+def test_the_solution_far_from_the_path_is_given_where_there_is_no_other(monkeypatch):
+    problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=4.0).problem
+    x0, found = permanent(problem, problem.compliance), []
+
+    def closing(state):
+        found.append(replace(state, load_factor=0.99 * state.load_factor))
+        return found[-1]
+
+    monkeypatch.setattr(displacement_path, "BUDGET", 40)
+    monkeypatch.setattr(displacement_path, "defect", lambda *_: 0.0)
+    state, _ = pushed_over(Flow(problem), x0, 1.0, closing, lambda _: None)
+    assert state is found[-1]
+
+
 def large(monkeypatch, budget=1):
     """Small models take the means of large ones, whose first path is cut."""
     first, *others = LARGE_MEANS
@@ -206,4 +245,4 @@ def test_the_user_may_stop_it(monkeypatch):
     found = lb.nonassociated(large(monkeypatch), progress=stop, throw=False)
     assert found.status is lb.results.Status.INTERRUPTED
     assert found.how == "path in displacements, rounded corners of yield, interrupted"
-    assert found.residuals["equilibrium"] <= 1e-8
+    assert found.residuals["equilibrium"] <= 1e-6

@@ -33,8 +33,9 @@ FIRST, LEAST, LONGEST = 0.1, 1e-7, 1.0  # lengths of steps, of the displacements
 CUT = 0.35  # of the length after a failure
 PACE = (2.0, 2.0, 2.0, 1.4, 1.0, 1.0, 0.7)  # of the length after so many corrections
 FARTHEST = 3.0  # lengths that a correction may have
-BALANCED = 1e-9  # loads left over, of the unit of a block
+CLOSE = 1e-3  # of the length of a step: a correction shorter than this is the last
 AHEAD, STILL = 10.0, 1e-3  # times tau in which the load factor of a collapse changes by no more than this
+DRIFT = 5e-3  # of the load factor: farther off a solution is not where the path leads
 BUDGET = 900  # factorisations: facades of 160 to 508 blocks take 230 to 820
 
 
@@ -48,6 +49,15 @@ class Move(NamedTuple):
     def plus(self, t: float, other: Move) -> Move:
         """Return the sum with t times another."""
         return Move(self.u + t * other.u, self.load_factor + t * other.load_factor, self.tau + t * other.tau)
+
+
+class Met(NamedTuple):
+    """A point of the path; tangent, sign of the determinant and corrections before the last one."""
+
+    point: Move
+    tangent: Move
+    sign: float
+    corrections: int
 
 
 class DisplacementPath:
@@ -91,24 +101,21 @@ class DisplacementPath:
     def points_met(self, record: Callable[[Iteration], None]) -> Iterator[Move]:
         """Follow the path from the permanent loads, and give each of its points, until no step succeeds."""
         (factors, first), length, failures = self.start, FIRST, 0
-        sign = first
+        at = Met(self.at, self._tangent(factors), first, 0)
+        at = self.corrected(at.point, at.tangent, CLOSE, np.inf) or at  # rounded corners carry less
         while self.factorisations < BUDGET and length > LEAST:
-            turn, size = self._tangent(factors), max(1.0, self.product(self.at, self.at) ** 0.5)
-            step = sign * first * length * size / self.product(turn, turn) ** 0.5
-            try:
-                found = self.corrected(self.at.plus(step, turn), turn, FARTHEST * length * size)
-                if found is None:
-                    raise np.linalg.LinAlgError
-                at, corrections = found
-                factors, sign = self._factors(self._forces(at)[1])
-            except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+            size = length * max(1.0, self.product(at.point, at.point) ** 0.5)
+            step = at.sign * first * size / self.product(at.tangent, at.tangent) ** 0.5
+            found = self.corrected(at.point.plus(step, at.tangent), at.tangent, CLOSE * size, FARTHEST * size)
+            if found is None:
                 length, failures = CUT * length, failures + 1
                 continue
-            self.at, length = at, min(PACE[min(corrections, len(PACE) - 1)] * length, LONGEST)
-            theta = self.unit[1] / max(abs(at.tau), self.unit[1])
-            load_factor = float(at.load_factor / self.flow.problem.units.live)
+            at, self.at = found, found.point
+            length = min(PACE[min(at.corrections, len(PACE) - 1)] * length, LONGEST)
+            theta = self.unit[1] / max(abs(self.at.tau), self.unit[1])
+            load_factor = float(self.at.load_factor / self.flow.problem.units.live)
             record(Iteration(load_factor, "path", theta, {"theta": theta}, self.factorisations, failures))
-            yield at
+            yield self.at
 
     def product(self, a: Move, b: Move) -> float:
         """Return the product of two directions: the energy of elastic joints, and of load factors."""
@@ -116,23 +123,30 @@ class DisplacementPath:
         energy = (C @ a.u) @ (stiffness * (C @ b.u)) / self.energy
         return np.float64(energy + a.load_factor * b.load_factor / self.unit[0] ** 2)  # infinite over zero
 
-    def corrected(self, z: Move, along: Move, longest: float) -> tuple[Move, int] | None:
-        """Return the point of the path in the plane through z normal to a direction, and the corrections."""
+    def corrected(self, z: Move, along: Move, near: float, longest: float) -> Met | None:
+        """Return the point of the path in the plane through z normal to a direction, None if none is met.
+
+        Corrections end with one shorter than `near`; none may be as long as `longest`.
+        """
         p, first = self.flow.problem, z
         for k in range(len(PACE) + 2):
             x, slope = self._forces(z)
-            left = p.balance @ x - p.dead - z.load_factor * p.live
-            if np.linalg.norm(left) < BALANCED:
-                return z, k
-            factors, _ = self._factors(slope)
+            try:
+                factors, sign = self._factors(slope)
+            except (RuntimeError, ValueError):  # SuperLU: singular, or not finite
+                return None
             turn = self._tangent(factors)
+            left = p.balance @ x - p.dead - z.load_factor * p.live
             d = factors.solve(np.append(left, z.tau - p.live @ z.u))
             step = Move(d[:-1], float(d[-1]), 0.0)
             off = self.product(along, z.plus(-1.0, first).plus(1.0, step))
             step = step.plus(-off / self.product(along, turn), turn)
-            if not self.product(step, step) < longest**2:  # or not a number
+            size = self.product(step, step) ** 0.5
+            if not size < longest:  # or not a number
                 return None
             z = z.plus(1.0, step)
+            if size < near:
+                return Met(z, turn, sign, k)
         return None
 
 
@@ -171,17 +185,20 @@ def pushed_over(
         path, met = DisplacementPath(flow, points, scale), list[Move]()
     except (RuntimeError, ValueError):  # SuperLU: singular
         return None
+    solution = None
     try:
         for at in path.points_met(record):
             met.append(at)
             if _collapses(met):
                 found = closing(path.state(at))
                 if defect(flow, found) <= TOLERANCE:
-                    return found, False
+                    solution = found
+                    if abs(found.load_factor - at.load_factor) <= DRIFT * abs(at.load_factor):
+                        break
                 met.clear()
-        return closing(path.state(path.at)), False
+        return solution or closing(path.state(path.at)), False
     except KeyboardInterrupt:
-        return path.state(path.at), True
+        return solution or path.state(path.at), True
 
 
 def _collapses(met: list[Move]) -> bool:
