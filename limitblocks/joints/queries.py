@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, reals
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
@@ -36,7 +36,7 @@ def interface(polygon: Any, joint: object) -> Interface:
     GeometryError
         If the polygon is no finite (n >= 3, 2) array, crosses itself, has no area or is not convex.
     """
-    shape = as_region(np.asarray(polygon, dtype=float))
+    shape = as_region(polygon)
     if not shape.convex_hull.area <= shape.area * (1 + 1e-9):
         raise GeometryError("the interface polygon must be convex; divide it into convex ones")
     ring = shapely.get_coordinates(shapely.geometry.polygon.orient(shape).exterior)[:-1]
@@ -200,7 +200,10 @@ class Queries:
 
 
 def _six(values: Any, word: str) -> Array:
-    array = np.asarray(values, dtype=float)
+    try:
+        array = reals(values)
+    except (TypeError, ValueError):
+        array = np.zeros(0)
     if array.shape != (6,) or not np.isfinite(array).all():
         raise ModelError(f"{word} is {values!r}, expected six finite numbers (V1, V2, N, M1, M2, T)")
     return array

@@ -23,7 +23,7 @@ from limitblocks.analysis.nonassociated.start import (
     start_stresses,
 )
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
@@ -219,7 +219,7 @@ def _compliance(
     pairs = []
     for interface in model.interfaces:
         pair = table.get(joint_of(interface))
-        if pair is None or np.shape(pair) != (2,) or not all(np.isfinite(k) and k > 0.0 for k in pair):
+        if pair is None or np.shape(pair) != (2,) or not all(0.0 < real(k) < np.inf for k in pair):
             raise ModelError(
                 f"stiffness of {interface.joint!r} is {pair!r}, "
                 "expected (normal, shear) in N/m3, both positive"
