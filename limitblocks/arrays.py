@@ -29,6 +29,22 @@ def read_only(values: Any) -> Array:
     return array
 
 
+def reals(values: Any) -> Array:
+    """Return numbers as floats; ValueError where one is text, which numpy would read."""
+    array = np.asarray(values)
+    if array.dtype.kind in "SU" or (array.dtype.kind == "O" and any(isinstance(v, str) for v in array.flat)):
+        raise ValueError("text is no number")
+    return array.astype(np.float64)
+
+
+def real(value: Any) -> float:
+    """Return a number as a float, NaN for what is none, such as text."""
+    try:
+        return float(1.0 * value)
+    except (TypeError, ValueError):
+        return np.nan
+
+
 def largest_in_rows(matrix: sparse.csr_array) -> Array:
     """Size of the largest entry of each row, zero for none."""
     largest, filled = np.zeros(matrix.shape[0]), np.flatnonzero(np.diff(matrix.indptr))

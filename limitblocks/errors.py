@@ -22,7 +22,10 @@ from __future__ import annotations
 import copyreg
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from limitblocks.evidence.results import Nonassociated
 
 __all__ = [
     "CheckFailed",
@@ -109,7 +112,7 @@ class UnlimitedLoad(SolveError):
 class NotConverged(SolveError):
     """The iteration did not reach its tolerance; `result` is the best state found."""
 
-    def __init__(self, message: str, result: Any) -> None:
+    def __init__(self, message: str, result: Nonassociated) -> None:
         self.result = result
         super().__init__(message)
 

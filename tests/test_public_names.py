@@ -48,6 +48,10 @@ def test_what_tools_ask_a_module_for_loads_nothing():
     )
 
 
+def test_type_checkers_know_what_an_analysis_that_did_not_converge_carries():
+    assert inspect.signature(lb.NotConverged.__init__).parameters["result"].annotation == "Nonassociated"
+
+
 def test_type_checkers_see_the_names_that_python_finds():
     tree = ast.parse(Path(lb.__file__).read_text(encoding="utf-8"))
     block = next(node for node in tree.body if isinstance(node, ast.If))

@@ -26,6 +26,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.sensitivity_result import LoadPosition, Sensitivities
 from limitblocks.geometry import Interface
 from limitblocks.joints.base import joint_of
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model, refuse_other
 from limitblocks.problem import LimitProblem, State
 
@@ -113,6 +114,7 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
         If the bounds belong to another model, or a moved shape is none.
     """
     _, si = _given(model, bounds)
+    step = number(step, "step", "", above=0.0)
     ahead, back = (_lagrangian(moved(model, field, t).problem, si) for t in (step, -step))
     return (ahead - back) / (2.0 * step)
 

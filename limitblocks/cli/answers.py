@@ -73,7 +73,7 @@ def answer(
         with interrupts() as stopped:
             result = solve(model, **settings)
     except NotConverged as error:
-        if kept.output and error.result is not None:
+        if kept.output:
             write_result(error.result, kept.output, overwrite=kept.force)
             typer.echo(f"the best state found, not a solution, is in {kept.output}", err=True)
             if error.result.digest != model.digest:

@@ -31,6 +31,10 @@ class Status(Enum):
         "not converged: the residuals of the state shown are within the tolerance, but the load factor "
         "still changed as its path was followed on"
     )
+    OTHER_WAY = (
+        "no collapse under the live load was found: the structure stands under its dead loads, and the state "
+        "shown solves the equations with the live load acting the other way"
+    )
     NO_SOLUTION = (
         "no solution exists, which is proven: the live load does no work on anything that can flow at yield"
     )

@@ -10,7 +10,7 @@ import numpy as np
 from limitblocks.arrays import Array
 from limitblocks.evidence.backward_error import BackwardError
 from limitblocks.evidence.claim import ARRAYS
-from limitblocks.evidence.ending import UNBOUNDED, Status
+from limitblocks.evidence.ending import Status
 from limitblocks.evidence.residuals import Residuals
 from limitblocks.problem import Turning
 from limitblocks.shown import Result, kept
@@ -157,7 +157,7 @@ class Nonassociated(Result):
             least, said = "at most", (f"lower end not claimed: {self.unclaimed}", *said)
         found = f"{self.load_factor:.6g}"
         if self.astray:
-            found, said = "none found", (UNBOUNDED, *said)
+            found = "none found"
         return self._line(
             f"non-associated load factor {found}, {least} {self.associated:.6g} (associated), "
             f"worst residual {worst.value:.1e} ({worst.name}), {self.backward_error}{confirmed}{word}",

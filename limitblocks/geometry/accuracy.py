@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, Indices
+from limitblocks.arrays import Array, Indices, real
 from limitblocks.errors import ModelError
 from limitblocks.geometry.block import Block
 from limitblocks.geometry.faces import all_faces, opposed
@@ -57,6 +57,11 @@ class Tolerances:
     angle: float = ANGLE
     width: float = GAP
     accuracy: float | None = None
+
+    def __post_init__(self) -> None:
+        for name, value in asdict(self).items():
+            if value is not None and np.isnan(real(value)):
+                raise ModelError(f"{name} of the tolerances is {value!r}, expected a number")
 
     def in_words(self, length: float) -> str:
         """Return the tolerances as text, for blocks of `length`, m."""
@@ -131,9 +136,9 @@ def chosen(
     """
     faults = []
     for name, value in (("gap", gap), ("width", width)):
-        if value is not None and not 0.0 < value < 1.0:
+        if value is not None and not 0.0 < real(value) < 1.0:
             faults.append(f"{name} is {value!r}; a tolerance between 0 and 1 block lengths is needed")
-    if angle is not None and not 0.0 < angle < np.pi / 4:
+    if angle is not None and not 0.0 < real(angle) < np.pi / 4:
         faults.append(f"angle is {angle!r}; a tolerance between 0 and pi/4 rad is needed")
     if faults:
         raise ModelError(*faults)

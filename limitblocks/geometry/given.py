@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, real, reals
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry.polyhedron import Faces
 
@@ -33,7 +33,7 @@ def numbers(name: str, what: str, values: Any, shape: tuple[int | None, ...]) ->
     """Return `values` as a read-only array of finite numbers of the given shape (None: any length)."""
     wanted = str(shape).replace("None", "n")
     try:
-        array = read_only(values)
+        array = read_only(reals(values))
     except (TypeError, ValueError):
         wrong(name, f"{what}: {reprlib.repr(values)} given; numbers of shape {wanted} are needed")
     if array.ndim != len(shape) or any(n not in (None, m) for n, m in zip(shape, array.shape, strict=True)):
@@ -73,10 +73,7 @@ def _colour(name: str, key: str, value: Any) -> str:
 def _unit_weight(name: str, key: str, value: Any) -> float | None:
     if value is None:
         return None
-    try:
-        weight = float(value)
-    except (TypeError, ValueError):
-        weight = np.nan
+    weight = real(value)
     if not 0.0 <= weight < np.inf:
         raise ModelError(f"block {name!r}: unit weight is {value!r}; a finite number >= 0 in N/m3 is needed")
     return weight

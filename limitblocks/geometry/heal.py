@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, Indices, first_tied, sums
+from limitblocks.arrays import Array, Indices, first_tied, real, sums
 from limitblocks.errors import GeometryError, ModelError, sequence_of
 from limitblocks.geometry.accuracy import GAPS, Accuracy, Tolerances, block_length, chosen, millimetres
 from limitblocks.geometry.block import Block
@@ -118,7 +118,7 @@ def heal(blocks: Sequence[Block], accuracy: float | None = None) -> Healed:
             "takes a length in m; or leave them as they are and widen the gap that counts as touching "
             "(import --gap)"
         )
-    if not 0.0 <= size < np.inf:
+    if not 0.0 <= real(size) < np.inf:
         raise ModelError(f"accuracy is {accuracy!r}; a length in m is needed")
     used = chosen(None, None, None, Accuracy(size / length, shown.angle))
     if size <= 1e-9 * length:  # drawn exactly

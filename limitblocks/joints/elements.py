@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real
 from limitblocks.errors import ModelError
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import YieldRows, checked_stress, stress_words
@@ -44,9 +44,9 @@ class Tie:
 
     def __post_init__(self) -> None:
         checked_stress("strength of a tie", self.strength, positive=True)
-        if not (np.isfinite(self.length) and self.length >= 0.0):
+        if not 0.0 <= real(self.length) < np.inf:
             raise ModelError(f"length of a tie is {self.length!r} m, expected a finite length >= 0")
-        if not 0.0 <= self.prestress < self.strength:
+        if not 0.0 <= real(self.prestress) < self.strength:
             most = f"expected 0 to less than its strength, {self.strength:g} Pa"
             raise ModelError(f"prestress of a tie is {self.prestress!r} Pa, {most}")
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, reals
 from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
@@ -36,7 +36,7 @@ def interface(polygon: Any, joint: object) -> Interface:
     GeometryError
         If the polygon is no finite (n >= 3, 2) array, crosses itself, has no area or is not convex.
     """
-    shape = as_region(np.asarray(polygon, dtype=float))
+    shape = as_region(polygon)
     if not shape.convex_hull.area <= shape.area * (1 + 1e-9):
         raise GeometryError("the interface polygon must be convex; divide it into convex ones")
     ring = shapely.get_coordinates(shapely.geometry.polygon.orient(shape).exterior)[:-1]
@@ -102,22 +102,22 @@ class Queries:
         return largest / step
 
     def utilisation(self, interface: Interface, Q: Any) -> float:
-        """Return how much of its strength the interface uses at Q, N held: 1 on the surface, > 1 outside.
+        """Return how much of its strength the interface uses at Q: 1 on the surface, > 1 outside.
 
         It is 1/t, t the largest multiple of (V1, V2, M1, M2, T) that the interface carries under the same
-        N. Zero without shear, bending and torsion, or if they may grow without limit; infinite if N by
-        itself cannot be carried.
+        N, or -N over what crushes it, if that is more. Zero without shear, bending and torsion, or if they
+        may grow without limit, where nothing crushes; infinite if N by itself cannot be carried.
         """
         Q = _six(Q, "Q")
         held = Q * [0, 0, 1, 0, 0, 0]
         try:
             if not (Q - held).any():
                 self.strength(interface, [0, 0, 1, 0, 0, 0], held)
-                return 0.0
+                return pressed(self, interface, Q[2])
             t = self.strength(interface, Q - held, held)
         except ModelError:
             return np.inf
-        return np.inf if t == 0.0 else 1.0 / t
+        return np.inf if t == 0.0 else max(1.0 / t, pressed(self, interface, Q[2]))
 
     def active_modes(self, interface: Interface, Q: Any, tolerance: float = 1e-6) -> tuple[str, ...]:
         """Return the names of the failure modes whose yield functions are zero at Q, or above.
@@ -199,8 +199,17 @@ class Queries:
         return tuple(dict.fromkeys(mode for mode, margin in named if not margin > tolerance))
 
 
+def pressed(joint: object, interface: Interface, N: float) -> float:
+    """Share of its compressive strength that N, in N, uses by itself; zero without a strength."""
+    strength = getattr(joint, "compressive_strength", None)
+    return 0.0 if strength is None else max(0.0, float(-N / (strength * areas(interface.polygon))))
+
+
 def _six(values: Any, word: str) -> Array:
-    array = np.asarray(values, dtype=float)
+    try:
+        array = reals(values)
+    except (TypeError, ValueError):
+        array = np.zeros(0)
     if array.shape != (6,) or not np.isfinite(array).all():
         raise ModelError(f"{word} is {values!r}, expected six finite numbers (V1, V2, N, M1, M2, T)")
     return array

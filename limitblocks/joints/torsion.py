@@ -20,7 +20,7 @@ import shapely
 from shapely import MultiPolygon, Polygon
 from shapely.geometry.polygon import orient
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, reals
 from limitblocks.errors import GeometryError
 from limitblocks.geometry.polygon import areas, centroids, cross, stacked
 
@@ -56,12 +56,16 @@ def as_region(region: Region) -> Any:
     if isinstance(region, Polygon | MultiPolygon):
         return _checked(region)
     rings = [region] if np.ndim(region[0]) == 1 else region
-    return _checked(reduce(shapely.symmetric_difference, [_ring(np.asarray(ring, float)) for ring in rings]))
+    return _checked(reduce(shapely.symmetric_difference, [_ring(ring) for ring in rings]))
 
 
-def _ring(vertices: Array) -> Any:
+def _ring(given: Any) -> Any:
+    try:
+        vertices = reals(given)
+    except (TypeError, ValueError):
+        vertices = np.zeros(0)
     if vertices.ndim != 2 or len(vertices) < 3 or vertices.shape[1] != 2 or not np.isfinite(vertices).all():
-        raise GeometryError(f"a polygon is a finite array of shape (n >= 3, 2); got {vertices.tolist()}")
+        raise GeometryError(f"a polygon is a finite array of shape (n >= 3, 2); got {given!r}")
     return _checked(Polygon(vertices))
 
 

@@ -26,7 +26,7 @@ def solved(analysis: Callable[..., A], *given: Any) -> A:
     try:
         return analysis(*given)
     except NotConverged as error:
-        if getattr(error.result, "status", None) is Status.INTERRUPTED:
+        if error.result.status is Status.INTERRUPTED:
             raise KeyboardInterrupt from None
         raise
 

@@ -52,8 +52,7 @@ def uplift(
     checked_model(model)
     number(level, "level of the water", "m")
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
-    if not 0.0 < share <= 1.0:
-        raise ModelError(f"share of the water pressure is {share!r}, expected more than 0 and at most 1")
+    share = number(share, "share of the water pressure", "", above=0.0, most=1.0)
     total = Load()
     for own in model.interfaces if interfaces is None else interfaces:
         if isinstance(own.joint, Tie | Dowel | Guide):

@@ -104,11 +104,12 @@ def judged_nonassociated(model: Model, result: Nonassociated) -> Nonassociated |
     check = check_mcp(model, result, tolerance=tolerance)
     if result.accepted and not check.passed:
         return CheckedClaim(claim_of(model, result), check)
+    refused = result.status in (Status.UNSETTLED, Status.OTHER_WAY)  # for what its residuals do not tell
     return replace(
         result,
         residuals=check.residuals,
         backward_error=check.backward_error,
-        status=Status.CONVERGED if check.passed else result.status,
+        status=Status.CONVERGED if check.passed and not refused else result.status,
         remarks=tuple(dict.fromkeys(check.remarks + result.remarks)),
         tolerance=tolerance,
     )

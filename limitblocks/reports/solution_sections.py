@@ -63,7 +63,7 @@ def nonassociated_section(model: Model, result: Nonassociated) -> Section:
             f"Joints that slide or twist {flow}. Stresses, mechanism and multipliers {proven} equilibrium, "
             "yield, flow rule and complementarity, Eqs (54)-(59), at this load factor."
         ),
-        headline=cut(result.load_factor),
+        headline="none found" if result.astray else cut(result.load_factor),
         values=(
             ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, within the next two"),
             *limits(result),

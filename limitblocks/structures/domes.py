@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.model import Model
@@ -204,6 +204,6 @@ def _refuse_sphere(radius: float, thickness: float, embrace: float, oculus: floa
         problems.append(f"thickness is {thickness!r}, expected less than twice the radius {radius!r}")
     if embrace > np.pi:
         problems.append(f"embrace is {embrace!r}, expected an angle up to pi (a hemisphere) in rad")
-    if not 0.0 <= oculus < embrace:
+    if not 0.0 <= real(oculus) < embrace:
         problems.append(f"oculus is {oculus!r}, expected an angle from 0 to less than {embrace!r}")
     refuse(problems)

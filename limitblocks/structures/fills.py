@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import fill as earth
 from limitblocks.mechanics.loads import force, unit_vector
@@ -76,8 +76,8 @@ def refuse_fill(fill: Fill) -> None:
     problems = [
         f"fill {name} is {value!r}, expected a number >= 0"
         for name, value in zip(fill._fields, fill, strict=True)
-        if not 0.0 <= value < np.inf
+        if not 0.0 <= real(value) < np.inf
     ]
-    if fill.inertia > 1.0:
+    if real(fill.inertia) > 1.0:
         problems.append(f"fill inertia is {fill.inertia!r}, expected a part of its weight, 0 to 1")
     refuse(problems)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from limitblocks.arrays import real
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond, Piece, multiple
@@ -105,13 +106,14 @@ def eccentric_lintel(
     """
     refuse_not_positive(block_length=block_length, block_height=block_height, thickness=thickness)
     refuse_not_positive(overhang=overhang, load_length=load_length, load_height=load_height)
+    refuse_not_positive(length=length, bearing=bearing)
     _refuse_off_grid(block_length, length=length, bearing=bearing)
     problems = [] if courses >= 1 else [f"courses is {courses!r}, expected at least one"]
     if bearing >= length:
         problems.append(f"bearing is {bearing!r}, expected less than the length {length!r}")
     if load_length > overhang:
         problems.append(f"load length is {load_length!r}, expected at most the overhang {overhang!r}")
-    if abs(eccentricity) >= thickness:
+    if not abs(real(eccentricity)) < thickness:
         problems.append(f"eccentricity is {eccentricity!r}, expected less than the thickness {thickness!r}")
     refuse(problems)
     bond, y = Bond(block_length, block_height, courses + 2), (-thickness / 2, thickness / 2)
@@ -131,5 +133,5 @@ def _refuse_off_grid(block_length: float, **lengths: float) -> None:
     refuse(
         f"{name} {value:g} m is not a positive multiple of {half:g} m, half a block"
         for name, value in lengths.items()
-        if value <= 0.0 or not multiple(value, half)
+        if not multiple(value, half)
     )

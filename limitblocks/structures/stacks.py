@@ -105,6 +105,7 @@ def overhang(
         As for :func:`column`.
     """
     _refuse_stack(count, length, height, depth)
+    refuse_not_positive(fraction=fraction)
     steps = fraction * length / (2 * np.arange(count, 0, -1))
     return _stack(joint, np.cumsum(steps), (length, depth, height), unit_weight, direction, "overhang")
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.arrays import real
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
@@ -63,7 +64,7 @@ def stair(
     problems = [] if treads >= 1 else [f"treads is {treads!r}, expected at least one"]
     if newel >= length:
         problems.append(f"newel is {newel!r}, expected less than the length {length!r}")
-    if not np.isfinite(turn):
+    if not np.isfinite(real(turn)):
         problems.append(f"turn is {turn!r}, expected an angle in rad")
     refuse(problems)
     x, y = (-newel, length - newel), (-width / 2, width / 2)
@@ -117,7 +118,7 @@ def cantilever_stair(
     refuse_not_positive(length=length, going=going, rise=rise, wall_thickness=wall_thickness)
     refuse_fewer(1, treads=treads)
     refuse_fewer(0, courses_above=courses_above)
-    if not 0.0 <= overlap < going:
+    if not 0.0 <= real(overlap) < going:
         refuse([f"overlap is {overlap!r}, expected a number from 0 to less than the going {going!r}"])
     bond, y = Bond(2 * going, rise, treads + courses_above), (-wall_thickness, 0.0)
     end = 2 * going * ((treads + 3) // 2)

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from scipy.stats import qmc
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, reals
 from limitblocks.errors import ModelError
 from limitblocks.joints.base import checked_choice
 
@@ -54,7 +54,7 @@ def _scaled(name: str, given: Any, unit: Array) -> Array:
         values = np.asarray(given.ppf(unit), dtype=float)
     else:
         try:
-            low, high = (float(value) for value in given)
+            low, high = reals(given)
         except (TypeError, ValueError):
             low = high = np.nan
         if not low < high:

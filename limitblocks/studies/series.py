@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, reals
 from limitblocks.errors import ModelError, refuse_no_function
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import compass, top_force, turned, unit_vector
@@ -175,7 +175,7 @@ def _columns(analysis: str, outcomes: list[Outcome]) -> tuple[str, Array, tuple[
 
 def _table(values: npt.ArrayLike, columns: int, word: str) -> Array:
     try:
-        array = np.asarray(values, dtype=float)
+        array = reals(values)
     except (TypeError, ValueError):
         array = np.zeros(0)
     if array.ndim != 2 or array.shape[1] != columns or not len(array) or not np.isfinite(array).all():

@@ -10,8 +10,10 @@ import numpy as np
 from scipy import optimize
 
 from limitblocks.analysis.stability import remarked_margin
+from limitblocks.arrays import real
 from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
+from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
 from limitblocks.shown import kept, many
 from limitblocks.studies.rows import Rows
@@ -154,7 +156,8 @@ class _Search:
         self, maker: Callable[[float], Model], parameter: str, load_factor: float, progress: Trial | None
     ) -> None:
         refuse_no_function(maker)
-        self.maker, self.parameter, self.load_factor = maker, parameter, load_factor
+        self.maker, self.parameter = maker, parameter
+        self.load_factor = number(load_factor, "load factor", "")
         self.progress = progress
         self.trials: dict[float, float] = {}
         self.remarks: dict[float, tuple[str, ...]] = {}
@@ -175,10 +178,10 @@ class _Search:
 
     def between(self, low: float, high: float, low_stands: bool, tolerance: float | None) -> Threshold:
         """Close the bracket between a value that stands and one that falls."""
-        if not (np.isfinite([low, high]).all() and low < high):
+        if not -np.inf < real(low) < real(high) < np.inf:
             raise ModelError(f"low is {low!r} and high is {high!r}, expected two finite numbers, low < high")
         width = RELATIVE * (high - low) if tolerance is None else tolerance
-        if not width > 4 * np.finfo(float).eps * max(abs(low), abs(high)):
+        if not real(width) > 4 * np.finfo(float).eps * max(abs(low), abs(high)):
             raise ModelError(f"tolerance is {tolerance!r}, expected a width above rounding errors")
         for end, value, stands in (("low", low, low_stands), ("high", high, not low_stands)):
             if (self.margin(value) >= 0.0) is not stands:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from stones import jammed
 
 import limitblocks as lb
 from limitblocks import structures
@@ -164,3 +165,34 @@ assert abs(load_factor) < 1e-6  # x[2] = -x[1] / 2 >= 0
 def test_a_linear_program_of_unlike_sizes_does_not_end_the_process():
     """The block at the end of its capacity curve: presolved, HiGHS ended in "double free or corruption"."""
     subprocess.run([sys.executable, "-c", OF_A_ROCKING_BLOCK], check=True)
+
+
+@pytest.mark.parametrize("bond", [1e6, 1e9])
+def test_a_load_path_that_strengths_end_is_followed_however_far_it_climbs(bond):
+    """Floor and ceiling of 1 m2 each hold the block by their bond: 2 c A + mu W, W = 20 kN."""
+    path = lb.load_path(jammed(lb.OrdunaLourenco(0.3, cohesion=bond, tensile_strength=bond)))
+    assert path.load_factor == pytest.approx(2 * bond / 20e3, rel=0.01)
+
+
+def test_a_structure_that_stands_has_no_load_factor_below_zero(tmp_path):
+    """Stones between walls, pressed down: they move only where the live load holds them up."""
+    lower, upper = [-1.0, -0.4, 0.0, 0.5, 1.0], [-1.2, -0.6, -0.1, 0.5, 1.1]
+    feet, heads = [-2.0, *lower, 2.0], [-2.0, *upper, 2.0]
+    stones = [
+        lb.Block.prism(f"stone {k}", [(a, 0), (b, 0), (d, 0.9), (c, 0.9)], (0, 1), 20e3)
+        for k, (a, b, c, d) in enumerate(zip(feet[:-1], feet[1:], heads[:-1], heads[1:], strict=True))
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.5))
+    push = lb.mass_proportional((-0.3, 0.0, -1.0))
+    model = lb.Model(stones, ["stone 0", "stone 5"], found, lb.self_weight(), push)
+    assert lb.stability(model).stands
+    with pytest.raises(lb.NotConverged, match=r"without limit .* need not exist") as caught:
+        lb.nonassociated(model)
+    result = caught.value.result
+    assert not result.accepted
+    assert "load factor none found" in str(result)
+    if lb.check_mcp(model, result).passed:
+        assert result.load_factor < 0.0
+        assert result.status is lb.results.Status.OTHER_WAY
+        again = lb.read_result(lb.files.write_result(result, tmp_path / "result.json"), model)
+        assert "No certified load factor" in lb.report(model, again, demand=1.0).text

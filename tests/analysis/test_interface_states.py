@@ -5,6 +5,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.evidence.interface_states import LOADED, interface_states
+from limitblocks.evidence.utilisation import utilisation
 
 CORNER = {"length": 1.6, "return_length": 1.2, "courses": 3}
 JOINTS = [lb.OrdunaLourenco, lb.PointContact, lb.joints.ExactTorsion]
@@ -203,6 +204,18 @@ def test_utilisation_is_what_the_joint_answers(joint, settings):
     assert loaded.sum() > 10
     answers = [i.joint.utilisation(i, q) for i, q in zip(model.interfaces, Q, strict=True)]
     assert np.allclose(found.utilisation[loaded], np.minimum(answers, 1.0)[loaded], atol=1e-6)
+
+
+def test_a_joint_that_is_pressed_in_its_middle_says_how_near_it_is_to_crushing():
+    """A column of 1 m2 weighs 40 kN over its base, 99 % of fc A; its moments of 0 say nothing."""
+    strength = 40e3 / 0.99
+    column = [GROUND, stone(size=(1, 1, 2), at=(0, 0, 1))]
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=strength)
+    model = model_of(column, joint, lb.mass_proportional((1, 0, 0)))
+    resting = np.array([0.0, 0.0, -40e3, 0.0, 0.0, 0.0])
+    assert joint.utilisation(model.interfaces[0], resting) == pytest.approx(0.99)
+    used = utilisation(model, resting)
+    assert used == pytest.approx([0.99])
 
 
 def test_exact_circle_and_crushing_are_cones_of_the_same_utilisation():

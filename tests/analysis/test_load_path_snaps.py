@@ -11,9 +11,11 @@ from scipy.optimize import brentq
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated import increment as increments
-from limitblocks.analysis.nonassociated import loading, loop
+from limitblocks.analysis.nonassociated import loading, loop, ways
 from limitblocks.analysis.nonassociated.increment import Increment, Tried
+from limitblocks.analysis.nonassociated.start import permanent
 from limitblocks.analysis.nonassociated.stretch import Visit
+from limitblocks.problem import Flow
 from limitblocks.structures.convex import hull
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -293,6 +295,17 @@ def test_a_path_that_uses_up_its_budget_says_so_and_which_setting_raises_it():
     with pytest.raises(lb.NotConverged) as caught:
         lb.load_path(structures.wall(lb.PointContact(0.65), length=1.2, courses=4), settings=settings)
     assert any("used up their 30 factorisations; Settings(budget=...)" in n for n in caught.value.__notes__)
+
+
+def test_a_polish_that_leads_elsewhere_is_no_end_of_increments(monkeypatch):
+    """Nonassociated took it for one that the load path leads to."""
+    monkeypatch.setattr(loading, "polish", lambda _, at: replace(at, load_factor=2.0 * at.load_factor))
+    problem = structures.wall(lb.PointContact(0.65), length=1.2, courses=4).problem
+    given = ways.Given(Flow(problem), permanent(problem, problem.compliance), 1.0, 1e-8, (met := []).append)
+    monkeypatch.setattr(ways, "STEPS", lb.settings.Settings(budget=60))
+    state, how = given.increments()
+    assert how == "increments of the load path"
+    assert state.load_factor / problem.units.live == pytest.approx(met[-1].load_factor)
 
 
 def test_a_path_whose_increments_fail_says_which_setting_begins_with_larger_ones(monkeypatch):

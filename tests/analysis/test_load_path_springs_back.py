@@ -137,6 +137,7 @@ def test_a_load_path_that_is_not_followed_ends_at_its_last_step(monkeypatch, bud
     assert not path.collapse.converged
     assert path.load_factor == pytest.approx(path.steps[-2].load_factor, rel=1e-3)
     assert f"used up their {budget} factorisations" in path.remarks[-1]
+    assert "without limit" not in str(path)
     with pytest.raises(lb.NotConverged) as caught:
         lb.load_path(model, **given, settings=settings)
     assert "without limit" not in str(caught.value)

@@ -67,7 +67,7 @@ def test_a_push_on_one_stiff_block_is_followed_from_the_first_increment():
     assert sum(0.0 < step.load_factor < 0.2 for step in path.steps if step.kind != "polish") >= 3
 
 
-def test_a_stone_that_its_load_presses_down_falls_only_where_the_load_lifts_it():
+def test_a_stone_that_its_load_presses_down_has_no_load_factor():
     """Sliding: .25 W + .1 a W = .3 (W + a W), a = -.25; the stone stands, and the load may grow at will."""
     stone = structures.block(lb.PointContact(0.3), width=1.0, height=0.2)
     push = lb.mass_proportional((1.0, 0.0, 0.0))
@@ -76,7 +76,7 @@ def test_a_stone_that_its_load_presses_down_falls_only_where_the_load_lifts_it()
     assert lb.stability(model).stands
     with pytest.raises(lb.errors.UnlimitedLoad):
         lb.bounds(model)
-    result = lb.nonassociated(model)
-    assert result.load_factor == pytest.approx(-0.25)
-    assert any("with the live load acting the other way" in remark for remark in result.remarks)
-    assert "or with it acting the other way" in lb.report(model, result, demand=1.0).text.replace("\n", " ")
+    with pytest.raises(lb.NotConverged, match="without limit"):
+        lb.nonassociated(model)
+    with pytest.raises(lb.errors.UnlimitedLoad, match="along the load path"):
+        lb.load_path(model)

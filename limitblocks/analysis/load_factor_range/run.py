@@ -20,6 +20,7 @@ from limitblocks.analysis.nonassociated.start import (
     start_stresses,
 )
 from limitblocks.analysis.one_thread import one_thread
+from limitblocks.arrays import real
 from limitblocks.errors import ModelError
 from limitblocks.evidence.range_answer import RangeAnswer
 from limitblocks.evidence.range_result import Extreme, LoadFactorRange
@@ -83,7 +84,7 @@ def load_factor_range(
     """
     checked_count("paths", paths, 1)
     checked_count("mechanisms", mechanisms, 0)
-    if not time_limit > 0.0:
+    if not real(time_limit) > 0.0:
         raise ModelError(f"time_limit is {time_limit!r}, expected more than 0 s")
     flow, enclosing = flow_of(model, dilatancy, turning)
     refuse_jammed(enclosing)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.nonassociated.determinate import state_without_solution, yielding
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, unconfirmed
@@ -9,10 +11,10 @@ from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, RETURNS, UNSETTLED, off_load_path
 from limitblocks.analysis.nonassociated.start import Bracket
 from limitblocks.analysis.nonassociated.ways import left_over
-from limitblocks.analysis.stability import dead_load_state
+from limitblocks.analysis.stability import dead_load_state, stability
 from limitblocks.analysis.uncarried import uncarried, uncarried_words
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NoSolution, NotConverged
+from limitblocks.errors import NoSolution, NotConverged, SolverFailure
 from limitblocks.evidence.backward_error import BackwardError, far_off, settled, unknown, within
 from limitblocks.evidence.crushing import beyond_stress_block
 from limitblocks.evidence.ending import BELOW_ZERO, UNBOUNDED, Status
@@ -32,6 +34,10 @@ UNCHECKED = (
 ASK_FIRST = (
     "ask stability first, lb.stability(model) or limitblocks stability MODEL: where nothing but friction at "
     "its sides holds a stone there is often no such load factor; docs/no-convergence.md says what to do next"
+)
+
+TRY_LOAD_PATH = (
+    "load_path, limitblocks path MODEL, says whether the live load climbs without limit or where it ends"
 )
 
 
@@ -64,9 +70,12 @@ def finished(
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
     status = Status.INTERRUPTED if stopped or halfway else _status(flow, residuals, how, tolerance)
+    if status is Status.CONVERGED and _other_way(model, si.load_factor, tolerance):
+        status = Status.OTHER_WAY
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
     remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
+    remarks = (*_of_load_factor(si.load_factor, enclosing, status, why, tolerance), *remarks)
     remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
     claimed = enclosing.of(flow)
     result = Nonassociated(
@@ -103,11 +112,19 @@ def _dead_load_stresses(model: Model, enclosing: Bracket) -> Array:
     return dead_load_state(model.problem) * model.problem.stress_units
 
 
+def _of_load_factor(
+    load_factor: float, enclosing: Bracket, status: Status, why: str, tolerance: float
+) -> tuple[str, ...]:
+    """What is said of a load factor that nothing bounds, or that is below zero."""
+    if status in (Status.CONVERGED, Status.NEARBY):
+        return (BELOW_ZERO,) * (load_factor < -tolerance)
+    return (UNBOUNDED,) * bool(np.isinf(enclosing.associated) and RETURNS not in why)
+
+
 def _remarks(model: Model, state: State, flow: Flow, how: str, tolerance: float) -> tuple[str, ...]:
     """What is said of a state, and of `how` a solution was found."""
     problem = flow.problem
     return (
-        *(BELOW_ZERO,) * bool(problem.in_si(state).load_factor < -tolerance),
         *off_load_path(how),
         *given_power(flow, state, tolerance),
         *locked_shear(flow, state),
@@ -142,13 +159,19 @@ def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> Not
             f"{state.load_factor / problem.units.live:.6g}, and the live load does no work on what can flow",
             result,
         )
+    unbounded = UNBOUNDED in result.remarks
+    if result.status is Status.OTHER_WAY:
+        said = f"; {UNBOUNDED}" * unbounded
+        error = NotConverged(f"{result.status.value}, at load factor {result.load_factor:.6g}{said}", result)
+        error.add_note(TRY_LOAD_PATH)
+        return error
     place = f" at {worst.where}" if worst.where else ""
     interrupted = result.status is Status.INTERRUPTED
     why = INTERRUPTED if interrupted else f"no solution within {result.tolerance:g}"
     if result.status is Status.UNSETTLED:
         why = "the load factor still changed as its path was followed on"
     reached = f", load factor {result.load_factor:.6g}, {result.backward_error}"
-    said = f"; {UNBOUNDED}" if result.astray and RETURNS not in known else reached
+    said = f"; {UNBOUNDED}" if unbounded else reached
     error = NotConverged(f"{why}: {worst.name} residual {worst.value:.1e}{place}{said}", result)
     if not interrupted:
         for note in (
@@ -158,6 +181,16 @@ def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> Not
         ):
             error.add_note(note)
     return error
+
+
+def _other_way(model: Model, load_factor: float, tolerance: float) -> bool:
+    """Whether a structure that stands under its dead loads by itself would collapse only below zero."""
+    if load_factor >= -tolerance:
+        return False
+    try:
+        return stability(model).stands
+    except SolverFailure:  # undecided
+        return False
 
 
 def _status(flow: Flow, residuals: Residuals, how: str, tolerance: float) -> Status:

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
-from limitblocks.analysis.nonassociated.loading import Pushed, at_rest, near, pushed
+from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import end_of_first_path
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
@@ -23,8 +23,8 @@ from limitblocks.analysis.nonassociated.start import (
     start_stresses,
 )
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.arrays import Array, real
+from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
@@ -99,7 +99,7 @@ def load_path(
         If the dead loads alone cannot stand.
     UnlimitedLoad
         If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
-        without limit.
+        without limit; or if the increments climb without limit.
     NotConverged
         If the path ends above the tolerance, or the user interrupts it; carries the last state.
     """
@@ -124,6 +124,8 @@ def load_path(
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
     found = planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
     found = found or load(flow, start_stresses(model, problem, weights, start), weights)
+    if found.why == CLIMBS:
+        raise UnlimitedLoad(CLIMBS)
     record(end(flow, found.last))
     collapse = finished(
         model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw, why=found.why
@@ -190,9 +192,6 @@ def _loaded(
         if not met:
             raise
         pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
-    reached = pushes[-1].state if pushes else at_rest(flow, x0)
-    if why and not near(last, reached.load_factor):  # the path does not lead there
-        last = reached
     return _Loaded(x0, pushes, last, how, why)
 
 
@@ -220,7 +219,7 @@ def _compliance(
     pairs = []
     for interface in model.interfaces:
         pair = table.get(joint_of(interface))
-        if pair is None or np.shape(pair) != (2,) or not all(np.isfinite(k) and k > 0.0 for k in pair):
+        if pair is None or np.shape(pair) != (2,) or not all(0.0 < real(k) < np.inf for k in pair):
             raise ModelError(
                 f"stiffness of {interface.joint!r} is {pair!r}, "
                 "expected (normal, shear) in N/m3, both positive"

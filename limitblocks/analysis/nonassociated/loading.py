@@ -41,6 +41,7 @@ NEAR = 0.1  # flow residual below which the polish is tried
 DRIFT = 1e-3  # change of the load factor, relative, up to which the polished state is that of the increment
 FAST = 4.0  # growth where the flow residual is below a tenth of NEAR: nothing but the collapse is left
 BEHIND = 20.0  # of an increment that springs back beyond the permanent loads: tau counts from so many before
+CLIMBED = 1e4  # times dead loads and strengths, beside which they count for nothing: the path has no end
 LEAST = 1e-6  # of the first increment: smaller ones are not tried
 USED_UP = (
     "the increments of the load path have used up their {} factorisations; Settings(budget=...) of "
@@ -49,6 +50,11 @@ USED_UP = (
 TOO_SMALL = (
     "increments of the load path fail, however small; Settings(first=10) of limitblocks.settings, "
     "settings= of load_path, begins with a larger one"
+)
+CLIMBS = (
+    "the live load can grow without limit along the load path: its increments, each in equilibrium within "
+    f"yield, reach a live load {CLIMBED:g} times the dead loads and the strengths of the joints; check its "
+    "direction"
 )
 SPRINGS_BACK = (
     f"; near load factor {{:.6g}} the structure {RETURNS}, farther than they follow: a smaller barrier, "
@@ -111,14 +117,16 @@ def pushed(
     Returns
     -------
     tuple of Pushed, State, str
-        The increments, the collapse or the last state, and why there is no collapse, in words.
+        The increments, the collapse or the last state, polished where that changes its load factor by no
+        more than DRIFT, and why there is no collapse, in words.
     """
     soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
     barrier = Barrier(settings.barrier, floor=0.0)
     path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
     first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
+    strength = float(np.linalg.norm(flow.problem.g) / np.linalg.norm(flow.problem.live))
+    endless = CLIMBED * max(scale, strength)
     pushes: list[Pushed] = []
-    state = at_rest(flow, x0)
     used, failures, sprung = 0, 0, None
     while used < settings.budget and rho * LEAST < first:
         met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
@@ -136,12 +144,20 @@ def pushed(
             progress(pushes[-1])
         if closed is not None:
             return tuple(pushes), closed, ""
+        if state.load_factor > endless:
+            return tuple(pushes), state, CLIMBS
         path, failures = replace(path, x0=state.x, behind=0.0), 0
         rho /= FAST if proof["flow"] < NEAR / 10.0 else settings.growth
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
-    return tuple(pushes), polish(flow, state), why
+    return tuple(pushes), _polished(flow, pushes[-1].state if pushes else at_rest(flow, x0)), why
+
+
+def _polished(flow: Flow, reached: State) -> State:
+    """The state polished, unless that leads elsewhere than the increments do."""
+    state = polish(flow, reached)
+    return state if near(state, reached.load_factor) else reached
 
 
 def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, few, near
 from limitblocks.geometry import Block
 
@@ -111,16 +111,13 @@ def number(
     most: float = np.inf,
 ) -> float:
     """Return `value` as a float; ModelError where it is not finite, too small or too large."""
-    try:
-        real = float(1.0 * value)  # text is no number
-    except (TypeError, ValueError):
-        real = np.nan
-    if np.isfinite(real) and most >= real >= least and real > above:
-        return real
+    given = real(value)
+    if np.isfinite(given) and most >= given >= least and given > above:
+        return given
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     wanted += f" and <= {most:g}" if most < np.inf else ""
-    short = float(f"{real:.12g}")  # -1.962, not -1.9620000000000002
-    shown = short if abs(real - short) > 0.0 else value
+    short = float(f"{given:.12g}")  # -1.962, not -1.9620000000000002
+    shown = short if abs(given - short) > 0.0 else value
     raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
 
 
@@ -154,7 +151,7 @@ def position(name: str, blocks: Sequence[Block]) -> int:
 
 def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[float]:
     try:
-        array = np.asarray(values, dtype=float)
+        array = reals(values)
     except (TypeError, ValueError):
         array = np.full(0, np.nan)
     if array.shape != (count,) or not np.isfinite(array).all():
