@@ -196,3 +196,27 @@ def test_a_structure_that_stands_has_no_load_factor_below_zero(tmp_path):
         assert result.status is lb.results.Status.OTHER_WAY
         again = lb.read_result(lb.files.write_result(result, tmp_path / "result.json"), model)
         assert "No certified load factor" in lb.report(model, again, demand=1.0).text
+
+
+def pushed_aside(joint, live):
+    """A stone of 20 kN on the ground, pushed aside by a quarter of its weight, near the joint."""
+    ground = lb.Block.box("ground", (4.0, 1.0, 0.2), (0.0, 0.0, -0.1))
+    stone = lb.Block.box("stone", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), 20e3)
+    aside = lb.loads.force("stone", (5e3, 0.0, 0.0), at=(0.0, 0.0, 0.02))
+    load = lb.loads.force("stone", live, at=(0.0, 0.0, 0.02))
+    interfaces = lb.find_interfaces([ground, stone], joint)
+    return lb.Model([ground, stone], ["ground"], interfaces, lb.self_weight() + aside, load)
+
+
+def test_a_stone_that_is_lifted_slides_where_the_message_says():
+    """mu (W - a W) = W / 4; lifting does no work on the slip, so that Eq. (55) has no mechanism."""
+    model = pushed_aside(lb.OrdunaLourenco(0.3), (0.0, 0.0, 20e3))
+    said = rf"load factor {1.0 - 0.25 / 0.3:.6g}, .*; beyond it no stresses balance the loads"
+    with pytest.raises(lb.errors.NoSolution, match=said):
+        lb.nonassociated(model)
+
+
+def test_a_stone_that_is_pressed_down_yields_nowhere():
+    model = pushed_aside(lb.OrdunaLourenco(0.3), (-2e3, 0.0, -20e3))
+    with pytest.raises(lb.errors.NoSolution, match="however large the live load, no joint yields"):
+        lb.nonassociated(model)

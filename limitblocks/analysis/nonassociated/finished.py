@@ -149,16 +149,10 @@ def _evidence(
 
 def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> NotConverged:
     """The error that says why a result is no solution."""
-    problem, worst = flow.problem, result.residuals.worst
+    worst = result.residuals.worst
     state = state_without_solution(flow)
     if result.status is Status.NO_SOLUTION and state is not None:
-        first = problem.member_interface[yielding(flow, state.x)]
-        return NoSolution(
-            "no solution exists: statics alone gives the stresses, "
-            f"{', '.join(dict.fromkeys(problem.interfaces[k] for k in first))} yields first, at load factor "
-            f"{state.load_factor / problem.units.live:.6g}, and the live load does no work on what can flow",
-            result,
-        )
+        return NoSolution(f"no solution exists: {_by_statics(flow, state)}", result)
     unbounded = UNBOUNDED in result.remarks
     if result.status is Status.OTHER_WAY:
         said = f"; {UNBOUNDED}" * unbounded
@@ -181,6 +175,20 @@ def _refused(model: Model, flow: Flow, result: Nonassociated, known: str) -> Not
         ):
             error.add_note(note)
     return error
+
+
+def _by_statics(flow: Flow, state: State) -> str:
+    """What yields first where statics alone gives the stresses and nothing flows as it should."""
+    p = flow.problem
+    first = p.member_interface[yielding(flow, state.x)]
+    if not len(first):
+        return "statics alone gives the stresses, and however large the live load, no joint yields"
+    return (
+        "statics alone gives the stresses, "
+        f"{', '.join(dict.fromkeys(p.interfaces[k] for k in first))} yields first, at load factor "
+        f"{state.load_factor / p.units.live:.6g}, and the live load does no work on what can flow; beyond it "
+        "no stresses balance the loads"
+    )
 
 
 def _other_way(model: Model, load_factor: float, tolerance: float) -> bool:

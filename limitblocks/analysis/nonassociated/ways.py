@@ -238,7 +238,7 @@ def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
     """Ends of the paths for large models, closed by rounds of the fixed point, and which way it was.
 
     That of the first comes without rounds as well: one half costs less, and follows the load path. So does
-    the path in displacements: a facade of 223 blocks pushed along ends at .178, by rounds of the first .125.
+    the path in displacements: a facade of 223 blocks pushed along ends at .182, by rounds of the first .125.
     Beyond 300 blocks rounds come before it: of a house of 505 pushed along it takes a minute, in vain.
     """
     closing = Closing(given.flow, given.tolerance)
