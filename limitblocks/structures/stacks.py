@@ -6,6 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from limitblocks.arrays import real
+from limitblocks.errors import ModelError
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.build import (
@@ -105,7 +107,8 @@ def overhang(
         As for :func:`column`.
     """
     _refuse_stack(count, length, height, depth)
-    refuse_not_positive(fraction=fraction)
+    if not np.isfinite(real(fraction)):
+        raise ModelError(f"fraction is {fraction!r}, expected a number, 1 where the stack is about to fall")
     steps = fraction * length / (2 * np.arange(count, 0, -1))
     return _stack(joint, np.cumsum(steps), (length, depth, height), unit_weight, direction, "overhang")
 
