@@ -36,7 +36,7 @@ FARTHEST = 3.0  # lengths that a correction may have
 CLOSE = 1e-3  # of the length of a step: a correction shorter than this is the last
 AHEAD, STILL = 10.0, 1e-3  # times tau in which the load factor of a collapse changes by no more than this
 DRIFT = 5e-3  # of the load factor: farther off a solution is not where the path leads
-BUDGET = 900  # factorisations: facades of 160 to 508 blocks take 230 to 820
+BUDGET = 900  # factorisations: facades and houses of 160 to 508 blocks that arrive take 116 to 875
 
 
 class Move(NamedTuple):
@@ -68,14 +68,15 @@ class DisplacementPath:
         p, k = flow.problem, len(points.friction)
         self.cell = np.minimum(self.layout.cell_stresses[:, 0] // 3, k)  # the last one is empty
         self.factorisations = 0
-        self.start = self._factors(points.forces(np.zeros((k, 3)))[1])
-        elastic = self._tangent(self.start[0])
+        factors, sign = self._factors(points.forces(np.zeros((k, 3)))[1])
+        elastic = self._tangent(factors)
         work = elastic.load_factor  # per tau**2
         if not work > 0.0:
             raise ValueError("the live load does no work on the elastic structure")
         self.unit = scale, scale / work
         self.energy = scale**2 / work
         self.at = Move(np.zeros_like(p.dead), 0.0, 0.0)
+        self.start = Met(self.at, elastic, sign, 0)
 
     def state(self, at: Move) -> State:
         """Return a point as a state of rates; that of the permanent loads has none."""
@@ -100,8 +101,7 @@ class DisplacementPath:
 
     def points_met(self, record: Callable[[Iteration], None]) -> Iterator[Move]:
         """Follow the path from the permanent loads, and give each of its points, until no step succeeds."""
-        (factors, first), length, failures = self.start, FIRST, 0
-        at = Met(self.at, self._tangent(factors), first, 0)
+        at, first, length, failures = self.start, self.start.sign, FIRST, 0
         at = self.corrected(at.point, at.tangent, CLOSE, np.inf) or at  # rounded corners carry less
         while self.factorisations < BUDGET and length > LEAST:
             size = length * max(1.0, self.product(at.point, at.point) ** 0.5)

@@ -187,7 +187,7 @@ def _by_statics(flow: Flow, state: State) -> str:
         "statics alone gives the stresses, "
         f"{', '.join(dict.fromkeys(p.interfaces[k] for k in first))} yields first, at load factor "
         f"{state.load_factor / p.units.live:.6g}, and the live load does no work on what can flow; beyond it "
-        "no stresses balance the loads"
+        "no stresses within yield balance the loads"
     )
 
 

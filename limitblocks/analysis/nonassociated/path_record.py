@@ -51,8 +51,8 @@ def off_load_path(how: str) -> tuple[str, ...]:
     if DISPLACED in how:
         return (
             *symmetric,
-            "loading with rounded corners of yield led near this solution, and rounds of the fixed point to "
-            "it: it need not be exactly that of the load path; load_factor_range shows others",
+            "loading with rounded corners of yield, and rounds of the fixed point from there, led to this "
+            "solution: it need not be that of the load path; load_factor_range shows others",
         )
     if ROUNDS in how:
         return (
