@@ -40,7 +40,7 @@ def reals(values: Any) -> Array:
 def real(value: Any) -> float:
     """Return a number as a float, NaN for what is none, such as text."""
     try:
-        return float(1.0 * value)
+        return np.nan if np.asarray(value).dtype.kind in "SU" else float(value)
     except (TypeError, ValueError):
         return np.nan
 

@@ -4,6 +4,8 @@ import copy
 import pickle
 import re
 from dataclasses import replace
+from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -316,3 +318,8 @@ def test_an_error_of_another_process_says_the_same(error, again):
     """One that cannot be read back breaks the pool of processes, and the work of all its tasks is lost."""
     copied = again(error)
     assert (type(copied), str(copied), vars(copied)) == (type(error), str(error), vars(error))
+
+
+@pytest.mark.parametrize("value", [Decimal("20000"), Fraction(20000), np.float32(2e4), np.int64(20000)])
+def test_numbers_of_any_kind_are_taken(value):
+    assert lb.Block.box("a", (1, 1, 1), (0, 0, 0), value).weight == 20e3
