@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.analysis.direct import Programs
-from limitblocks.analysis.forms import Stresses, form_of
+from limitblocks.analysis.forms import Rates, Stresses, form_of
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.programs import DIRECT, PLANAR
 from limitblocks.analysis.scales import with_rates_near_one
@@ -16,16 +16,17 @@ IN_HALF = " in one half"  # of a problem with a mirror plane
 
 
 def programs_of(problem: LimitProblem) -> tuple[Programs, ...]:
-    """Return the programs of a problem, reduced by its mirror if it has one: the later where the first fail.
+    """Return the programs of a problem, reduced by its mirror if it has one: the later where the first fails.
 
-    In stresses most are solved closest as they are, in rates fastest; some towers and facades end 1e-6 off,
-    and are solved to 1e-8 in stresses with rates near one.
+    In rates most are solved fastest; some facades and houses end 1e-6 off, in stresses 1e-8.
     """
     plane = in_plane(problem)
     if plane is not None and plane.flat:
-        return (Programs(Stresses(with_rates_near_one(plane.problem), refined=False)),)
+        return (Programs(Stresses(with_rates_near_one(plane.problem), planar=True)),)
     reduced = problem if plane is None else plane.problem
-    return Programs(form_of(reduced)), Programs(Stresses(with_rates_near_one(reduced)))
+    first = form_of(reduced)
+    forms = (first, Stresses(first.problem)) if isinstance(first, Rates) else (first,)
+    return tuple(Programs(form) for form in forms)
 
 
 def limit_state(programs: Programs, plane: Planar | None) -> tuple[State, str] | None:
