@@ -36,7 +36,7 @@ class Vehicle:
     Raises
     ------
     ModelError
-        If a load is not positive, or the numbers of loads and distances differ.
+        If a load is not positive, the numbers of loads and distances differ, or the first is not 0.
     """
 
     axles: tuple[float, ...]
@@ -54,6 +54,10 @@ class Vehicle:
             raise ModelError(
                 f"a vehicle of {many(len(axles), 'axle')} has {many(len(distances), 'distance')}, expected "
                 "one for each axle, from the first, which is at 0"
+            )
+        if distances[0]:
+            raise ModelError(
+                f"the first axle is {distances[0]:g} m from itself, expected 0: distances are from the first"
             )
         number(self.contact, "contact length", "m", above=0.0)
         object.__setattr__(self, "axles", axles)
