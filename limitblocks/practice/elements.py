@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import shapely
 
+from limitblocks.analysis.anchors import BESIDE, anchors_off
 from limitblocks.arrays import read_only
 from limitblocks.errors import ModelError, near, refuse_kind
 from limitblocks.geometry import Interface
@@ -18,7 +19,6 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model, checked_model
-from limitblocks.practice.anchors import BESIDE, anchors_off
 
 ROUNDED = 1e-9  # of the coordinates of its anchors: the direction of a shorter tie is rounding
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
