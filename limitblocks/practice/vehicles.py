@@ -14,7 +14,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import covered, tops
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.shown import coordinate, many
 
 SUNK = 1e-6  # of the size of a block: how far a road may lie below it
@@ -97,6 +97,7 @@ class Deck:
 
     def on(self, model: Model) -> Deck:
         """Return the deck with its line on a model."""
+        checked_model(model)
         if self.y is not None:
             return self
         y = np.concatenate([block.vertices[:, 1] for block in model.free_blocks])
