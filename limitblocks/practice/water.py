@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 import numpy as np
@@ -50,14 +51,17 @@ def uplift(
     ------
     ModelError
         If a number is out of range, no joint or a given one does not reach below the level, or a given one is
-        of an element.
+        of an element or given twice.
     """
     checked_model(model)
     number(level, "level of the water", "m")
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
     share = number(share, "share of the water pressure", "", above=0.0, most=1.0)
+    given = model.interfaces if interfaces is None else sequence_of("interfaces", interfaces, Interface)
+    if twice := [own.name for own, times in Counter(given).items() if times > 1]:
+        raise ModelError(f"interface {twice[0]} is given twice, expected once")
     total = Load()
-    for own in model.interfaces if interfaces is None else sequence_of("interfaces", interfaces, Interface):
+    for own in given:
         if isinstance(own.joint, Tie | Dowel | Guide):
             if interfaces is not None:
                 raise ModelError(f"interface {own.name} is of a {own.joint.word}, in which there is no water")

@@ -157,6 +157,8 @@ def test_verification_of_other_loads(facade, live, words):
         (lambda wall: worst_position(wall, CAR, Deck(5.0), (0.0, [1.5])), "between, X of the first axle,"),
         (lambda wall: worst_position(wall, CAR, Deck(5.0), positions=2), "positions is 2, expected"),
         (lambda wall: uplift(wall, NAN), "level of the water is nan"),
+        (lambda wall: uplift(wall, 1.0, interfaces=2 * [*wall.interfaces]),
+         "interface ground|wall is given twice, expected once"),
         (lambda wall: uplift(wall, -0.5), "no joint reaches below the water at -0.5 m; the lowest at 0 m"),
         (lambda wall: uplift(wall, 1.0, interfaces=wall.interfaces[0]), "interfaces is <interface 'ground"),
         (lambda wall: uplift(wall, 1.0, interfaces=["ground|wall"]), "interfaces holds 'ground|wall'"),
