@@ -38,9 +38,9 @@ def reals(values: Any) -> Array:
 
 
 def real(value: Any) -> float:
-    """Return a number as a float, NaN for what is none, such as text."""
+    """Return a number as a float, NaN for what is none, such as text or True."""
     try:
-        return np.nan if np.asarray(value).dtype.kind in "SU" else float(value)
+        return np.nan if np.asarray(value).dtype.kind in "SUb" else float(value)
     except (TypeError, ValueError):
         return np.nan
 

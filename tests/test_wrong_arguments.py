@@ -320,6 +320,20 @@ def test_an_error_of_another_process_says_the_same(error, again):
     assert (type(copied), str(copied), vars(copied)) == (type(error), str(error), vars(error))
 
 
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: lb.PointContact(True), "friction is True, expected a finite coefficient"),
+        (lambda: lb.OrdunaLourenco(0.6, cohesion=True), "cohesion is True Pa, expected a finite stress"),
+        (lambda: lb.Block.box("a", (1, 1, 1), (0, 0, 0), True), "True"),
+        (lambda: 2.0 * lb.self_weight() / True, "divisor of a load is True, expected a finite number"),
+    ],
+)
+def test_true_is_no_number(make, said):
+    with pytest.raises(lb.ModelError, match=said):
+        make()
+
+
 @pytest.mark.parametrize("value", [Decimal("20000"), Fraction(20000), np.float32(2e4), np.int64(20000)])
 def test_numbers_of_any_kind_are_taken(value):
     assert lb.Block.box("a", (1, 1, 1), (0, 0, 0), value).weight == 20e3

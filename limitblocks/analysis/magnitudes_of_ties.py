@@ -1,16 +1,19 @@
-"""Slips in ties, strips and dowels: their section, what they carry, and those given twice."""
+"""Slips in ties, strips and dowels: section, what they carry, anchors, lost prestress, those given twice."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
+from limitblocks.analysis.anchors import anchors_off
 from limitblocks.arrays import Array
 from limitblocks.geometry import Interface, Tolerances
 from limitblocks.geometry.accuracy import block_length, millimetres
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Backfill, Dowel, Tie
+from limitblocks.mechanics.loads.forces import PointForce
 from limitblocks.model import Model
 from limitblocks.shown import coordinates
 
@@ -18,11 +21,16 @@ from limitblocks.shown import coordinates
 _SOFT = 1e6
 #: Section of a tie, m2, above which it may be in mm2: 0.25 m across.
 _THICK = 5e-2
+#: Share of a prestress by which the dead loads may differ by rounding, and distance of its place there, m.
+_OTHER, _BESIDE = 1e-6, 1e-6
 
 
 def of_ties(model: Model) -> Iterator[str]:
     """Return what is asked about ties, strips and dowels of a model."""
     yield from _of_sections(model)
+    for one in model.interfaces:
+        yield from anchors_off(model, one)
+    yield from _of_prestress(model)
     yield from _of_doubles(model)
 
 
@@ -37,6 +45,32 @@ def _of_sections(model: Model) -> Iterator[str]:
             if strength < _SOFT:
                 what = f"it carries {section * strength:.4g} N, {strength:.4g} Pa on its section"
                 yield f"{tie.name}: {what}: MPa, or kN?"
+
+
+def _of_prestress(model: Model) -> Iterator[str]:
+    """What is asked about ties whose prestress the dead loads lack or have another one."""
+    free = {block.name for block in model.free_blocks}
+    forces = [(factor, term) for factor, term in model.dead.terms if isinstance(term, PointForce)]
+    pulls = [
+        (tie.name, name, tie.centroid, sign * tie.joint.prestress * float(areas(tie.polygon)) * tie.axes[2])
+        for tie in model.interfaces
+        if isinstance(tie.joint, Tie) and tie.joint.prestress
+        for name, sign in ((tie.block_i, 1.0), (tie.block_j, -1.0))
+        if name in free
+    ]
+
+    def there(name: str, at: Array, block: str, place: Any) -> bool:
+        return name == block and float(np.abs(at - place).max()) <= _BESIDE
+
+    for tie, name, at, own in pulls:
+        wanted = sum(pull for _, block, place, pull in pulls if there(name, at, block, place))
+        found = sum(k * np.array(term.force) for k, term in forces if there(name, at, term.block, term.at))
+        if np.linalg.norm(found - wanted) > _OTHER * np.linalg.norm(own):
+            pull = f"the dead loads pull {name!r} with {np.linalg.norm(found):.4g} N there"
+            yield (
+                f"{tie}: it has a prestress of {np.linalg.norm(own):.4g} N, and {pull}: changed after "
+                "limitblocks.practice.reinforced?"
+            )
 
 
 def _of_doubles(model: Model) -> Iterator[str]:

@@ -139,16 +139,20 @@ def stress_words(stress: float) -> str:
     return f"{stress / 1e6:.4g} MPa" if stress >= 1e5 else f"{stress / 1e3:.4g} kPa"
 
 
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
 def checked_friction(friction: float) -> float:
     """Return `friction` as a float if it is a finite number >= 0, else raise ModelError."""
-    if not (isinstance(friction, Real) and 0.0 <= friction < np.inf):
+    if not (_is_number(friction) and 0.0 <= friction < np.inf):
         raise ModelError(f"friction is {friction!r}, expected a finite coefficient >= 0")
     return float(friction)
 
 
 def checked_stress(word: str, stress: float, positive: bool = False) -> None:
     """Raise ModelError unless `stress`, Pa, is a finite number >= 0, or > 0 if it must be `positive`."""
-    if not (isinstance(stress, Real) and np.isfinite(stress) and stress >= 0.0) or (positive and not stress):
+    if not (_is_number(stress) and np.isfinite(stress) and stress >= 0.0) or (positive and not stress):
         least = "> 0; None stands for no limit" if positive else ">= 0"
         raise ModelError(f"{word} is {stress!r} Pa, expected a finite stress {least}")
 

@@ -17,7 +17,7 @@ from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints import Dowel, Guide, Joint, Tie
-from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength
+from limitblocks.joints.base import STRENGTHS, joint_of, refuse_nameless_strength, stress_words
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.partial_factors import PartialFactors
 from limitblocks.shown import Result, kept, many
@@ -144,7 +144,8 @@ def design_model(model: Model, factors: PartialFactors) -> Model:
     Raises
     ------
     ModelError
-        If a joint has no strengths that the factors divide, or a tie, a dowel or passive fill has no gamma_S.
+        If a joint has no strengths that the factors divide, a tie, a dowel or passive fill has no gamma_S, or
+        the design prestress of a tie is not below its design strength.
     """
     checked_model(model)
     refuse_kind(factors, PartialFactors, "factors")
@@ -163,6 +164,12 @@ def _design(joint: Joint, factors: PartialFactors) -> Joint:
         return replace(joint, strength=joint.strength / strength)
     if isinstance(joint, Tie):
         prestress = factors.gamma_G * joint.prestress
+        if not prestress < joint.strength / strength:
+            raise ModelError(
+                f"{joint.word} with a prestress of {stress_words(joint.prestress)}: times gamma_G "
+                f"{factors.gamma_G:g} it is not below the strength {stress_words(joint.strength)} over "
+                f"gamma_S {strength:g}; expected one that has something left to yield"
+            )
         return replace(joint, strength=joint.strength / strength, prestress=prestress)
     refuse_nameless_strength(joint, "partial factors")
     changes = {name: value / strength for name, value in _strengths(joint).items()}

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.arrays import read_only
-from limitblocks.errors import ModelError
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import axes_of
 from limitblocks.joints import Backfill
@@ -17,7 +17,7 @@ from limitblocks.mechanics.loads.load import number, unit_vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import CORNERS, Element
 
-STEEP = 1e-9  # slope of a face along the deck that counts as none
+STEEP = 1e-9  # slope of a face along the deck, or of the deck, that counts as none
 
 
 def passive_fill(
@@ -58,14 +58,17 @@ def passive_fill(
     Raises
     ------
     ModelError
-        If a number is out of range or no block lies under the fill with a face that leans along the deck.
+        If a number is out of range, the direction is not horizontal, or no block lies under the fill with a
+        face that leans along the deck.
     """
     checked_model(model)
     number(coefficient, "coefficient of passive pressure", "", above=0.0)
     number(unit_weight, "unit weight of fill", "N/m3", above=0.0)
-    d = np.array(unit_vector(along, "direction along the deck"))
+    d, names = np.array(unit_vector(along, "direction along the deck")), sequence_of("blocks", blocks, str)
+    if abs(d[2]) > STEEP:
+        raise ModelError(f"direction along the deck is {along!r}, expected a horizontal one")
     free, elements = model.free_blocks, []
-    for k, face, weight, first in Fill(unit_weight, level, tuple(blocks)).on_faces(free):
+    for k, face, weight, first in Fill(unit_weight, level, names).on_faces(free):
         normal, block = free[k].normals[face], free[k]
         push = -coefficient * weight * float(normal @ d) / float(normal[2])
         if not abs(push) > STEEP * coefficient * weight:

@@ -198,7 +198,7 @@ def _control(model: Model, result: Nonassociated, given: Any) -> Control:
         highest = block.vertices[height >= height.max() - CLOSED * block.size]
         point = highest[(highest @ direction).argmax()]
     else:
-        if not isinstance(given, tuple | list) or len(given) != 2:
+        if not isinstance(given, tuple | list) or len(given) != 2 or not isinstance(given[0], str):
             raise ModelError(f"control is {given!r}, expected a block and a point, ('wall', (0.5, 0, 5))")
         block, point = control_point(model, *given)
     control = Control(block.name, read_only(point), direction)

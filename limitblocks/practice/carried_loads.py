@@ -21,10 +21,12 @@ Pulls = Sequence[tuple[PointForce, PointForce]]  # what ties pull with before an
 def carried_load(load: Load, at: Callable[[str, Array], Array], pulls: Pulls) -> Load:
     """Return the load on moved blocks: `at` says where their points are, `pulls` what of prestress."""
     terms: list[tuple[float, Term]] = []
+    used: set[int] = set()
     for factor, term in load.terms:
-        if isinstance(term, PointForce) and (pulled := _pulled(term, pulls)):
-            share, after = pulled
-            terms.append((factor * share, after))
+        if isinstance(term, PointForce) and (found := _shares(term, pulls)):
+            k = next((k for k in found if k not in used), min(found))  # ties on one line are in their order
+            used.add(k)
+            terms.append((factor * found[k], pulls[k][1]))
         elif isinstance(term, AddedMass | PointForce):
             x, y, z = at(term.block, np.array(term.at)).tolist()
             terms.append((factor, replace(term, at=(x, y, z))))
@@ -33,14 +35,15 @@ def carried_load(load: Load, at: Callable[[str, Array], Array], pulls: Pulls) ->
     return Load(tuple(terms))
 
 
-def _pulled(term: PointForce, pulls: Pulls) -> tuple[float, PointForce] | None:
-    """Share of the pull of a tie that a force is, and that pull as it is now; None of another force."""
-    for pull, after in pulls:
+def _shares(term: PointForce, pulls: Pulls) -> dict[int, float]:
+    """Which pulls of ties a force may be, and its share of each, as of a partial factor."""
+    found = {}
+    for k, (pull, _) in enumerate(pulls):
         if (pull.block, pull.at) == (term.block, term.at):  # ties that cross may share their middle
-            share = np.dot(pull.force, term.force) / np.dot(pull.force, pull.force)  # of a partial factor
+            share = np.dot(pull.force, term.force) / np.dot(pull.force, pull.force)
             if np.allclose(share * np.array(pull.force), term.force):
-                return float(share), after
-    return None
+                found[k] = float(share)
+    return found
 
 
 def prestress(own: Interface, model: Model) -> list[PointForce]:

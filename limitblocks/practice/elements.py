@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
+from limitblocks.analysis.anchors import BESIDE, anchors_off
 from limitblocks.arrays import read_only
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, near, refuse_kind
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas, axes_of
-from limitblocks.joints import Dowel, Tie
+from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.joints.base import checked_count
 from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import force
 from limitblocks.mechanics.loads.load import number, vector
 from limitblocks.model import Model, checked_model
-from limitblocks.practice.anchors import anchors_off
 
-BESIDE = 1e-3  # of the size of a joint: a point farther from it is not on it
+ROUNDED = 1e-9  # of the coordinates of its anchors: the direction of a shorter tie is rounding
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0
 
 
@@ -35,6 +35,9 @@ class Element:
     """
 
     interface: Interface
+
+    def __post_init__(self) -> None:
+        refuse_kind(self.interface, Interface, "interface of an element")
 
     @property
     def prestress(self) -> float:
@@ -90,9 +93,11 @@ def tie(
     Raises
     ------
     ModelError
-        If both ends are in one block, the anchors coincide, a number is out of range, or the prestress is not
-        below what the tie can carry.
+        If a block is not named, both ends are in one, the anchors coincide, a number is out of range, or the
+        prestress is not below what the tie can carry.
     """
+    for name in (block_i, block_j):
+        refuse_kind(name, str, "name of a block that a tie joins")
     word = f"tie {block_i}|{block_j}"
     if block_i == block_j:
         raise ModelError(f"{word}: both ends are in block {block_i!r}; a tie joins two blocks")
@@ -100,7 +105,7 @@ def tie(
     start = np.array(vector(at_i, f"{word}: at_i"))
     end = np.array(vector(at_j, f"{word}: at_j"))
     length = float(np.linalg.norm(end - start))
-    if not length > 0.0:
+    if not length > ROUNDED * np.abs([start, end]).max():
         raise ModelError(f"{word}: both anchors are at {start.tolist()}; a tie needs a length")
     section = number_of * number(area, f"{word}: area", "m2", above=0.0)
     capacity = section * number(strength, f"{word}: strength", "Pa", above=0.0)
@@ -143,10 +148,9 @@ def strip(interface: Interface, at: Sequence[float], *, width: float, capacity: 
     Raises
     ------
     ModelError
-        If a number is out of range, or the point is not on the joint.
+        If a number is out of range, the interface is one of an element, or the point is not on the joint.
     """
-    refuse_kind(interface, Interface, "interface of a strip")
-    word = f"strip across {interface.name}"
+    word = _joint_word(interface, "strip")
     side = number(width, f"{word}: width", "m", above=0.0)
     most = number(capacity, f"{word}: capacity", "N", above=0.0)
     return _across(interface, at, side, Tie(most / side**2), word)
@@ -169,10 +173,9 @@ def dowel(interface: Interface, at: Sequence[float], *, diameter: float, capacit
     Raises
     ------
     ModelError
-        If a number is out of range, or the point is not on the joint.
+        If a number is out of range, the interface is one of an element, or the point is not on the joint.
     """
-    refuse_kind(interface, Interface, "interface of a dowel")
-    word = f"dowel across {interface.name}"
+    word = _joint_word(interface, "dowel")
     side = number(diameter, f"{word}: diameter", "m", above=0.0)
     most = number(capacity, f"{word}: capacity", "N", above=0.0)
     return _across(interface, at, side, Dowel(most / side**2), word)
@@ -194,17 +197,20 @@ def reinforced(model: Model, *elements: Element) -> Model:
     ------
     ModelError
         If an element names a block that the model does not have, or joins two supports, or an anchor of a
-        tie is off a block that can move.
+        tie, or a strip or dowel, is off a block that can move.
     """
     checked_model(model)
     for element in elements:
-        refuse_kind(element, Element, "what a structure is reinforced with")
+        _refuse_other(element)
     known, supports = {block.name for block in model.blocks}, set(model.supports)
     problems = []
     for element in elements:
         own = element.interface
         ends = {own.block_i, own.block_j}
-        problems += [f"{own.name}: {name!r} is not a block of the model" for name in sorted(ends - known)]
+        problems += [
+            f"{own.name}: {name!r} is not a block of the model{near(name, known)}"
+            for name in sorted(ends - known)
+        ]
         if ends <= supports:
             problems.append(f"{own.name}: both ends are in supports, which do not move")
         problems += anchors_off(model, own)
@@ -214,6 +220,24 @@ def reinforced(model: Model, *elements: Element) -> Model:
     dead = sum((element.loads(free) for element in elements), model.dead)
     interfaces = (*model.interfaces, *(element.interface for element in elements))
     return replace(model, interfaces=interfaces, dead=dead)
+
+
+def _refuse_other(element: object) -> None:
+    """ModelError where that is no element, which says how a list of them is given."""
+    if not isinstance(element, Element):
+        several = isinstance(element, Iterable) and not isinstance(element, str)
+        raise ModelError(
+            f"what a structure is reinforced with is a {type(element).__name__}, expected Element, as of "
+            "tie, strip or dowel" + "; several are given one by one: reinforced(model, *elements)" * several
+        )
+
+
+def _joint_word(interface: Interface, what: str) -> str:
+    """What a strip or dowel across a joint is called; ModelError where it is no joint of two blocks."""
+    refuse_kind(interface, Interface, f"interface of a {what}")
+    if isinstance(interface.joint, Tie | Dowel | Guide):
+        raise ModelError(f"{what} across {interface.name}: expected a joint in which two blocks touch")
+    return f"{what} across {interface.name}"
 
 
 def _across(interface: Interface, at: Sequence[float], side: float, joint: Tie | Dowel, word: str) -> Element:

@@ -8,6 +8,8 @@ from limitblocks.errors import ModelError
 from limitblocks.joints import Dowel, Joint, Tie
 from limitblocks.mechanics.loads.load import number
 
+MOST = 10.0  # several times what codes have: more is a slip, such as per cent
+
 
 @dataclass(frozen=True)
 class PartialFactors:
@@ -30,7 +32,7 @@ class PartialFactors:
     Raises
     ------
     ModelError
-        If a factor is not a finite number > 0.
+        If a factor is not a number > 0 and <= 10.
     """
 
     gamma_G: float
@@ -42,8 +44,8 @@ class PartialFactors:
     def __post_init__(self) -> None:
         for name in ("gamma_G", "gamma_Q", "gamma_M", "gamma_phi", "gamma_S"):
             value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, number(value, name, "", above=0.0))
+            if value is not None or name not in ("gamma_phi", "gamma_S"):
+                object.__setattr__(self, name, number(value, name, "", above=0.0, most=MOST))
 
     def value(self, name: str) -> float:
         """Value of a factor by its name."""

@@ -16,16 +16,18 @@ from limitblocks.errors import ModelError, SolverFailure, sequence_of
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.geometry.polygon import areas
-from limitblocks.joints import Tie
+from limitblocks.joints import Backfill, Tie
 from limitblocks.mechanics.loads import added_mass
 from limitblocks.mechanics.loads.forces import MassProportional
 from limitblocks.mechanics.loads.load import Vector, number, of, vector
 from limitblocks.model import Model, checked_model
 from limitblocks.practice.elements import Element, reinforced
+from limitblocks.problem import LimitProblem
 from limitblocks.shown import Result, coordinates, kept
 
 AMPLE = 1e-6  # more than the least, so that a checked answer reaches what is required
 NONE = 1e-6  # of the largest: what is less is left out
+ROUNDED = 1e-9  # of the mean load of a block: less is the rounding of a program that needs nothing
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,23 +112,29 @@ def least_ties(model: Model, candidates: Sequence[Element], load_factor: float) 
     """
     required = number(load_factor, "load factor", "", above=0.0)
     candidates = sequence_of("candidates", candidates, Element)
-    if not candidates or not all(isinstance(one.interface.joint, Tie) for one in candidates):
+    if not candidates:
         raise ModelError("least_ties needs at least one tie to choose from")
-    if any(one.prestress for one in candidates):
-        raise ModelError("a candidate has a prestress; give the ties without it")
+    for one in candidates:
+        if not isinstance(one.interface.joint, Tie) or isinstance(one.interface.joint, Backfill):
+            raise ModelError(f"candidate {one.interface.name} is no tie or strip")
+        if one.prestress:
+            raise ModelError(
+                f"candidate {one.interface.name} has a prestress of {one.prestress:.4g} N, expected none"
+            )
     tied = reinforced(model, *candidates)
     problem = tied.problem
     ties = problem.stress_interface >= len(model.interfaces)
     weights = np.where(ties, problem.stress_units, 0.0)
-    forces = least_stresses(problem, required * problem.units.live, weights)
-    amounts = np.maximum(forces * weights, 0.0)[ties]
-    own = [_of_force(one, amount) for one, amount in zip(candidates, amounts, strict=True)]
-    kept = [one for one, amount in zip(own, amounts, strict=True) if amount > NONE * amounts.max(initial=0.0)]
+    try:
+        forces = least_stresses(problem, required * problem.units.live, weights)
+    except ModelError as error:
+        raise ModelError(f"{error}; with their whole strengths it has {bounds(tied).upper:.6g}") from None
+    amounts = _needed((forces * weights)[ties], problem)
+    kept = [_of_force(one, float(k)) for one, k in zip(candidates, amounts, strict=True) if k]
     kinds = tuple(
         f"{one.interface.name} at {coordinates(one.interface.centroid.tolist())} m" for one in candidates
     )
-    used = np.where(amounts > NONE * amounts.max(initial=0.0), amounts, 0.0)
-    return _repair(used, reinforced(model, *kept), required, kinds, model.digest)
+    return _repair(amounts, reinforced(model, *kept), required, kinds, model.digest)
 
 
 def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], load_factor: float) -> Repair:
@@ -150,7 +158,8 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
     required = number(load_factor, "load factor", "", above=0.0)
     pushes = [(factor, term) for factor, term in model.live.terms if isinstance(term, MassProportional)]
     if len(pushes) != 1 or pushes[0][0] != 1.0:
-        raise ModelError("least_masses needs a live load with one mass-proportional term")
+        given = f"it has {' and '.join(f'{factor:g} times it' for factor, _ in pushes) or 'none'}"
+        raise ModelError(f"least_masses needs a live load with one mass-proportional term, once; {given}")
     if not (known := _places(places)):
         raise ModelError("least_masses needs at least one place")
     direction = pushes[0][1].direction
@@ -161,7 +170,7 @@ def least_masses(model: Model, places: Sequence[tuple[str, Sequence[float]]], lo
         for one in ones
     ]
     found = least_loads(problem, required * problem.units.live, np.stack(columns, axis=1))
-    amounts = np.where(found > NONE * found.max(initial=0.0), found, 0.0)
+    amounts = _needed(found, problem)
     made = amounts * (1.0 + AMPLE)
     heaps = [replace(one, weight=float(a)) for one, a in zip(ones, made, strict=True) if a > 0.0]
     added = replace(
@@ -182,11 +191,17 @@ def _places(given: Any) -> list[tuple[str, Vector]]:
         raise ModelError(f"places are {given!r}, {said}") from None
 
 
+def _needed(amounts: Array, problem: LimitProblem) -> Array:
+    """Amounts, N, without what is rounding."""
+    rounding = ROUNDED * float(problem.units.block_force.mean())
+    return np.where(amounts > max(NONE * amounts.max(), rounding), amounts, 0.0)
+
+
 def _of_force(element: Element, force: float) -> Element:
     """The tie with a strength for this force."""
     own, joint = element.interface, element.interface.joint
     assert isinstance(joint, Tie)  # checked above
-    strength = max(force, 1e-300) * (1.0 + AMPLE) / float(areas(own.polygon))
+    strength = force * (1.0 + AMPLE) / float(areas(own.polygon))
     return Element(replace(own, joint=replace(joint, strength=strength)))
 
 

@@ -12,11 +12,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import brentq
 
-from limitblocks.errors import ModelError, refuse_kind
+from limitblocks.errors import ModelError, sequence_of
+from limitblocks.joints.base import checked_count
 from limitblocks.mechanics.loads.load import number
 
 G = 9.81  # m/s2, as the code's examples take it
 MOST = 10.0  # of S, F0 and periods in s, several times what the code has: more is a slip or another unit
+MOST_T_C = 1.6  # s, the least T_D of [3.2.7]: beyond it the branches would not meet
 MOST_DAMPING = 0.3  # from .281 on eta is .55, its least: more is in per cent
 WIDEST = 1e6  # times the ground acceleration of the site: where that of a limit state is looked for
 
@@ -40,7 +42,7 @@ class Spectrum:
     F0 : float
         Largest amplification, at least 2.2.
     T_C : float
-        Start of the branch of constant velocity, s: C_C T*_C, Eq. [3.2.5]. T_B = T_C / 3, and
+        Start of the branch of constant velocity, s, at most 1.6: C_C T*_C, Eq. [3.2.5]. T_B = T_C / 3, and
         T_D = 4 a_g / g + 1.6, Eqs [3.2.6], [3.2.7].
 
     Raises
@@ -58,7 +60,7 @@ class Spectrum:
         number(self.a_g, "a_g", "m/s2", above=0.0)
         number(self.S, "S", "", above=0.0, most=MOST)
         number(self.F0, "F0", "", least=2.2, most=MOST)
-        number(self.T_C, "T_C", "s", above=0.0, most=MOST)
+        number(self.T_C, "T_C", "s", above=0.0, most=MOST_T_C)
 
     @property
     def T_B(self) -> float:
@@ -72,7 +74,7 @@ class Spectrum:
 
     def acceleration(self, period: float, damping: float = 0.05) -> float:
         """Return S_e(T), m/s2, Eq. [3.2.2], at a `period` T, s; `damping` as a ratio."""
-        eta, T = damping_factor(damping), period
+        eta, T = damping_factor(damping), number(period, "period", "s", least=0.0)
         plateau = self.a_g * self.S * eta * self.F0
         if self.T_B > T:
             return plateau * (T / self.T_B + (1.0 - T / self.T_B) / (eta * self.F0))
@@ -129,7 +131,7 @@ class FloorMode:
         ModelError
             If a number is out of range.
         """
-        n = number(storeys, "storeys", "", least=1.0)
+        checked_count("storeys", n := storeys, 1)
         if number(height, "height z / H", "", least=0.0) > 1.0:
             raise ModelError(f"height z / H is {height!r}, expected 0 to 1: a share of that of the building")
         return cls(period, 3.0 * n / (2.0 * n + 1.0), height, damping)
@@ -151,11 +153,9 @@ class Floor:
     b: float = 1.1
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "modes", tuple(self.modes))
+        object.__setattr__(self, "modes", sequence_of("modes of the building", self.modes, FloorMode))
         if not self.modes:
             raise ModelError("a floor spectrum needs at least one mode of the building")
-        for mode in self.modes:
-            refuse_kind(mode, FloorMode, "mode of the building")
         if not 0.0 < number(self.a, "a", "") <= number(self.b, "b", ""):
             raise ModelError(f"a is {self.a!r} and b is {self.b!r}, expected 0 < a <= b, .8 and 1.1")
 
@@ -177,7 +177,7 @@ class Floor:
 
     def acceleration(self, ground: Spectrum, period: float, damping: float = 0.05) -> float:
         """Return S_eZ(T), m/s2, Eqs [C7.2.5], [C7.2.6]; no less than the spectrum of the ground at any T."""
-        eta, shares = damping_factor(damping), []
+        eta, shares, period = damping_factor(damping), [], number(period, "period", "s", least=0.0)
         for mode, peak in zip(self.modes, self.peaks(ground), strict=True):
             excess = 1.1 * mode.damping**-0.5 * eta - 1.0
             most = (1.0 + excess) * peak

@@ -14,7 +14,7 @@ from limitblocks.mechanics import Load
 from limitblocks.mechanics.loads import line_load
 from limitblocks.mechanics.loads.load import number
 from limitblocks.mechanics.loads.tops import covered, tops
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.shown import coordinate, many
 
 SUNK = 1e-6  # of the size of a block: how far a road may lie below it
@@ -36,7 +36,7 @@ class Vehicle:
     Raises
     ------
     ModelError
-        If a load is not positive, or the numbers of loads and distances differ.
+        If a load is not positive, the numbers of loads and distances differ, or the first is not 0.
     """
 
     axles: tuple[float, ...]
@@ -54,6 +54,10 @@ class Vehicle:
             raise ModelError(
                 f"a vehicle of {many(len(axles), 'axle')} has {many(len(distances), 'distance')}, expected "
                 "one for each axle, from the first, which is at 0"
+            )
+        if distances[0]:
+            raise ModelError(
+                f"the first axle is {distances[0]:g} m from itself, expected 0: distances are from the first"
             )
         number(self.contact, "contact length", "m", above=0.0)
         object.__setattr__(self, "axles", axles)
@@ -93,6 +97,7 @@ class Deck:
 
     def on(self, model: Model) -> Deck:
         """Return the deck with its line on a model."""
+        checked_model(model)
         if self.y is not None:
             return self
         y = np.concatenate([block.vertices[:, 1] for block in model.free_blocks])

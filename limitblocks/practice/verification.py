@@ -15,7 +15,8 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, refuse_kind
 from limitblocks.evidence.interface_states import Collapse, collapse_of
 from limitblocks.mechanics.loads.load import number
-from limitblocks.model import Model, refuse_other
+from limitblocks.mechanics.loads.load import place as pair
+from limitblocks.model import Model, checked_model, refuse_other
 from limitblocks.practice.capacity_result import CapacityCurve, zero_of
 from limitblocks.practice.displacement_check import displacement_check
 from limitblocks.practice.inputs import (
@@ -98,7 +99,7 @@ def verification(
     [C8.7.1.3] and, beside it, from the straight line between a0* and d0*; the larger demand of both counts.
     The non-linear checks compare ground accelerations, a_g,SLV no less than that which sets it off.
     """
-    collapse = collapse_of(model, result)
+    collapse = collapse_of(checked_model(model), result)
     refuse_unproven(model, result)
     _refuse(demand, collapse_demand, damage_demand, curve, floor)
     q, confidence = _factors(q, confidence, damping)
@@ -151,8 +152,7 @@ def _refuse(demand: object, *others: object) -> None:
 
 def _factors(q: float | None, confidence: float, damping: tuple[float, float]) -> tuple[float, float]:
     """Return q and FC; ModelError where they are out of range, or the damping is not that of two states."""
-    if np.shape(damping) != (2,):
-        raise ModelError(f"damping is {damping!r}, expected two numbers, at SLV and at SLC")
+    pair(damping, "damping, at SLV and at SLC,")
     if q is None:
         raise ModelError("q is missing: the check at SLV needs a behaviour factor, such as 2 (C8.7.1.2.1.7)")
     return number(q, "q", "", least=1.0), number(confidence, "FC", "", least=1.0, most=MOST_FC)

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
-from limitblocks.errors import ModelError
+import numpy as np
+
+from limitblocks.errors import ModelError, sequence_of
 from limitblocks.geometry import Interface
 from limitblocks.joints import Dowel, Guide, Tie
 from limitblocks.mechanics import Load
@@ -47,14 +50,18 @@ def uplift(
     Raises
     ------
     ModelError
-        If a number is out of range, or a given joint lies above the level or is one of an element.
+        If a number is out of range, no joint or a given one does not reach below the level, or a given one is
+        of an element or given twice.
     """
     checked_model(model)
     number(level, "level of the water", "m")
     weight = number(unit_weight, "unit weight of water", "N/m3", above=0.0)
     share = number(share, "share of the water pressure", "", above=0.0, most=1.0)
+    given = model.interfaces if interfaces is None else sequence_of("interfaces", interfaces, Interface)
+    if twice := [own.name for own, times in Counter(given).items() if times > 1]:
+        raise ModelError(f"interface {twice[0]} is given twice, expected once")
     total = Load()
-    for own in model.interfaces if interfaces is None else interfaces:
+    for own in given:
         if isinstance(own.joint, Tie | Dowel | Guide):
             if interfaces is not None:
                 raise ModelError(f"interface {own.name} is of a {own.joint.word}, in which there is no water")
@@ -68,4 +75,7 @@ def uplift(
         at = own.centroid + first / push
         on_j = vector((push * own.axes[2]).tolist(), "force")
         total = total + of(JointPressure(own.block_i, own.block_j, on_j, vector(at.tolist(), "at")))
+    if not total.terms:
+        lowest = min((own.corners[:, 2].min() for own in model.interfaces), default=np.inf)
+        raise ModelError(f"no joint reaches below the water at {level:g} m; the lowest at {lowest:.4g} m")
     return total

@@ -13,7 +13,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.associated import Bounds
 from limitblocks.joints.base import checked_count
-from limitblocks.mechanics.loads.load import number
+from limitblocks.mechanics.loads.load import place
 from limitblocks.model import Model
 from limitblocks.practice.envelope import Found, search
 from limitblocks.practice.influence import line_of
@@ -156,9 +156,7 @@ def _ends(
     model: Model, vehicle: Vehicle, between: tuple[float, float] | None, positions: int
 ) -> tuple[float, float]:
     """First and last place of the first axle, as given or over the whole structure."""
-    if between is not None and np.shape(between) != (2,):
-        raise ModelError(f"between is {between!r}, expected two places of the first axle, X in m")
-    low, high = (number(x, "between", "m") for x in between or _whole(model, vehicle))
+    low, high = _whole(model, vehicle) if between is None else place(between, "between, X of the first axle,")
     if not low < high:
         raise ModelError(
             f"between {low:g} and {high:g} m in {positions} positions there is nothing to search"

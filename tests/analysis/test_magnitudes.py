@@ -12,7 +12,8 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.magnitudes import questions
 from limitblocks.cli import app
-from limitblocks.practice import dowel, passive_fill, reinforced, strip, tie
+from limitblocks.joints import Tie
+from limitblocks.practice import PartialFactors, design_model, dowel, passive_fill, reinforced, strip, tie
 
 
 def block(joint=None, **change):
@@ -241,6 +242,31 @@ def test_a_tie_given_twice_is_asked_about(off, number, turned):
     said = questions(reinforced(block(), first, *second))
     assert len(said) == number
     assert all("given twice? they add up" in one for one in said)
+
+
+def prestressed():
+    bar = {"area": 314e-6, "strength": 235e6}
+    ends = ("block 1", (0.0, 0.0, 0.9), "base", (-3.0, 0.0, 0.9))
+    return reinforced(block(), tie(*ends, prestress=2e3, **bar), tie(*ends[:3], (-4.0, 0.0, 0.9), **bar))
+
+
+def test_an_anchor_off_its_block_in_a_file_is_asked_about():
+    """A tie that a file has 1 m above a block of that height; `reinforced` refuses it."""
+    first, moved, last = prestressed().interfaces
+    moved = replace(moved, centroid=moved.centroid + np.array([0.0, 0.0, 1.1]), joint=Tie(235e6, 3.0))
+    (said,) = questions(replace(block(), interfaces=(first, moved, last)))
+    assert "tie block 1|base: its anchor at (0, 0, 2) is 1 m off block 'block 1'" in said
+
+
+@pytest.mark.parametrize("factor", [0.9, 1.35])
+def test_a_prestress_that_is_not_that_of_the_dead_loads_is_asked_about(factor):
+    """The tie keeps the rest of its strength, whatever pulls; a partial factor changes both."""
+    model = prestressed()
+    assert questions(model) == []
+    assert questions(design_model(model, PartialFactors(factor, 1.5, 1.0, 1.0, 1.0))) == []
+    for dead, pull in ((lb.self_weight(), 0.0), (factor * model.dead, factor * 2e3)):
+        (said,) = questions(replace(model, dead=dead))
+        assert f"a prestress of 2000 N, and the dead loads pull 'block 1' with {pull:g} N there" in said
 
 
 def test_a_dowel_in_a_strip_is_no_strip_given_twice():

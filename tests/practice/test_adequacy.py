@@ -208,7 +208,7 @@ def test_command(tmp_path):
         (lambda: PartialFactors(1.35, -1.5, 2.0), "gamma_Q is -1.5, expected a finite number > 0"),
         (lambda: PartialFactors(1.35, 1.5, 0.0), "gamma_M is 0.0"),
         (lambda: adequacy(wall(), PartialFactors(1.0, 1.0, 1.0)), "give gamma_S"),
-        (lambda: adequacy(wall(7.9e3), PartialFactors(1.35, 1.0, 1.0, 1.0, 1.0)), "prestress of a tie"),
+        (lambda: adequacy(wall(7.9e3), PartialFactors(1.35, 1.0, 1.0, 1.0, 1.0)), "tie with a prestress of"),
         (lambda: Tie(1.0, 1.0, 2.0), "prestress of a tie is 2.0 Pa, expected 0 to less than its strength"),
     ],
 )  # fmt: skip

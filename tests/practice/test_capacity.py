@@ -222,15 +222,22 @@ def test_prestress_stays_on_the_line_of_its_tie(away, gamma):
     assert curve.load_factors == pytest.approx(held / (block.weight * (middle - toe)[:, 2]), abs=1e-9)
 
 
-def test_prestress_of_ties_that_cross_at_their_middles_stays_on_their_lines():
-    """Each of a cross of rods pulls with its strength along its own line: moments about the toe."""
+@pytest.mark.parametrize(
+    ("anchors", "feet"),
+    [
+        ([(-B, 0, 0.8 * H), (-B, 0, 0.4 * H)], [(-B - 9, 0, 0.4 * H), (-B - 9, 0, 0.8 * H)]),
+        ([(-B / 2, 0, 0.8 * H), (-B, 0, 0.8 * H)], [(-1.5 * B - 1, 0, 0.8 * H), (-B - 1, 0, 0.8 * H)]),
+    ],
+    ids=["cross", "one in the other"],
+)
+def test_prestress_of_ties_that_share_their_middles_stays_on_their_lines(anchors, feet):
+    """Each of two rods pulls with its strength along its own line: moments about the toe."""
     model = lb.structures.block(JOINTS[0], width=B, height=H)
     block, toe = model.free_blocks[0], toe_corner(model) - [0, 0, H]
-    most, anchors = 0.1 * block.weight, np.array([[-B, 0, 0.8 * H], [-B, 0, 0.4 * H]])
-    feet = anchors[::-1] - [9.0, 0, 0]
+    most, anchors, feet = 0.1 * block.weight, np.array(anchors), np.array(feet)
     rods = [
-        tie("block 1", head, "base", foot, area=1e-4, strength=most / 1e-4, prestress=most / 2)
-        for head, foot in zip(toe + anchors, toe + feet, strict=True)
+        tie("block 1", head, "base", foot, area=1e-4, strength=most / 1e-4, prestress=share * most)
+        for head, foot, share in zip(toe + anchors, toe + feet, (0.5, 0.3), strict=True)
     ]
     curve = capacity_curve(reinforced(model, *rods), control=("block 1", toe_corner(model)), steps=3)
     for turned, found in zip(np.arcsin(curve.displacements / H), curve.load_factors, strict=True):

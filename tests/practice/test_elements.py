@@ -259,6 +259,19 @@ def test_an_anchor_counts_as_on_its_block_within_a_thousandth_of_the_blocks(size
         reinforced(model, far)
 
 
+def test_a_strip_made_of_the_joint_of_another_model_is_refused():
+    """The edge of a wall .5 m thick is .2 m off one of .3 m that begins at the same place."""
+    thick, thin = (lb.structures.block(lb.PointContact(0.6), width=t, height=1.0) for t in (0.5, 0.3))
+    edge = thick.interfaces[0].centroid + np.array([0.25, 0, 0])
+    for own in (
+        strip(thick.interfaces[0], edge, width=0.1, capacity=1e3),
+        dowel(thick.interfaces[0], edge, diameter=0.1, capacity=1e3),
+    ):
+        assert len(reinforced(thick, own).interfaces) == 2
+        with pytest.raises(lb.ModelError, match=r"0\) is 0.2 m off block 'block 1', expected on a joint"):
+            reinforced(thin, own)
+
+
 def test_an_anchor_in_the_hollow_of_a_block_is_off_it():
     """In the middle of the recess of a U, 0.5 m from its sides and 0.4 m above its floor."""
     outline = [(-1, 0), (1, 0), (1, 2), (0.5, 2), (0.5, 1), (-0.5, 1), (-0.5, 2), (-1, 2)]

@@ -88,9 +88,31 @@ def test_a_repair_that_does_not_reach_what_is_required_is_no_repair(monkeypatch)
         least_ties(wall(), [rod(4.5)], 0.3)
 
 
+def test_a_structure_that_has_the_load_factor_gets_nothing():
+    """The program leaves 1e-11 of a weight in a tie, which was built."""
+    model = lb.structures.arch(lb.PointContact(0.6), radius=3.0, thickness=0.7, voussoirs=7)
+    crown = model.free_blocks[3]
+    rods = [
+        tie(
+            crown.name, crown.centroid, model.supports[0], crown.centroid - [x, 0, x], area=1e-3, strength=1e8
+        )
+        for x in (2.0, 3.0)
+    ]
+    enough = 0.7 * lb.bounds(model).lower
+    found = least_ties(model, rods, enough)
+    assert (found.total, found.amounts.tolist()) == (0.0, [0.0, 0.0])
+    assert len(found.model.interfaces) == len(model.interfaces)
+    heaped = least_masses(model, [(one.name, one.centroid) for one in model.free_blocks], enough)
+    assert (heaped.total, heaped.model.digest) == (0.0, model.digest)
+
+
 def test_load_factor_out_of_reach():
-    with pytest.raises(lb.ModelError, match="cannot bring the structure to the load factor 2"):
+    with pytest.raises(
+        lb.ModelError, match="the load factor 2; with their whole strengths it has "
+    ) as caught:
         least_ties(wall(), [rod(4.5, 1e3)], 2.0)
+    whole = lb.bounds(reinforced(wall(), rod(4.5, 1e3))).upper
+    assert float(str(caught.value).split()[-1]) == pytest.approx(whole, rel=1e-5)
     with pytest.raises(lb.ModelError, match="at least one tie"):
         least_ties(wall(), [], 0.3)
     with pytest.raises(lb.ModelError, match="at least one place"):
