@@ -106,7 +106,7 @@ def _tell_parts(lines: list[str], key: str, parts: list[Any], adapter: Any, form
         if len(lines) >= _COUNTED:
             return
         try:
-            adapter.validate_json(json.dumps(part))
+            adapter.validate_json(json.dumps(part), strict=True)  # as a part of a document is
         except ValidationError as error:
             for fault in error.errors(include_url=False):
                 _tell(lines, f"{key}[{k}]", fault, part, form)
