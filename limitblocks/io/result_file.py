@@ -145,6 +145,7 @@ def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
 def _document(text: str, data: Any, lacks: str) -> ResultDocument | BoundsDocument:
     if isinstance(data, dict) and "blocks" in data and not data.keys() & {"analysis", "stress_resultants"}:
         raise ModelError("is a model, not a result; the model comes first, then the result")
+    faults.refuse_report(data, "a result file")
     word = data.get("analysis") if isinstance(data, dict) else None
     kind = KINDS.get(word) if isinstance(word, str) else None
     if word == "study" or (kind and not kind.document):

@@ -35,6 +35,10 @@ FAULTS = {
         listed("interfaces", 0, "block_j", to="lef"),
         ["interfaces[0].block_j", "'lef'", "'left'"],
     ),
+    "report": (
+        {"format": "limitblocks report", "schema_version": 2},
+        ["is a report", "a model file is needed"],
+    ),
     "unknown support": (find("supports", to=["grond"]), ["supports[0]", "'grond'", "did you mean 'ground'"]),
     "no support": (find("supports", to=[]), ["no support"]),
     "only supports": (find("supports", to=["ground", "left", "right", "lintel"]), ["no free block"]),

@@ -241,6 +241,7 @@ FAULTS = {
         {"analysis": "path", "collapse": MINIMAL | {"load_factor": "a"}},
         ["collapse.load_factor: expected a number"],
     ),
+    "report": (lb.report(MODEL).to_dict(), ["is a report, which nothing is read from; a result file"]),
     "another model": (MINIMAL | {"model_digest": "0" * 64}, ["belongs to model 000000000000, not to this"]),
     "unknown interface": (
         six(**{"ground|lefd": [0.0] * 6}),
