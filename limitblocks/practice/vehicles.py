@@ -44,9 +44,9 @@ class Vehicle:
     contact: float = 0.3
 
     def __post_init__(self) -> None:
-        if np.ndim(self.axles) != 1 or np.ndim(self.distances) != 1:
+        if not all(isinstance(one, list | tuple | np.ndarray) for one in (self.axles, self.distances)):
             raise ModelError(
-                f"axles are {self.axles!r} at {self.distances!r}, expected a list of N and a list of m"
+                f"axles are {self.axles!r} at distances {self.distances!r}, expected a list of N and one of m"
             )
         axles = tuple(number(load, "axle load", "N", above=0.0) for load in self.axles)
         distances = tuple(number(way, "distance of an axle", "m") for way in self.distances)

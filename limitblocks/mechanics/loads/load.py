@@ -12,6 +12,7 @@ from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, few, near
 from limitblocks.geometry import Block
 
+_LARGEST = 1e30  # as in a model file: its powers are still numbers
 Vector = tuple[float, float, float]
 Place = tuple[float, float]
 
@@ -112,10 +113,11 @@ def number(
 ) -> float:
     """Return `value` as a float; ModelError where it is not finite, too small or too large."""
     given = real(value)
-    if np.isfinite(given) and most >= given >= least and given > above:
+    if abs(given) < _LARGEST and most >= given >= least and given > above:
         return given
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     wanted += f" and <= {most:g}" if most < np.inf else ""
+    wanted += f", < {_LARGEST:g} in size," if _LARGEST <= abs(given) < np.inf else ""
     short = float(f"{given:.12g}")  # -1.962, not -1.9620000000000002
     shown = short if abs(given - short) > 0.0 else value
     raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
@@ -154,7 +156,7 @@ def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[
         array = reals(values)
     except (TypeError, ValueError):
         array = np.full(0, np.nan)
-    if array.shape != (count,) or not np.isfinite(array).all():
-        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers")
+    if array.shape != (count,) or not (np.abs(array) < _LARGEST).all():
+        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers < {_LARGEST:g} in size")
     numbers: list[float] = array.tolist()
     return numbers
