@@ -46,7 +46,7 @@ class Vehicle:
     def __post_init__(self) -> None:
         if not all(isinstance(one, list | tuple | np.ndarray) for one in (self.axles, self.distances)):
             raise ModelError(
-                f"axles are {self.axles!r} at distances {self.distances!r}, expected a list of N and one of m"
+                f"axles are {self.axles!r} at {self.distances!r}, expected a list of N and a list of m"
             )
         axles = tuple(number(load, "axle load", "N", above=0.0) for load in self.axles)
         distances = tuple(number(way, "distance of an axle", "m") for way in self.distances)

@@ -113,11 +113,10 @@ def number(
 ) -> float:
     """Return `value` as a float; ModelError where it is not finite, too small or too large."""
     given = real(value)
-    if abs(given) < _LARGEST and most >= given >= least and given > above:
+    if np.isfinite(given) and most >= given >= least and given > above:
         return given
     wanted = f" > {above:g}" if above > -np.inf else f" >= {least:g}" if least > -np.inf else ""
     wanted += f" and <= {most:g}" if most < np.inf else ""
-    wanted += f", < {_LARGEST:g} in size," if _LARGEST <= abs(given) < np.inf else ""
     short = float(f"{given:.12g}")  # -1.962, not -1.9620000000000002
     shown = short if abs(given - short) > 0.0 else value
     raise ModelError(f"{word} is {shown!r}, expected a finite number{wanted}{unit and f' in {unit}'}")
