@@ -30,18 +30,21 @@ def read_only(values: Any) -> Array:
 
 
 def reals(values: Any) -> Array:
-    """Return numbers as floats; ValueError where one is text, which numpy would read."""
+    """Return numbers as floats; ValueError where one is none, such as text, which numpy would read."""
     array = np.asarray(values)
-    if array.dtype.kind in "SU" or (array.dtype.kind == "O" and any(isinstance(v, str) for v in array.flat)):
-        raise ValueError("text is no number")
+    if array.dtype.kind not in "iufO":
+        raise ValueError(f"{array.dtype.name} is no number")
+    if array.dtype.kind == "O" and np.isnan([real(value) for value in array.flat]).any():
+        raise ValueError("not all are numbers")
     return array.astype(np.float64)
 
 
 def real(value: Any) -> float:
-    """Return a number as a float, NaN for what is none, such as text or True."""
+    """Return a number as a float, NaN for what is none, such as text, True, or an integer without bounds."""
     try:
-        return np.nan if np.asarray(value).dtype.kind in "SUb" else float(value)
-    except (TypeError, ValueError):
+        number = np.asarray(value)
+        return float(value) if number.ndim == 0 and number.dtype.kind in "iufO" else np.nan
+    except (OverflowError, TypeError, ValueError):
         return np.nan
 
 

@@ -101,7 +101,9 @@ class NoEquilibrium(SolveError):
         self.blocks, self.left_out = blocks, tuple(left_out)
         super().__init__(
             f"{loads} cannot stand: {few(blocks)} would fall; "
-            + "; ".join(["check supports, missing interfaces, friction and strengths", *missing(left_out)])
+            + "; ".join(
+                ["check dimensions, supports, missing interfaces, friction and strengths", *missing(left_out)]
+            )
         )
 
 

@@ -18,7 +18,7 @@ from limitblocks.analysis.programs import ROUNDS, Program, in_cone, solved, solv
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
-from limitblocks.errors import NoEquilibrium, SolverFailure
+from limitblocks.errors import ModelError, NoEquilibrium, SolverFailure
 from limitblocks.evidence.crushing import ALONE, beyond_stress_block
 from limitblocks.evidence.residuals import TOLERANCE, Residual, Residuals, nearest, static_residuals
 from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
@@ -48,10 +48,14 @@ def stability(model: Model) -> Stability:
 
     Raises
     ------
+    ModelError
+        If there is no dead load.
     SolverFailure
         If nothing is proven.
     """
     problem = model.problem
+    if not problem.dead.any():
+        raise ModelError("no dead load acts on a free block: whether it stands under none is no question")
     try:
         x = dead_load_state(problem)
     except NoEquilibrium:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.programs import ROUNDS, jamming_program, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.arrays import Array
@@ -16,6 +17,10 @@ from limitblocks.problem import LimitProblem
 UNLIMITED = (
     "the live load can grow without limit: a stress state within the yield surface balances it alone; check "
     "its direction, or use the non-associated analysis"
+)
+JAMMED = (
+    "the live load can grow without limit: normal forces alone balance it, without any friction, so that the "
+    "non-associated analysis has no load factor either; check its direction"
 )
 CERTIFIED = 1e-7  # largest residual of stresses that explain why there is no answer
 
@@ -38,5 +43,6 @@ def explain(problem: LimitProblem, dead: Array) -> None:
             x = measured.stress * balanced(measured, measured.dead, x)
             for loads, stresses in ((pushed, x), (loaded, x + CERTIFIED * dead)):
                 if Residuals(static_residuals(loads, 0.0, stresses)).worst.value <= CERTIFIED:
-                    raise UnlimitedLoad(UNLIMITED)
+                    jammed = np.isinf(load_factor_without_shear(problem, limited=False)[0])
+                    raise UnlimitedLoad(JAMMED if jammed else UNLIMITED)
             measured = measured.measured(unmoved(problem, 0.0, x))

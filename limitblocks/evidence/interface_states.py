@@ -77,9 +77,9 @@ class InterfaceStates(Tabular):
     force : Array, shape (m, 3)
         Force that block i exerts on block j, global axes, N; block i feels the opposite.
     utilisation : Array, shape (m,)
-        How much of the strength is used, N held, or of the compressive strength by N itself, from 0 to 1 on
-        the yield surface; see :func:`limitblocks.evidence.utilisation.utilisation`. 0 without a force or
-        moment.
+        How much of the strength is used, N held, or of the compressive or tensile strength by N itself, from
+        0 to 1 on the yield surface; see :func:`limitblocks.evidence.utilisation.utilisation`. 0 without
+        a force or moment.
     """
 
     names: tuple[str, ...]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from limitblocks.arrays import Array
-from limitblocks.joints.queries import pressed
+from limitblocks.joints.queries import normal_share
 from limitblocks.joints.rows import hinge_gradients
 from limitblocks.model import Model
 from limitblocks.problem.cones import ratio
@@ -17,7 +17,7 @@ def utilisation(model: Model, stresses: Array) -> Array:
     """Return the utilisation of each interface, shape (m,), from 0 to 1 on the yield surface.
 
     It is 1/t, t the largest multiple of (V1, V2, M1, M2, T) within the yield rows under the same N, or the
-    share of the compressive strength that N uses by itself, if that is more, as
+    share of the compressive or tensile strength that N uses by itself, if that is more, as
     :meth:`limitblocks.joints.queries.Queries.utilisation` has it. Where the rows act on the forces of points
     (PointContact), which are not unique, it is the larger of the friction in use over that available, summed
     over the points, and the way of the centre of pressure from the centroid to the edge.
@@ -52,6 +52,6 @@ def utilisation(model: Model, stresses: Array) -> Array:
             used[k] = max(used[k], float(ratio((h[:, 3:] @ Q[k, 3:]).max(), -Q[k, 2], NOISE)))
     normals = N @ x * problem.units.resultants[2::6]
     alone = [
-        pressed(one.joint, one, own) for one, own in zip(model.interfaces, normals.tolist(), strict=True)
+        normal_share(one.joint, one, own) for one, own in zip(model.interfaces, normals.tolist(), strict=True)
     ]
     return np.maximum(used, np.minimum(alone, 1.0))

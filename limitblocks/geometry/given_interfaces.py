@@ -27,8 +27,6 @@ def interface_faults(interfaces: Sequence[Interface]) -> list[str]:
         if not _hashable(one.joint):
             kind = type(one.joint).__name__
             faults[k] = f"joint {kind} cannot be hashed; expected a frozen dataclass, or Materials.between"
-        elif not all(map(_of_numbers, (one.centroid, one.axes, one.polygon))):
-            faults[k] = "centroid, axes and polygon are no numbers, m"
         elif np.shape(one.centroid) == (3,) and np.shape(one.axes) == (3, 3) and shape[1:] == (2,):
             alike[shape[0]].append(k)
         else:
@@ -39,10 +37,6 @@ def interface_faults(interfaces: Sequence[Interface]) -> list[str]:
         faults |= {k: fault for k, fault in zip(places, _faults(*numbers), strict=True) if fault}
     said = [f"interface {interfaces[k].name}: {faults[k]}" for k in sorted(faults)]
     return said or _given_twice(interfaces)
-
-
-def _of_numbers(values: object) -> bool:
-    return np.asarray(values).dtype.kind in "iuf"  # text is none, though numpy reads it
 
 
 def _hashable(joint: object) -> bool:

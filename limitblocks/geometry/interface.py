@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import reprlib
 from dataclasses import dataclass
 
 import numpy as np
 
-from limitblocks.arrays import Array, Sealed
+from limitblocks.arrays import Array, Sealed, read_only, reals
+from limitblocks.errors import GeometryError, ModelError
 from limitblocks.geometry.polygon import areas
 
 #: What a file keeps of an interface beside its joint.
@@ -38,6 +40,23 @@ class Interface(Sealed):
     axes: Array
     polygon: Array
     joint: object
+
+    def __post_init__(self) -> None:
+        for key in ("block_i", "block_j"):
+            if not isinstance(getattr(self, key), str):
+                raise ModelError(
+                    f"{key} of an interface is {getattr(self, key)!r}, expected the name of a block"
+                )
+        for key in ("centroid", "axes", "polygon"):
+            values = getattr(self, key)
+            if isinstance(values, np.ndarray) and values.dtype == np.float64:  # thousands are made in a row
+                continue
+            try:
+                object.__setattr__(self, key, read_only(reals(values)))
+            except (TypeError, ValueError):
+                raise GeometryError(
+                    f"interface {self.name}: {key} is {reprlib.repr(values)}, expected numbers, m"
+                ) from None
 
     def __repr__(self) -> str:
         return f"<interface {self.name!r}: area {areas(self.polygon):.4g} m2>"

@@ -188,6 +188,9 @@ def _untwisted(
     which = np.flatnonzero(off > PLANE_TOLERANCE * size)
     if not len(which):
         return points, loops
+    if np.isinf(off.max()):
+        corners = ", ".join(_place(points[vertex]) for vertex in loops[int(off.argmax())][:4])
+        wrong(name, f"a face crosses itself, and has no area: {corners}, ...; list its corners in turn")
     said = f"twisted faces: {len(which)} of {len(loops)}, corners up to {off.max():.3g} m out of their planes"
     if twisted == "triangulate":
         notes.append(f"{said}, divided into triangles")

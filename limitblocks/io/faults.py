@@ -29,6 +29,8 @@ _COUNTS = {
     "too_long": "expected at most {max_length} entries",
     "too_short": "expected at least {min_length} entries",
 }
+#: What the JSON of a report says of itself.
+REPORT = "limitblocks report"
 D = TypeVar("D", bound="Document")
 
 
@@ -45,6 +47,12 @@ def named(path: Path) -> Iterator[None]:
 def _at(path: Path, fault: str) -> str:
     said = fault if _MORE.fullmatch(fault) else f"{path}: {fault}"
     return shorten(said, _LONGEST_LINE, placeholder=" ...")
+
+
+def refuse_report(data: Any, needed: str) -> None:
+    """Refuse the JSON of a report where a model or a result is `needed`."""
+    if isinstance(data, dict) and data.get("format") == REPORT:
+        raise ModelError(f"is a report, which nothing is read from; {needed} is needed")
 
 
 def validated(form: type[D], text: str, data: Any) -> D:
@@ -106,7 +114,7 @@ def _tell_parts(lines: list[str], key: str, parts: list[Any], adapter: Any, form
         if len(lines) >= _COUNTED:
             return
         try:
-            adapter.validate_json(json.dumps(part))
+            adapter.validate_json(json.dumps(part), strict=True)  # as a part of a document is
         except ValidationError as error:
             for fault in error.errors(include_url=False):
                 _tell(lines, f"{key}[{k}]", fault, part, form)

@@ -26,6 +26,8 @@ SUPPORT_WORDS = re.compile(
 )
 #: Size, m, beyond which a structure is hardly in metres: the longest masonry bridge spans and naves are less.
 LARGE = 300.0
+#: Median length of the blocks, m, beyond which they are hardly in metres: only single stones are longer.
+_LONG = 10.0
 #: Length of a block, m, that a guess of the unit comes closest to.
 _BLOCK = 0.4
 _CANDIDATES = {"cm": 0.01, "mm": 0.001}  # metres per unit
@@ -59,12 +61,20 @@ class Boxes(NamedTuple):
 
 
 def unit(boxes: Boxes) -> tuple[str, str] | None:
-    """Return the unit that solids too large for metres are probably in, and a sentence on it; else None."""
-    if not LARGE < boxes.size < 1e30:
+    """Return the unit that solids too large for metres are taken in, and a sentence on it; else None.
+
+    Too large is a structure; where its blocks alone are, metres stay, and the sentence asks.
+    """
+    if not boxes.size < 1e30 or (boxes.size <= LARGE and boxes.length <= _LONG):
         return None
     far = {name: abs(np.log(boxes.length * metres / _BLOCK)) for name, metres in _CANDIDATES.items()}
     name = min(far, key=lambda one: far[one])
     size, length = boxes.size * _CANDIDATES[name], boxes.length * _CANDIDATES[name]
+    if boxes.size <= LARGE:
+        return "m", (
+            f"states no unit of length: taken as m, it is {boxes.size:.4g} m large with blocks of "
+            f"{boxes.length:.4g} m, in {name} {size:.4g} m with blocks of {length:.2g} m; say units (--units)"
+        )
     return name, (
         f"states no unit of length and is {boxes.size:.4g} units large: taken as {name}, {size:.4g} m large "
         f"with blocks of {length:.2g} m; say units={name!r} (--units {name}), or what it is in"

@@ -75,6 +75,7 @@ def _document(text: str) -> ModelDocument:
     data = strict_json.parse(text)
     if isinstance(data, dict) and "blocks" not in data and data.keys() & {"analysis", "stress_resultants"}:
         raise ModelError("is a result, not a model; the model comes first, then the result")
+    faults.refuse_report(data, "a model file")
     return faults.validated(ModelDocument, text, data)
 
 

@@ -67,14 +67,14 @@ def read_result(file: str | Path, model: Model | None = None) -> Any:
     with faults.named(path):
         text = strict_json.read_text(path)
         data = strict_json.parse(text)
-        made = _made(data)
+        made, lacks = _made(data)
         kind = kind_of(made)
         if made is not None:
             _refuse_copies(data, strict_json.finite(made.to_dict()))
         if kind and not kind.document:  # no claimed solution
             _refuse_other(model, made.digest, data.get("versions"))
             return made
-        claim = _claim(_document(text, data), model, data.get("versions"))
+        claim = _claim(_document(text, data, lacks), model, data.get("versions"))
         return claim if made is None else made
 
 
@@ -105,14 +105,14 @@ def versions() -> dict[str, str]:
     return {name: metadata.version(name) for name in _STATED}
 
 
-def _made(data: Any) -> Any:
-    """The result as its own class; None where the file lacks something."""
+def _made(data: Any) -> tuple[Any, str]:
+    """The result as its own class; None and what the file lacks, where it lacks something."""
     from limitblocks.io.saved import Lacking, result_of  # here, to keep `import limitblocks` quick
 
     try:
-        return result_of(data)
-    except Lacking:
-        return None
+        return result_of(data), ""
+    except Lacking as lacking:
+        return None, str(lacking)
 
 
 def _refuse_copies(said: Any, made: Any, place: str = "") -> None:
@@ -142,13 +142,14 @@ def _refuse_other(model: Model | None, digest: str, stated: Any) -> None:
         raise ModelError(said)
 
 
-def _document(text: str, data: Any) -> ResultDocument | BoundsDocument:
-    if isinstance(data, dict) and "blocks" in data and "stress_resultants" not in data:
+def _document(text: str, data: Any, lacks: str) -> ResultDocument | BoundsDocument:
+    if isinstance(data, dict) and "blocks" in data and not data.keys() & {"analysis", "stress_resultants"}:
         raise ModelError("is a model, not a result; the model comes first, then the result")
+    faults.refuse_report(data, "a result file")
     word = data.get("analysis") if isinstance(data, dict) else None
     kind = KINDS.get(word) if isinstance(word, str) else None
     if word == "study" or (kind and not kind.document):
-        raise ModelError(_NO_CLAIM.get(str(word), _PARTIAL.format(word)))
+        raise ModelError(f"{_NO_CLAIM.get(str(word), _PARTIAL.format(word))} ({lacks})")
     document = faults.validated(named((kind or KINDS["nonassociated"]).document), text, data)
     found: ResultDocument | BoundsDocument = getattr(document, "collapse", document)
     return found

@@ -5,7 +5,8 @@ What the registry of results says of a kind comes first, here for parts of resul
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import MISSING, fields, is_dataclass, replace
 from enum import Enum
 from math import inf, nan
@@ -114,14 +115,25 @@ def made(kind: Any, data: Any) -> Any:
         if field.name == "from_file":
             said[field.name] = True
         elif hints[field.name] is Residuals:
-            said[field.name] = _residuals(data[key], data.get("residual_details", {}))
+            with _within(key):
+                said[field.name] = _residuals(data.get(key), data.get("residual_details", {}))
         elif key in data:
-            said[field.name] = _value(hints[field.name], data[key], field.name)
+            with _within(key):
+                said[field.name] = _value(hints[field.name], data[key], field.name)
         elif field.default is MISSING and field.default_factory is MISSING:
             raise Lacking(f"{key} is missing")
     if said.get("digest") == "":
         raise Lacking("the model is not named")
     return kind(**said)
+
+
+@contextmanager
+def _within(key: str) -> Iterator[None]:
+    """Name the key under which something is wrong."""
+    try:
+        yield
+    except (AttributeError, IndexError, KeyError, ModelError, TypeError, ValueError) as error:
+        raise Lacking(f"{key}: {error}") from None
 
 
 def _value(kind: Any, data: Any, name: str) -> Any:
@@ -146,7 +158,7 @@ def _value(kind: Any, data: Any, name: str) -> Any:
     if kind is float:
         return _number(data, _NULL.get(name, nan))
     if type(data) is not kind:
-        raise Lacking(f"{name} is {data!r}")
+        raise Lacking(f"{data!r} is no {kind.__name__}")
     return data
 
 
@@ -185,7 +197,7 @@ def _array(data: Any, name: str) -> Array:
     array = np.array(data)
     numbers = array.dtype.kind in "fi" and array.ndim == (2 if columns else 1)
     if array.size and not (numbers and np.abs(array).max() < _MOST):
-        raise Lacking(f"{name} is no array of numbers")
+        raise Lacking("no array of numbers")
     return read_only(array.reshape(-1, columns) if columns else array.ravel())
 
 
@@ -197,7 +209,7 @@ def _flags(data: Any) -> npt.NDArray[np.bool_]:
     return flags
 
 
-def _residuals(data: Mapping[str, Any], details: Mapping[str, Any]) -> Residuals:
+def _residuals(data: Mapping[str, Any] | None, details: Mapping[str, Any]) -> Residuals:
     """Residuals by name; what they measure and where may be told beside them."""
     if not data:
         raise Lacking("no residuals")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,12 +27,38 @@ def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Seque
     are faces of the solid around them: surfaces that point inward inside one that points outward.
     """
     points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
+    return [Solid(name, layer, points[one.vertices], one.faces) for one in surfaces(name, points, faces)]
+
+
+def worded(
+    name: str,
+    points: Array,
+    faces: Sequence[Sequence[int]],
+    owner: Sequence[int],
+    words: Sequence[Mapping[str, Any]],
+) -> list[Solid]:
+    """Return the solids as `solids` does, each with the words that most of its faces have.
+
+    `owner` has for each face the place of its words, keys of :data:`limitblocks.io.solid.WORDS`, in `words`.
+    """
     found = surfaces(name, points, faces)
-    return [Solid(name, layer, points[used], loops) for used, loops in found]
+    most = [Counter(owner[k] for k in one.which).most_common(1)[0][0] for one in found]
+    return [
+        Solid(name, vertices=points[one.vertices], faces=one.faces, **words[k])
+        for one, k in zip(found, most, strict=True)
+    ]
 
 
-def surfaces(name: str, points: Array, faces: Sequence[Sequence[int]]) -> list[tuple[Indices, Faces]]:
-    """Return for each solid its vertices among `points` (n, 3), and its faces over these; see `solids`."""
+class Surface(NamedTuple):
+    """A closed surface: its vertices among those given, its faces over these, and which ones they are."""
+
+    vertices: Indices
+    faces: Faces
+    which: Sequence[int]
+
+
+def surfaces(name: str, points: Array, faces: Sequence[Sequence[int]]) -> list[Surface]:
+    """Return the surface of each solid that `faces` over `points` (n, 3) enclose; see `solids`."""
     loops = tuple(map(tuple, faces))
     if not loops:
         return []
@@ -41,10 +69,10 @@ def surfaces(name: str, points: Array, faces: Sequence[Sequence[int]]) -> list[t
     for group in groups:
         used, number = np.unique(np.concatenate([loops[k] for k in group]), return_inverse=True)
         if len(groups) == 1:
-            return [(np.arange(len(points)), loops)]
+            return [Surface(np.arange(len(points)), loops, range(len(loops)))]
         ends = np.cumsum([len(loops[k]) for k in group])[:-1]
         parts = tuple(tuple(part.tolist()) for part in np.split(number.reshape(-1), ends))
-        bodies.append((used, parts))
+        bodies.append(Surface(used, parts, group))
     return bodies
 
 

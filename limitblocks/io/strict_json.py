@@ -19,6 +19,7 @@ LARGEST_FILE = 100_000_000
 #: Most that one file, and one object in it, may have; in memory they are many times their text.
 _MOST = {"lists and objects": 3_000_000, "keys": 5_000_000, "values": 8_000_000}
 _MOST_KEYS = 250_000
+_KEY = re.compile(r'"((?:[^"\\]|\\.)*)"\s*:')
 _OUTSIDE_STRINGS = re.compile(r'"(?:[^"\\]|\\.)*"|NaN|-?Infinity')
 
 
@@ -115,7 +116,10 @@ def finite(value: Any) -> Any:
 def _refuse_constant(text: str, word: str) -> NoReturn:
     start = next(one.start() for one in _OUTSIDE_STRINGS.finditer(text) if one[0] == word)
     where = f"line {text.count(chr(10), 0, start) + 1}, column {start - text.rfind(chr(10), 0, start)}"
-    raise ModelError(f"{where}: not JSON: {word} is not a number; all numbers must be finite")
+    key = ""
+    for one in _KEY.finditer(text, 0, start):
+        key = f"{one[1]}: "
+    raise ModelError(f"{where}: not JSON: {key}{word} is not a number; all numbers must be finite")
 
 
 def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -7,6 +7,9 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cache, cached_property
 from typing import Any
 
+import numpy as np
+
+from limitblocks.arrays import real
 from limitblocks.errors import ModelError, near
 from limitblocks.geometry import Block, select
 from limitblocks.geometry.selection import listed
@@ -36,6 +39,15 @@ class Material:
     unit_weight: float | None = None
     joint: Joint | None = None
     blocks: Sequence[str] = ()
+
+    def __post_init__(self) -> None:
+        if self.unit_weight is not None and not 0.0 <= real(self.unit_weight) < np.inf:
+            raise ModelError(f"unit weight is {self.unit_weight!r}, expected a finite number >= 0 in N/m3")
+        if self.joint is not None and not isinstance(self.joint, Joint):
+            raise ModelError(f"joint is {self.joint!r}, expected one such as OrdunaLourenco(friction=0.6)")
+        patterns: Any = self.blocks
+        if not isinstance(patterns, list | tuple) or not all(isinstance(one, str) for one in patterns):
+            raise ModelError(f"blocks are {patterns!r}, expected a list of names or patterns")
 
 
 @dataclass(frozen=True)

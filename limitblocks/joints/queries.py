@@ -105,19 +105,20 @@ class Queries:
         """Return how much of its strength the interface uses at Q: 1 on the surface, > 1 outside.
 
         It is 1/t, t the largest multiple of (V1, V2, M1, M2, T) that the interface carries under the same
-        N, or -N over what crushes it, if that is more. Zero without shear, bending and torsion, or if they
-        may grow without limit, where nothing crushes; infinite if N by itself cannot be carried.
+        N, or N over what crushes or tears it by itself, if that is more. Zero without shear, bending and
+        torsion, or if they may grow without limit, where N has no limit; infinite if N by itself cannot be
+        carried.
         """
         Q = _six(Q, "Q")
         held = Q * [0, 0, 1, 0, 0, 0]
         try:
             if not (Q - held).any():
                 self.strength(interface, [0, 0, 1, 0, 0, 0], held)
-                return pressed(self, interface, Q[2])
+                return normal_share(self, interface, Q[2])
             t = self.strength(interface, Q - held, held)
         except ModelError:
             return np.inf
-        return np.inf if t == 0.0 else max(1.0 / t, pressed(self, interface, Q[2]))
+        return np.inf if t == 0.0 else max(1.0 / t, normal_share(self, interface, Q[2]))
 
     def active_modes(self, interface: Interface, Q: Any, tolerance: float = 1e-6) -> tuple[str, ...]:
         """Return the names of the failure modes whose yield functions are zero at Q, or above.
@@ -199,10 +200,11 @@ class Queries:
         return tuple(dict.fromkeys(mode for mode, margin in named if not margin > tolerance))
 
 
-def pressed(joint: object, interface: Interface, N: float) -> float:
-    """Share of its compressive strength that N, in N, uses by itself; zero without a strength."""
-    strength = getattr(joint, "compressive_strength", None)
-    return 0.0 if strength is None else max(0.0, float(-N / (strength * areas(interface.polygon))))
+def normal_share(joint: object, interface: Interface, N: float) -> float:
+    """Share of its compressive or tensile strength that N, in N, uses by itself; zero without a strength."""
+    tension = getattr(joint, "counted_tension", getattr(joint, "tensile_strength", None))
+    strength = tension if N > 0.0 else getattr(joint, "compressive_strength", None)
+    return abs(N) / float(strength * areas(interface.polygon)) if strength else 0.0
 
 
 def _six(values: Any, word: str) -> Array:

@@ -44,7 +44,7 @@ class Vehicle:
     contact: float = 0.3
 
     def __post_init__(self) -> None:
-        if np.ndim(self.axles) != 1 or np.ndim(self.distances) != 1:
+        if not all(isinstance(one, list | tuple | np.ndarray) for one in (self.axles, self.distances)):
             raise ModelError(
                 f"axles are {self.axles!r} at {self.distances!r}, expected a list of N and a list of m"
             )

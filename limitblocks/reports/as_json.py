@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+from limitblocks.io.faults import REPORT
 from limitblocks.reports.document import Document, Figure, Heading, Headline, Items, Part, Table, Text
 
-FORMAT = "limitblocks report"
 REPORT_SCHEMA_VERSION = 2
 
 
 def as_dict(document: Document) -> dict[str, Any]:
     """Return the texts of a report; each part has one key, which says what it is."""
     return {
-        "format": FORMAT,
+        "format": REPORT,
         "schema_version": REPORT_SCHEMA_VERSION,
         "title": document.title,
         "about": dict(document.about),

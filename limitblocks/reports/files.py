@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from limitblocks.errors import LimitBlocksError
-from limitblocks.reports.as_json import FORMAT
+from limitblocks.io.faults import REPORT
 from limitblocks.reports.markdown import MARK
 from limitblocks.reports.pdf import CREATOR
 from limitblocks.written import write
@@ -13,7 +13,7 @@ from limitblocks.written import write
 #: Suffixes of the formats, and what is in files of ours and in no others.
 MARKS = {
     ".html": b'<meta name="generator" content="limitblocks ',
-    ".json": f'"format": "{FORMAT}"'.encode(),
+    ".json": f'"format": "{REPORT}"'.encode(),
     ".md": MARK.encode(),
     ".pdf": f"/Creator ({CREATOR})".encode(),
 }

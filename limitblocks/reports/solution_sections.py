@@ -34,8 +34,8 @@ def bounds_section(model: Model, bounds: Bounds) -> Section:
             "If sliding and twisting dilated the joints by the friction angle (associated flow), the "
             "structure would collapse at a load factor between the static value, of stresses in equilibrium "
             "within the yield surface, and the kinematic value, of a mechanism. Each is judged by itself; "
-            "where they agree, both are proven for the yield surface below. Real joints dilate less: their "
-            "load factor is at most this one and can be smaller."
+            "where they agree, both are proven for the yield surface of the joints. Real joints dilate less: "
+            "their load factor is at most this one and can be smaller."
         ),
         headline=cut(bounds.lower),
         values=(

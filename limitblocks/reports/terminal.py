@@ -52,6 +52,7 @@ def print_result(model: Model, result: Any) -> None:
     headline = f"\n  [bold]{said.headline}[/bold]  {said.quantity}, {said.title}\n"
     tables = [part for part in chapter(said, None, "").parts if isinstance(part, Table)]
     Console(soft_wrap=True).print(headline, highlight=False)
+    Console().print(Text(said.meaning))
     for table in tables:
         Console().print(_table(_shortened(table)), crop=False)
     print_warnings(said.warnings)

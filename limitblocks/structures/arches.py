@@ -11,12 +11,21 @@ from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.mechanics import Load
 from limitblocks.model import Model
-from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, model_of, prism, refuse, refuse_not_positive
+from limitblocks.structures.build import (
+    HORIZONTAL,
+    UNIT_WEIGHT,
+    model_of,
+    plain_numbers,
+    prism,
+    record,
+    refuse_not_positive,
+)
 from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
 from limitblocks.structures.piers import Piers, on_piers, pier_blocks_of
-from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed
+from limitblocks.structures.rings import Ring, Stereotomy, circular, elliptical, pointed, refuse_rise
 
 
+@plain_numbers
 def arch(
     joint: Joint,
     *,
@@ -72,6 +81,7 @@ def arch(
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, name)
 
 
+@plain_numbers
 def segmental_arch(
     joint: Joint,
     *,
@@ -91,14 +101,13 @@ def segmental_arch(
 
     `rise` is at most half the `span`: radius (span^2 / 4 + rise^2) / (2 rise), embrace 4 atan(2 rise / span).
     """
-    refuse_not_positive(span=span, rise=rise)
-    if rise > span / 2:
-        refuse([f"rise is {rise!r}, expected at most half the span {span!r}; see pointed_arch"])
+    refuse_rise(rise, span, "span", "; see pointed_arch")
     radius, embrace = (span**2 / 4 + rise**2) / (2 * rise), 4 * np.arctan(2 * rise / span)
     ring = circular(radius, thickness, voussoirs, embrace, stereotomy, facets)
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "segmental arch")
 
 
+@plain_numbers
 def pointed_arch(
     joint: Joint,
     *,
@@ -130,6 +139,7 @@ def pointed_arch(
     return _arch(joint, ring, piers, fill, depth, unit_weight, direction, "pointed arch")
 
 
+@plain_numbers
 def elliptical_arch(
     joint: Joint,
     *,
@@ -171,7 +181,7 @@ def _arch(
         supports = [prism(f"{side} support", outline, depth) for side, outline in ring.skewbacks().items()]
         ledges: list[tuple[str, Array]] = []
     else:
-        piers = Piers(*piers)
+        piers = record(Piers, piers)
         ring = on_piers(ring, piers)
         below, supports, ledges = pier_blocks_of(ring, piers, depth, unit_weight)
     blocks = [
@@ -179,7 +189,7 @@ def _arch(
     ]
     extra = (Load(), Load())
     if fill is not None:
-        fill = Fill(*fill)
+        fill = record(Fill, fill)
         refuse_fill(fill)
         surfaces = [(block.name, top) for block, top in zip(blocks, ring.extrados, strict=True)]
         level = float(ring.extrados[..., 1].max()) + fill.height

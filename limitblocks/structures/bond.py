@@ -10,7 +10,7 @@ import numpy as np
 
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
-from limitblocks.structures.build import refuse, refuse_fewer, refuse_not_positive, span_box
+from limitblocks.structures.build import refuse, refuse_fewer, refuse_many, refuse_not_positive, span_box
 
 SAME = 1e-6  # of a block: lengths closer than this are equal
 HORIZONTAL_LENGTHS = ("length", "width", "return_length", "buttress_length")  # on the grid of half blocks
@@ -29,7 +29,7 @@ def openings_of(given: Iterable[Sequence[float]]) -> list[Opening]:
     """Return openings as such; ModelError where one is not four numbers."""
     try:
         return [Opening(*map(float, one)) for one in given]
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         raise ModelError(f"openings are {given!r}, expected (left, sill, width, height) in m each") from None
 
 
@@ -145,16 +145,22 @@ class Bond(NamedTuple):
 def refuse_wall(courses: int, block_length: float, **lengths: float) -> None:
     """Raise ModelError unless all is positive and the horizontal lengths are multiples of half a block."""
     refuse_not_positive(block_length=block_length, **lengths)
-    half = block_length / 2
-    horizontal = [lengths[name] for name in HORIZONTAL_LENGTHS if name in lengths]
-    refuse(f"length {value:g} m is not a multiple of {half:g} m, half a block"
-           for value in horizontal if not multiple(value, half))  # fmt: skip
+    refuse_off_grid(block_length, **{name: lengths[name] for name in HORIZONTAL_LENGTHS if name in lengths})
     refuse_fewer(1, courses=courses)
 
 
+def refuse_off_grid(block_length: float, **lengths: float) -> None:
+    """Raise ModelError naming all lengths that are no positive multiples of half a block."""
+    half = block_length / 2
+    refuse_many(block_length, **lengths)
+    refuse(f"{name.replace('_', ' ')} {value:g} m is not a positive multiple of {half:g} m, half a block"
+           for name, value in lengths.items()
+           if not multiple(value, half) or value < half / 2)  # fmt: skip
+
+
 def multiple(value: float, unit: float) -> bool:
-    """Whether `value` is a multiple of `unit`."""
-    return abs(value / unit - round(value / unit)) <= SAME
+    """Whether `value` is a multiple of `unit`, nought among them; what is not finite is none."""
+    return bool(np.isfinite(value)) and abs(value / unit - round(value / unit)) <= SAME
 
 
 def _refuse_clash(where: str, start: float, end: float, spans: Sequence[tuple[float, float]]) -> None:

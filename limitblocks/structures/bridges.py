@@ -17,15 +17,18 @@ from limitblocks.structures.build import (
     base,
     model_of,
     pier,
+    plain_numbers,
     prism,
+    record,
     refuse,
     refuse_fewer,
     refuse_not_positive,
 )
 from limitblocks.structures.fills import Fill, fill_loads, refuse_fill
-from limitblocks.structures.rings import Ring, circular
+from limitblocks.structures.rings import Ring, circular, refuse_rise
 
 
+@plain_numbers
 def arch_bridge(
     joint: Joint,
     *,
@@ -89,10 +92,9 @@ def arch_bridge(
         Direction of the live load, which is the weight; :func:`limitblocks.practice.worst_position` puts a
         vehicle in its place.
     """
-    refuse_not_positive(span=span, rise=rise, thickness=thickness, depth=depth, pier_height=pier_height)
+    refuse_rise(rise, span, "clear span")
+    refuse_not_positive(thickness=thickness, depth=depth, pier_height=pier_height)
     refuse_fewer(1, spans=spans, rings=rings, pier_blocks=pier_blocks)
-    if rise > span / 2:
-        refuse([f"rise is {rise!r}, expected at most half the clear span {span!r}"])
     least = 2 * thickness * float(np.sin(2 * np.arctan(2 * rise / span)))
     width = _pier_width(spans, pier_width, least)
     pitch, height = span + width, pier_height if spans > 1 else 0.0
@@ -106,7 +108,7 @@ def arch_bridge(
         tops.append((stones[-1].name, top))
         y = (-depth / 2, depth / 2)
         supports.append(base((at - width / 2, at + width / 2), y, pier_height / pier_blocks, f"base {k}"))
-    extra = (Load(), Load()) if fill is None else _fill(Fill(*fill), each[-1], tops, depth, direction)
+    extra = (Load(), Load()) if fill is None else _fill(record(Fill, fill), each[-1], tops, depth, direction)
     law = _law(joint, joint if ring_joint is None else ring_joint)
     name = f"arch bridge of {spans} span{'s' * (spans > 1)}"
     return model_of([*arches, *piers], supports, law, direction, name, extra)

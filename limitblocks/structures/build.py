@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import inspect
+import reprlib
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
+from limitblocks.arrays import real
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block, find_interfaces
 from limitblocks.joints import Joint
@@ -17,6 +21,63 @@ from limitblocks.model import Model
 
 UNIT_WEIGHT = 20e3  # N/m3, stone masonry
 HORIZONTAL = (1.0, 0.0, 0.0)
+#: Sizes of a number that is not zero, and most stones of one kind.
+_LEAST, _LARGEST, _MOST = 1e-30, 1e30, 100_000
+_WANTED = {
+    "float": f"a number, between {_LEAST:g} and {_LARGEST:g} in size",
+    "int": f"a whole number up to {_MOST}",
+    "bool": "True or False",
+}
+_PLAIN: dict[str, Callable[[Any], float]] = {"float": float, "int": int, "bool": bool}
+_P = ParamSpec("_P")
+_Record = TypeVar("_Record")
+
+
+def plain_numbers(make: Callable[_P, Model]) -> Callable[_P, Model]:
+    """Give the maker of a structure plain floats and ints, or raise ModelError naming what is none.
+
+    Rounded to single precision, the same number would leave gaps between the blocks.
+    """
+    parameters = inspect.signature(make).parameters
+    kinds = {name: one.annotation.removesuffix(" | None") for name, one in parameters.items()}
+
+    @wraps(make)
+    def made(*args: _P.args, **kwargs: _P.kwargs) -> Model:
+        given = inspect.signature(make).bind(*args, **kwargs)
+        asked = {
+            name: value
+            for name, value in given.arguments.items()
+            if kinds[name] in _WANTED and not (value is None and parameters[name].default is None)
+        }
+        refuse(
+            f"{name.replace('_', ' ')} is {reprlib.repr(value)}, expected {_WANTED[kinds[name]]}"
+            for name, value in asked.items()
+            if not _sound(kinds[name], value)
+        )
+        given.arguments |= {name: _PLAIN[kinds[name]](value) for name, value in asked.items()}
+        return make(*given.args, **given.kwargs)
+
+    return made
+
+
+def _sound(kind: str, value: Any) -> bool:
+    """Whether a value is a number of a kind; NaN and infinities are, which each structure refuses itself."""
+    if kind == "bool":
+        return isinstance(value, bool | np.bool_)
+    size = abs(real(value))
+    if kind == "int":
+        return isinstance(value, int | np.integer) and size <= _MOST
+    undefined = isinstance(value, float) and not np.isfinite(value)
+    return undefined or size == 0.0 or _LEAST <= size < _LARGEST
+
+
+def record(kind: Callable[..., _Record], value: Any) -> _Record:
+    """Return `value` as a named tuple, or raise ModelError."""
+    try:
+        return kind(*value)
+    except TypeError:
+        wanted = f"{kind.__name__}({', '.join(kind._fields)})"  # type: ignore[attr-defined] # a named tuple
+        raise ModelError(f"{kind.__name__.lower()} is {value!r}, expected {wanted}") from None
 
 
 def model_of(
@@ -83,6 +144,12 @@ def refuse_fewer(least: int, **counts: Any) -> None:
     refuse(f"{name.replace('_', ' ')} is {count!r}, expected a whole number of at least {least}"
            for name, count in counts.items()
            if not (isinstance(count, int | np.integer) and count >= least))  # fmt: skip
+
+
+def refuse_many(stone: float, **lengths: float) -> None:
+    """Raise ModelError naming all `lengths`, m, in which there are too many stones of a length."""
+    refuse(f"{name.replace('_', ' ')} is {value!r}, expected at most {_MOST} stones of {stone:g} m"
+           for name, value in lengths.items() if value > _MOST * stone)  # fmt: skip
 
 
 def refuse(problems: Iterable[str]) -> None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy.spatial import ConvexHull, HalfspaceIntersection
+from scipy.spatial import ConvexHull, HalfspaceIntersection, QhullError
 
 from limitblocks.arrays import Array
+from limitblocks.errors import GeometryError
 from limitblocks.geometry import Block
 
 SAME = 1e-9  # of the size of a stone: points and planes closer than this are one
@@ -19,12 +20,18 @@ def hull(name: str, corners: npt.ArrayLike, unit_weight: float | None = None) ->
     tolerance = SAME * size
     points = points[_first_of_each(points, tolerance)]
     middle = points.mean(axis=0)
-    planes = ConvexHull(points - middle).equations
+    flat = GeometryError(f"block {name!r}: it has no volume beside its size of {size:.3g} m")
+    try:
+        planes = ConvexHull(points - middle).equations
+    except QhullError:
+        raise flat from None
     # Qhull gives one plane to a triangle
     planes = planes[_first_of_each(planes / (1.0, 1.0, 1.0, size), 1e-7)]
     on = np.abs(planes[:, :3] @ (points - middle).T + planes[:, 3:]) <= 10 * tolerance
     extreme = on.sum(axis=0) >= 3  # the others lie on an edge or within a face
     points, on = points[extreme], on[:, extreme]
+    if (on.sum(axis=1) < 3).any():
+        raise flat
     faces = [_turn(points, np.flatnonzero(row), plane[:3]) for row, plane in zip(on, planes, strict=True)]
     return Block(name, points, tuple(faces), unit_weight)
 

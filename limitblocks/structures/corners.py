@@ -11,11 +11,19 @@ from types import MappingProxyType
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond, Opening, multiple, openings_of, refuse_wall
-from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, base, model_of, refuse
+from limitblocks.structures.build import (
+    HORIZONTAL,
+    UNIT_WEIGHT,
+    base,
+    model_of,
+    plain_numbers,
+    refuse,
+)
 
 FACADE_OPENINGS = (Opening(1.2, 0.0, 1.2, 2.4), Opening(4.0, 1.2, 1.2, 1.2))
 
 
+@plain_numbers
 def facade(
     joint: Joint,
     *,
@@ -67,6 +75,7 @@ def facade(
     return model_of(blocks, [ground], joint, direction, "facade")
 
 
+@plain_numbers
 def corner(
     joint: Joint,
     *,
@@ -101,6 +110,7 @@ def corner(
     return model_of(blocks, [ground], joint, direction, "corner")
 
 
+@plain_numbers
 def tower(
     joint: Joint,
     *,
@@ -136,6 +146,8 @@ def tower(
         "left": (1, (0.0, t)),
         "right": (1, (length - t, length)),
     }
+    if not isinstance(openings, Mapping):
+        refuse([f"openings are {openings!r}, expected those of each side by its name, {', '.join(sides)}"])
     refuse(f"openings are given for {name!r}, expected one of {', '.join(sides)}"
            for name in openings if name not in sides)  # fmt: skip
     bond, blocks = Bond(block_length, block_height, courses), []
@@ -149,6 +161,7 @@ def tower(
     return model_of(blocks, [ground], joint, direction, "tower")
 
 
+@plain_numbers
 def buttressed_wall(
     joint: Joint,
     *,

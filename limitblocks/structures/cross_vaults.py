@@ -15,8 +15,10 @@ from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     model_of,
+    plain_numbers,
     refuse,
     refuse_fewer,
+    refuse_many,
     refuse_not_positive,
 )
 from limitblocks.structures.convex import hull
@@ -25,6 +27,7 @@ from limitblocks.structures.rings import circular
 SIDES = ("right", "back", "left", "front")  # towards +X, +Y, -X, -Y
 
 
+@plain_numbers
 def groin_vault(
     joint: Joint,
     *,
@@ -63,6 +66,7 @@ def groin_vault(
         Direction of the live load, which is the weight.
     """
     refuse_not_positive(length=length, stone_length=stone_length)
+    refuse_many(stone_length, length=length)
     refuse_fewer(2, courses=courses)
     ring, end = circular(radius, thickness, courses, embrace), length / 2
     feet = ring.skewbacks()
@@ -89,6 +93,7 @@ def groin_vault(
     return model_of(blocks, supports, joint, direction, "groin vault")
 
 
+@plain_numbers
 def pavilion_vault(
     joint: Joint,
     *,
@@ -124,7 +129,8 @@ def pavilion_vault(
     direction : sequence of float
         Direction of the live load, which is the weight.
     """
-    refuse_not_positive(stone_length=stone_length)
+    refuse_not_positive(radius=radius, stone_length=stone_length)
+    refuse_many(stone_length, radius=radius)
     refuse_fewer(2, courses=courses)
     ring = circular(radius, thickness, courses, embrace)
     outlines = ring.voussoirs()[::-1]  # from the right springing up

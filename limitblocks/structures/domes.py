@@ -15,6 +15,7 @@ from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     model_of,
+    plain_numbers,
     refuse,
     refuse_fewer,
     refuse_not_positive,
@@ -23,6 +24,7 @@ from limitblocks.structures.convex import cut, hull
 from limitblocks.structures.rings import circular
 
 
+@plain_numbers
 def dome(
     joint: Joint,
     *,
@@ -93,6 +95,7 @@ def dome(
     return model_of(blocks, supports, joint, direction, "dome")
 
 
+@plain_numbers
 def dome_lunes(
     joint: Joint,
     *,

@@ -11,6 +11,7 @@ from limitblocks.structures.build import (
     UNIT_WEIGHT,
     base,
     model_of,
+    plain_numbers,
     refuse,
     refuse_not_positive,
     span_box,
@@ -40,6 +41,7 @@ COURSES: dict[int, list[Sequence[float]]] = {
 }
 
 
+@plain_numbers
 def ferris_tin_loi_wall(
     number: int,
     joint: Joint,

@@ -7,19 +7,21 @@ from collections.abc import Sequence
 from limitblocks.arrays import real
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.bond import Bond, Piece, multiple
+from limitblocks.structures.bond import Bond, Piece, refuse_off_grid
 from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     base,
     model_of,
     pier,
+    plain_numbers,
     refuse,
     refuse_not_positive,
     span_box,
 )
 
 
+@plain_numbers
 def portal(
     joint: Joint,
     *,
@@ -62,6 +64,7 @@ def portal(
     return model_of([*left, *right, lintel], [base((0.0, end), y, block_height)], joint, direction, "portal")
 
 
+@plain_numbers
 def eccentric_lintel(
     joint: Joint,
     *,
@@ -107,7 +110,7 @@ def eccentric_lintel(
     refuse_not_positive(block_length=block_length, block_height=block_height, thickness=thickness)
     refuse_not_positive(overhang=overhang, load_length=load_length, load_height=load_height)
     refuse_not_positive(length=length, bearing=bearing)
-    _refuse_off_grid(block_length, length=length, bearing=bearing)
+    refuse_off_grid(block_length, length=length, bearing=bearing)
     problems = [] if courses >= 1 else [f"courses is {courses!r}, expected at least one"]
     if bearing >= length:
         problems.append(f"bearing is {bearing!r}, expected less than the length {length!r}")
@@ -126,12 +129,3 @@ def eccentric_lintel(
     load = span_box("load", (tip - load_length, tip), off, (top, top + load_height), unit_weight)
     ground = base((0.0, length), y, block_height)
     return model_of([*blocks, load], [ground], joint, direction, "eccentric lintel")
-
-
-def _refuse_off_grid(block_length: float, **lengths: float) -> None:
-    half = block_length / 2
-    refuse(
-        f"{name} {value:g} m is not a positive multiple of {half:g} m, half a block"
-        for name, value in lengths.items()
-        if not multiple(value, half)
-    )

@@ -14,6 +14,8 @@ from limitblocks.arrays import Array
 from limitblocks.structures.build import refuse, refuse_fewer, refuse_not_positive
 
 Stereotomy = Literal["radial", "vertical"]
+#: Least rise of a circular arch over its span: for a flatter one the radius leaves no digits to the stones.
+FLATTEST = 1e-6
 
 
 class Profile(NamedTuple):
@@ -144,6 +146,15 @@ def circular(
         problems.append(f"embrace is {embrace!r}, expected an angle up to pi (a semicircle) in rad")
     refuse(problems)
     return Ring.of(Profile((radius, radius)), thickness, voussoirs, embrace / 2, stereotomy, facets)
+
+
+def refuse_rise(rise: float, span: float, what: str, instead: str = "") -> None:
+    """Raise ModelError unless a circular arch over a span can have this rise, m."""
+    refuse_not_positive(span=span, rise=rise)
+    if rise > span / 2:
+        refuse([f"rise is {rise!r}, expected at most half the {what} {span!r}{instead}"])
+    if rise < FLATTEST * span:
+        refuse([f"rise is {rise!r}, expected at least {FLATTEST:g} of the {what} {span!r}"])
 
 
 def pointed(

@@ -15,12 +15,14 @@ from limitblocks.structures.build import (
     UNIT_WEIGHT,
     base,
     model_of,
+    plain_numbers,
     refuse_fewer,
     refuse_not_positive,
     span_box,
 )
 
 
+@plain_numbers
 def block(
     joint: Joint,
     *,
@@ -43,11 +45,13 @@ def block(
     direction : sequence of float
         Direction of the live load, which is the weight.
     """
+    refuse_not_positive(width=width)
     return column(
         joint, count=1, width=width, height=height, depth=depth, unit_weight=unit_weight, direction=direction
     )
 
 
+@plain_numbers
 def column(
     joint: Joint,
     *,
@@ -73,10 +77,12 @@ def column(
     direction : sequence of float
         Direction of the live load, which is the weight.
     """
+    refuse_not_positive(width=width)
     _refuse_stack(count, width, height, depth)
     return _stack(joint, np.zeros(count), (width, depth, height), unit_weight, direction, "column")
 
 
+@plain_numbers
 def overhang(
     joint: Joint,
     *,

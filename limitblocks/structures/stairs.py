@@ -19,6 +19,7 @@ from limitblocks.structures.build import (
     UNIT_WEIGHT,
     base,
     model_of,
+    plain_numbers,
     refuse,
     refuse_fewer,
     refuse_not_positive,
@@ -26,6 +27,7 @@ from limitblocks.structures.build import (
 )
 
 
+@plain_numbers
 def stair(
     joint: Joint,
     *,
@@ -73,6 +75,7 @@ def stair(
     return model_of(blocks, [base(x, y, rise)], joint, direction, "stair")
 
 
+@plain_numbers
 def cantilever_stair(
     joint: Joint,
     *,

@@ -12,6 +12,7 @@ from limitblocks.structures.build import (
     HORIZONTAL,
     UNIT_WEIGHT,
     model_of,
+    plain_numbers,
     prism,
     refuse_fewer,
     refuse_not_positive,
@@ -19,6 +20,7 @@ from limitblocks.structures.build import (
 from limitblocks.structures.rings import circular
 
 
+@plain_numbers
 def barrel_vault(
     joint: Joint,
     *,

@@ -10,9 +10,18 @@ import numpy as np
 from limitblocks.joints import Joint
 from limitblocks.model import Model
 from limitblocks.structures.bond import Bond, Opening, Piece, multiple, openings_of, refuse_wall
-from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, base, model_of, refuse, refuse_fewer
+from limitblocks.structures.build import (
+    HORIZONTAL,
+    UNIT_WEIGHT,
+    base,
+    model_of,
+    plain_numbers,
+    refuse,
+    refuse_fewer,
+)
 
 
+@plain_numbers
 def wall(
     joint: Joint,
     *,
@@ -52,6 +61,7 @@ def wall(
     return model_of(blocks, [base((0.0, length), y, block_height)], joint, direction, "wall")
 
 
+@plain_numbers
 def two_leaf_wall(
     joint: Joint,
     *,

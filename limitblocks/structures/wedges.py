@@ -10,10 +10,18 @@ import numpy.typing as npt
 from limitblocks.geometry import Block
 from limitblocks.joints import Joint
 from limitblocks.model import Model
-from limitblocks.structures.build import HORIZONTAL, UNIT_WEIGHT, model_of, refuse, refuse_not_positive
+from limitblocks.structures.build import (
+    HORIZONTAL,
+    UNIT_WEIGHT,
+    model_of,
+    plain_numbers,
+    refuse,
+    refuse_not_positive,
+)
 from limitblocks.structures.convex import hull
 
 
+@plain_numbers
 def wedge(
     joint: Joint,
     *,

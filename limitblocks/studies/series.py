@@ -147,7 +147,7 @@ def sweep(
     ModelError
         If there is no value, or `values` is no sequence.
     """
-    if not isinstance(values, Iterable):
+    if isinstance(values, str) or not isinstance(values, Iterable):
         raise ModelError(f"values is {values!r}, expected a sequence of values of the parameter")
     given = tuple(values)
     if not given:

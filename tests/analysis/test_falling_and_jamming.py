@@ -133,6 +133,19 @@ def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monke
         analysis(model)
 
 
+def test_bounds_send_to_the_other_analysis_only_where_it_can_answer():
+    """Pressed down, normal forces carry any load; between floor and ceiling only what dilates is stuck."""
+    column = replace(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), live=lb.mass_proportional(DOWN))
+    with pytest.raises(
+        lb.errors.UnlimitedLoad, match="the non-associated analysis has no load factor either"
+    ):
+        lb.bounds(column)
+    stuck = jammed(lb.OrdunaLourenco(0.6))
+    with pytest.raises(lb.errors.UnlimitedLoad, match="or use the non-associated analysis"):
+        lb.bounds(stuck)
+    assert lb.nonassociated(stuck).load_factor > 0.0
+
+
 def test_lifted_blocks_part_where_their_weight_is_gone():
     """Upwards the live load takes the weight away: at load factor 1 the top block floats."""
     found = lb.bounds(arch(0.25, UP))

@@ -218,6 +218,26 @@ def test_a_joint_that_is_pressed_in_its_middle_says_how_near_it_is_to_crushing()
     assert used == pytest.approx([0.99])
 
 
+def test_a_joint_that_is_pulled_says_how_near_it_is_to_tearing():
+    """A stone of 40 kN hangs from 1 m2, by 97 % of what counts of its tensile strength, cohesion / mu."""
+    counted = 40e3 / 0.97
+    joint = lb.OrdunaLourenco(0.5, cohesion=0.5 * counted, tensile_strength=2.0 * counted)
+    ceiling = lb.Block.box("ceiling", (2, 2, 0.2), (0, 0, 2.1))
+    model = lb.Model(
+        [ceiling, stone(size=(1, 1, 2), at=(0, 0, 1))],
+        ["ceiling"],
+        lb.find_interfaces([ceiling, stone(size=(1, 1, 2), at=(0, 0, 1))], joint),
+        lb.self_weight(),
+        lb.mass_proportional((0, 0, -1)),
+    )
+    hanging = np.array([0.0, 0.0, 40e3, 0.0, 0.0, 0.0])
+    assert joint.utilisation(model.interfaces[0], hanging) == pytest.approx(0.97)
+    assert utilisation(model, hanging) == pytest.approx([0.97])
+    assert lb.bounds(model).upper == pytest.approx(1.0 / 0.97 - 1.0, rel=1e-6)  # torn off
+    dry = lb.OrdunaLourenco(0.5)
+    assert dry.utilisation(model.interfaces[0], (0, 0, -1.0, 0, 0, 0)) == 0.0
+
+
 def test_exact_circle_and_crushing_are_cones_of_the_same_utilisation():
     joint = lb.OrdunaLourenco(friction=0.6, slip="exact", compressive_strength=2e5)
     model = lb.structures.corner(joint, **CORNER)

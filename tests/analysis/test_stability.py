@@ -333,3 +333,14 @@ def test_which_joints_are_stiff_can_decide_whether_friction_holds():
 
     assert [stands(0.8, seed) for seed in range(4)] == [True, False, True, False]
     assert all(stands(1.2, seed) for seed in range(4))
+
+
+@pytest.mark.parametrize("dead", [lb.loads.Load(), lb.self_weight() - lb.self_weight()])
+@pytest.mark.filterwarnings("error")
+def test_nothing_stands_under_no_load(dead):
+    """The units of force are those of the dead loads: without any they were infinite, and numpy warned."""
+    bonded = lb.structures.block(
+        lb.OrdunaLourenco(0.6, cohesion=1e4, tensile_strength=5e3), width=1, height=1
+    )
+    with pytest.raises(lb.ModelError, match="no dead load acts on a free block"):
+        lb.stability(replace(bonded, dead=dead))

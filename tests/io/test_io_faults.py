@@ -35,6 +35,10 @@ FAULTS = {
         listed("interfaces", 0, "block_j", to="lef"),
         ["interfaces[0].block_j", "'lef'", "'left'"],
     ),
+    "report": (
+        {"format": "limitblocks report", "schema_version": 2},
+        ["is a report", "a model file is needed"],
+    ),
     "unknown support": (find("supports", to=["grond"]), ["supports[0]", "'grond'", "did you mean 'ground'"]),
     "no support": (find("supports", to=[]), ["no support"]),
     "only supports": (find("supports", to=["ground", "left", "right", "lintel"]), ["no free block"]),
@@ -142,10 +146,10 @@ TEXTS = {
     "white space": (b" \n ", ["is empty"]),
     "truncated": (json.dumps(PORTAL).encode()[:300], ["line 1, column", "not JSON"]),
     "not JSON": (b"<xml/>", ["not JSON"]),
-    "NaN": (json.dumps(PORTAL).replace("24000.0", "NaN").encode(), ["NaN"]),
+    "NaN": (json.dumps(PORTAL).replace("24000.0", "NaN").encode(), ["unit_weight: NaN is not"]),
     "NaN, where": (
         b'{"schema_version": 1,\n "name": "NaN and \\" Infinity",\n "blocks": [NaN]}',
-        ["line 3, column 13: not JSON: NaN is not a number"],
+        ["line 3, column 13: not JSON: blocks: NaN is not a number"],
     ),
     "singular": (  # `joint` is a key of interfaces
         json.dumps({"joint" if key == "joints" else key: value for key, value in PORTAL.items()}).encode(),

@@ -88,12 +88,13 @@ def test_a_format_that_says_its_axis_is_believed_with_a_question(tmp_path):
 
 @pytest.mark.parametrize(("scale", "unit"), [(1e3, "mm"), (1e2, "cm"), (1.0, "m"), (1 / 0.0254, "m")])
 def test_the_unit_is_guessed_where_metres_are_implausible(tmp_path, scale, unit):
-    """A wall 3.2 m long: 3200 and 320 are no metres; 126 (inches) might be, and is not touched."""
+    """A wall 3.2 m long: 3200 and 320 are no metres; 126 (inches) might be, and are asked about."""
     blocks = [replace(b, vertices=scale * b.vertices) for b in plain(EXAMPLES["wall"](JOINT))]
     found = lb.files.read_blocks(lb.files.write_blocks(blocks, tmp_path / "wall.obj"))
     said = [line for line in found.guesses if "no unit of length" in line]
-    assert len(said) == (unit != "m")
-    assert all(f"taken as {unit}, 3.2 m large" in line for line in said)
+    assert len(said) == (scale != 1.0)
+    large = "3.2 m large" if unit != "m" else "it is 126 m large with blocks of 15.75 m, in cm 1.26 m"
+    assert all(f"taken as {unit}, {large}" in line for line in said)
     width = 3.2 if unit != "m" else 3.2 * scale
     assert np.ptp(np.concatenate([b.vertices for b in found.blocks]), axis=0)[0] == pytest.approx(width)
     assert lb.files.read_blocks(tmp_path / "wall.obj", units="m").guesses == ()

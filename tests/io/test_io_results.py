@@ -192,7 +192,7 @@ def six(**changes):
 FAULTS = {
     "empty": (" ", ["is empty"]),
     "truncated": (json.dumps(DOCUMENT)[:300], ["line 1, column", "not JSON"]),
-    "NaN": (json.dumps(MINIMAL | {"load_factor": np.nan}), ["NaN"]),
+    "NaN": (json.dumps(MINIMAL | {"load_factor": np.nan}), ["load_factor: NaN is not a number"]),
     "infinity by size": (json.dumps(MINIMAL).replace('"load_factor": ', '"load_factor": 1e999, "x": '), []),
     "duplicate key": ('{"load_factor": 1, "load_factor": 2}', ["'load_factor' appears twice"]),
     "a list": ("[1, 2]", ["expected an object"]),
@@ -208,6 +208,17 @@ FAULTS = {
         MINIMAL | {"stress_resultants": [[0, 0, "N", 0, 0, 0]]},
         ["stress_resultants[0][2]: expected a number, not 'N'"],
     ),
+    "number in a row as text": (
+        MINIMAL | {"stress_resultants": [[0, 0, "1", 0, 0, True]]},
+        [
+            "stress_resultants[0][2]: expected a number, not '1'",
+            "stress_resultants[0][5]: expected a number, not True",
+        ],
+    ),
+    "multiplier as text": (
+        MINIMAL | {"flow_multipliers": ["0"]},
+        ["flow_multipliers[0]: expected a number, not '0'"],
+    ),
     "no rows": (MINIMAL | {"stress_resultants": 7}, ["stress_resultants: expected a list [...], not 7"]),
     "key": (
         MINIMAL | {"flow_multiplier": []},
@@ -218,6 +229,10 @@ FAULTS = {
     "kind": (MINIMAL | {"analysis": "modal"}, ["analysis: expected 'nonassociated'", "'modal'"]),
     "kind of kind": (MINIMAL | {"analysis": [1]}, ["analysis: expected 'nonassociated'"]),
     "stability": ({"analysis": "stability"}, ["no load factor", "result of bounds, nonassociated or path"]),
+    "stability without stresses": (
+        {"analysis": "stability", "kind": "stands", "margin": 0.1, "blocks": [], "residuals": {"yield": 0.0}},
+        ["whether the dead loads stand", "(stress_resultants is missing)"],
+    ),
     "bounds without a lower one": ({"analysis": "bounds", "upper": 1.0}, ["lower: is missing"]),
     "turning": (MINIMAL | {"turning": "table 5"}, ["turning: expected 'centroid' or 'centre of pressure'"]),
     "check": ({"analysis": "check"}, ["holds a check"]),
@@ -226,6 +241,7 @@ FAULTS = {
         {"analysis": "path", "collapse": MINIMAL | {"load_factor": "a"}},
         ["collapse.load_factor: expected a number"],
     ),
+    "report": (lb.report(MODEL).to_dict(), ["is a report, which nothing is read from; a result file"]),
     "another model": (MINIMAL | {"model_digest": "0" * 64}, ["belongs to model 000000000000, not to this"]),
     "unknown interface": (
         six(**{"ground|lefd": [0.0] * 6}),

@@ -114,7 +114,7 @@ def test_facade_resists_out_of_plane_more_than_a_free_wall():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"length": 6.5}, "length 6.5 m is not a multiple of 0.4"),
+        ({"length": 6.5}, "length 6.5 m is not a positive multiple of 0.4"),
         ({"length": 1.6}, "no room for corners"),
         ({"courses": 0}, "courses is 0"),
         ({"block_height": -0.4}, "block height is -0.4"),

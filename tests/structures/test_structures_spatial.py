@@ -143,7 +143,7 @@ def test_eccentric_lintel_is_governed_by_twist():
         ("portal", {"pier_blocks": 0}, "pier blocks is 0"),
         ("arch", {"piers": (0.3, 2)}, "at least the thickness"),
         ("arch", {"piers": (0.9, 0)}, "pier blocks is 0"),
-        ("corner", {"length": 2.5}, "length 2.5 m is not a multiple of 0.4"),
+        ("corner", {"length": 2.5}, "length 2.5 m is not a positive multiple of 0.4"),
         ("corner", {"return_length": 0.4}, "no room for the corner"),
         ("barrel_vault", {"stones": 0}, "stones is 0"),
         ("barrel_vault", {"embrace": 4.0}, "embrace is 4.0"),

@@ -11,12 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
+from limitblocks.geometry.cracks import open_sides, renumbered
 from limitblocks.io.colours import common, parts_of
 from limitblocks.io.imported import one_line, read_bytes, refuse_many
 from limitblocks.io.placed import Contents
-from limitblocks.io.shells import solids
+from limitblocks.io.shells import worded
 from limitblocks.io.solid import Solid
 
 _Section = tuple[str, str, str, tuple[str, ...]]  # name, layer, material and groups of what is drawn
@@ -27,7 +29,7 @@ _MOST_LINES, _LONGEST_LINE = 6_000_000, 1_000_000
 
 
 def contents(path: Path) -> Contents:
-    """Return the solids of an OBJ file; an object's layer is its group, else its material.
+    """Return the solids of an OBJ file; a layer is the group, else the material, of most faces of a solid.
 
     Raises
     ------
@@ -63,14 +65,37 @@ def contents(path: Path) -> Contents:
     refuse_many(faces=sum(map(len, drawn.values())))
     points = np.array(vertices).reshape(-1, 3)
     bodies: list[Solid] = []
-    for (name, layer, material, groups), faces in drawn.items():
+    for sections in _objects(drawn, points):
+        faces = [face for section in sections for face in drawn[section]]
+        owner = [k for k, section in enumerate(sections) for _ in drawn[section]]
         used = sorted({vertex for face in faces for vertex in face})
         place = {vertex: k for k, vertex in enumerate(used)}
         loops = [tuple(place[vertex] for vertex in face) for face in faces]
-        found = solids(name, layer, points[used], loops)
-        colour = _tint([tints.get(vertex) for vertex in used]) or colours.get(material or layer, "")
-        bodies += [solid._replace(material=material, groups=groups, colour=colour) for solid in found]
+        tint = _tint([tints.get(vertex) for vertex in used])
+        words = [
+            {
+                "layer": layer,
+                "material": material,
+                "groups": groups,
+                "colour": tint or colours.get(material or layer, ""),
+            }
+            for _, layer, material, groups in sections
+        ]
+        bodies += worded(sections[0][0], points[used], loops, owner, words)
     return Contents(bodies)
+
+
+def _objects(drawn: Mapping[_Section, Sequence[_Face]], points: Array) -> Iterator[list[_Section]]:
+    """Yield the sections of each object: together where one is open without the others, else one by one."""
+    named: dict[str, list[_Section]] = {}
+    for section in drawn:
+        named.setdefault(section[0], []).append(section)
+    same = np.unique(points, axis=0, return_inverse=True)[1].reshape(-1)
+    for sections in named.values():
+        alone = len(sections) == 1 or all(
+            not open_sides(renumbered(tuple(drawn[one]), same)).size for one in sections
+        )
+        yield from ([one] for one in sections) if alone else [sections]
 
 
 def _tint(rows: Sequence[tuple[float, ...] | None]) -> str:

@@ -68,7 +68,7 @@ def contents(path: Path) -> Contents:
     tints = _tints(vertices) if vertices.keys() >= _TINTS else None
     return Contents([
         Solid(path.stem, "", points[used], faces, colour="" if tints is None else common(tints[used]))
-        for used, faces in found
+        for used, faces, _ in found
     ])  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from limitblocks.arrays import Array, real, reals
 from limitblocks.errors import ModelError, few, near
 from limitblocks.geometry import Block
 
+_LARGEST = 1e30  # as in a model file: its powers are still numbers
 Vector = tuple[float, float, float]
 Place = tuple[float, float]
 
@@ -154,7 +155,7 @@ def _numbers(values: Sequence[float], word: str, count: int, said: str) -> list[
         array = reals(values)
     except (TypeError, ValueError):
         array = np.full(0, np.nan)
-    if array.shape != (count,) or not np.isfinite(array).all():
-        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers")
+    if array.shape != (count,) or not (np.abs(array) < _LARGEST).all():
+        raise ModelError(f"{word} is {values!r}, expected {said} finite numbers < {_LARGEST:g} in size")
     numbers: list[float] = array.tolist()
     return numbers

@@ -18,8 +18,9 @@ from limitblocks.io import strict_json
 from limitblocks.io.colours import of_linear
 from limitblocks.io.imported import foreign, one_line, read_bytes, refuse_many
 from limitblocks.io.placed import Contents
-from limitblocks.io.shells import solids
-from limitblocks.io.solid import Solid, placed
+from limitblocks.io.shells import worded
+from limitblocks.io.solid import Solid, placed, turned
+from limitblocks.shown import many
 
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
@@ -30,7 +31,7 @@ _HARMLESS = ("KHR_materials_", "KHR_texture_", "KHR_lights_", "EXT_texture_", "K
 
 
 def contents(path: Path) -> Contents:
-    """Return the solids of a glTF or GLB file; the layer of a node is its material.
+    """Return the solids of a glTF or GLB file; the layer of a solid is the material of most of its triangles.
 
     Raises
     ------
@@ -42,20 +43,23 @@ def contents(path: Path) -> Contents:
         document, binary = _parts(data)
         buffers = _buffers(document, binary, path)
         bodies: list[Solid] = []
+        notes: list[str] = []
         faces = corners = 0
-        for node, placement in _nodes(document):
-            if "mesh" in node:
-                _refuse_moved(node)
-                mesh = document["meshes"][node["mesh"]]
-                name = node.get("name") or mesh.get("name") or path.stem
-                points, triangles = _geometry(document, buffers, mesh)
-                refuse_many(len(bodies), faces := faces + len(triangles))
-                refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
-                points = placed(points, placement)
-                words = _words(document, node, mesh)
-                found = solids(str(name), words["layer"], points, triangles)
-                bodies += [solid._replace(**words) for solid in found]
-    return Contents(bodies, metres=1.0, up="y")
+        shown = [(node, placement) for node, placement in _nodes(document) if "mesh" in node]
+        for node, placement in shown:
+            mesh = document["meshes"][node["mesh"]]
+            _refuse_moved(node, mesh)
+            name = str(node.get("name") or mesh.get("name") or path.stem)
+            points, triangles, owner = _geometry(document, buffers, mesh)
+            if not triangles:
+                notes.append(f"left out: node {name!r} has no triangles")
+            refuse_many(len(bodies), faces := faces + len(triangles))
+            refuse_many(faces=(corners := corners + len(points)) // 3)  # of soup
+            words = [_words(document, node, one) for one in mesh["primitives"]]
+            bodies += worded(name, placed(points, placement), turned(triangles, placement), owner, words)
+        outside = sum("mesh" in node for node in document.get("nodes", [])) - len(shown)
+    hidden = [f"{many(outside, 'node')} outside the scene that is shown"] if outside else []
+    return Contents(bodies, 1.0, [*notes, *(f"left out: {one}" for one in hidden)], "y", left_out=hidden)
 
 
 def _parts(data: bytes) -> tuple[dict[str, Any], bytes]:
@@ -132,16 +136,24 @@ def _nodes(document: dict[str, Any]) -> Iterator[tuple[dict[str, Any], Array]]:
         waiting += [(child, placement) for child in reversed(nodes[k].get("children", []))]
 
 
-def _refuse_moved(node: dict[str, Any]) -> None:
+def _refuse_moved(node: dict[str, Any], mesh: dict[str, Any]) -> None:
     """Refuse a mesh whose places are not those of its vertices and nodes alone."""
-    if "skin" in node or "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
-        raise ModelError(f"node {node.get('name', '')!r} has a skin or instances; save it with them applied")
+    morphed = any(node.get("weights", mesh.get("weights", ())))
+    if morphed or "skin" in node or "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
+        what = "weights of morph targets" if morphed else "a skin or instances"
+        raise ModelError(f"node {node.get('name', '')!r} has {what}; save it with them applied")
 
 
 def _local(node: dict[str, Any]) -> Array:
     """Return the placement (4, 4) of a node in its parent."""
     if "matrix" in node:
-        return np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+        matrix = np.array(node["matrix"], dtype=np.float64).reshape(4, 4).T
+        if np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > 1e-6:
+            raise ModelError(
+                f"node {node.get('name', '')!r}: the last row of its matrix is {matrix[3].tolist()}; "
+                "expected 0, 0, 0, 1 (glTF writes a matrix column by column)"
+            )
+        return matrix
     placement = np.eye(4)
     turn = Rotation.from_quat(node.get("rotation", (0, 0, 0, 1))).as_matrix()
     placement[:3, :3] = turn * np.array(node.get("scale", (1, 1, 1)), dtype=np.float64)
@@ -151,10 +163,10 @@ def _local(node: dict[str, Any]) -> Array:
 
 def _geometry(
     document: dict[str, Any], buffers: list[bytes], mesh: dict[str, Any]
-) -> tuple[Array, list[list[int]]]:
-    """Return vertices (n, 3) and triangles of all primitives of a mesh."""
-    points, triangles = [np.zeros((0, 3))], []
-    for one in mesh["primitives"]:
+) -> tuple[Array, list[list[int]], list[int]]:
+    """Return vertices (n, 3) and triangles of all primitives of a mesh, and the primitive of each."""
+    points, triangles, owner = [np.zeros((0, 3))], list[list[int]](), list[int]()
+    for k, one in enumerate(mesh["primitives"]):
         mode = one.get("mode", _TRIANGLES)
         if "KHR_draco_mesh_compression" in one.get("extensions", {}):
             raise ModelError("its geometry is compressed (Draco); save it without compression")
@@ -169,7 +181,8 @@ def _geometry(
         if len(order) and not 0 <= order.min() <= order.max() < count:
             raise ModelError(f"a face names vertex {order.max()} of {count}")
         triangles += (_triangles(order.astype(np.int64).ravel(), mode) + base).tolist()
-    return np.concatenate(points), triangles
+        owner += [k] * (len(triangles) - len(owner))
+    return np.concatenate(points), triangles, owner
 
 
 def _triangles(order: npt.NDArray[np.int64], mode: int) -> npt.NDArray[np.int64]:
@@ -201,13 +214,12 @@ def _accessor(document: dict[str, Any], buffers: list[bytes], k: int, kind: str)
     return np.ndarray((count, columns), item, data, first, (stride, item.itemsize))
 
 
-def _words(document: dict[str, Any], node: dict[str, Any], mesh: dict[str, Any]) -> dict[str, Any]:
-    """Return layer, material, groups and colour of a node.
+def _words(document: dict[str, Any], node: dict[str, Any], primitive: dict[str, Any]) -> dict[str, Any]:
+    """Return layer, material, groups and colour of what a primitive of the mesh of a node draws.
 
-    Its material is its layer unless its extras, as this library writes them, name one.
+    Its material is its layer unless the extras of the node, as this library writes them, name one.
     """
-    first = next((one["material"] for one in mesh["primitives"] if "material" in one), None)
-    made = {} if first is None else document["materials"][first]
+    made = document["materials"][primitive["material"]] if "material" in primitive else {}
     material, extras = str(made.get("name", "")), node.get("extras")
     extras = extras if isinstance(extras, dict) else {}
     layer, colour, groups = (extras.get(key) for key in ("layer", "colour", "groups"))

@@ -1,0 +1,130 @@
+"""Meshes of several parts: materials of faces, nodes of glTF that mirror, are elsewhere or draw nothing."""
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+
+BOX = lb.Block.box("a", (1.0, 2.0, 3.0), (0.5, 1.0, 1.5))
+HOLLOW = lb.Block.box("h", (0.5, 0.5, 0.5), (0.5, 1.0, 1.5))
+#: From Z up to Y up, as glTF has it.
+Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+
+
+def gltf(path, primitives, node, **more):
+    """A file of one node whose mesh has primitives: corners (n, 3) of triangles, Z up, and a material."""
+    data, views, accessors, parts = b"", [], [], []
+    for k, (corners, material) in enumerate(primitives):
+        values = np.asarray(corners @ Y_UP.T, dtype="<f4")
+        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": values.nbytes})
+        accessors.append({"bufferView": k, "componentType": 5126, "count": len(values), "type": "VEC3"})
+        parts.append({"attributes": {"POSITION": k}, "material": material})
+        data += values.tobytes()
+    uri = f"data:application/octet-stream;base64,{base64.b64encode(data).decode()}"
+    document = {
+        "asset": {"version": "2.0"},
+        "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "one", "mesh": 0} | node],
+        "meshes": [{"primitives": parts}],
+        "materials": [{"name": "stone"}, {"name": "plaster"}],
+        "accessors": accessors,
+        "bufferViews": views,
+        "buffers": [{"uri": uri, "byteLength": len(data)}],
+    }
+    path.write_text(json.dumps(document | more))
+    return path
+
+
+def corners(block, faces=slice(None), inward=False):
+    triangles = block.triangles[faces]
+    return block.vertices[triangles[:, ::-1] if inward else triangles].reshape(-1, 3)
+
+
+def test_a_mirrored_node_keeps_its_cavity_and_needs_no_mending(tmp_path):
+    """A node of negative determinant turns its faces (glTF 2.0, 3.7.4), else the cavity were a block."""
+    drawn = [(corners(BOX), 0), (corners(HOLLOW, inward=True), 0)]
+    found = lb.files.read_blocks(gltf(tmp_path / "a.gltf", drawn, {"scale": [-2, 1, 1]}))
+    (block,) = found.blocks
+    assert block.volume == pytest.approx(2 * (6.0 - 0.125))
+    assert block.centroid == pytest.approx([-1.0, 1.0, 1.5])
+    assert found.notes == ()
+
+
+def test_each_solid_of_a_mesh_has_the_material_of_most_of_its_faces(tmp_path):
+    other = lb.Block.box("b", (1.0, 1.0, 1.0), (5.0, 0.0, 0.5))
+    face = slice(0, 2)
+    drawn = [(corners(BOX, face), 1), (corners(BOX, slice(2, None)), 0), (corners(other), 1)]
+    found = lb.files.read_blocks(
+        gltf(tmp_path / "a.gltf", drawn, {}), unit_weight={"stone": 2e4, "plaster": 1e4}
+    )
+    assert [(b.layer, b.weight) for b in found.blocks] == [
+        ("stone", pytest.approx(6 * 2e4)),
+        ("plaster", pytest.approx(1e4)),
+    ]
+
+
+def test_what_gltf_does_not_show_or_draw_is_named(tmp_path):
+    lines = {"primitives": [{"attributes": {"POSITION": 0}, "mode": 1}]}
+    path = gltf(tmp_path / "a.gltf", [(corners(BOX), 0)], {})
+    document = json.loads(path.read_text())
+    document["meshes"].append(lines)
+    document["nodes"] += [{"name": "wires", "mesh": 1}, {"name": "elsewhere", "mesh": 0}]
+    document["scenes"][0]["nodes"] = [0, 1]
+    path.write_text(json.dumps(document))
+    found = lb.files.read_blocks(path)
+    assert len(found.blocks) == 1
+    assert found.notes == (
+        "left out: node 'wires' has no triangles",
+        "left out: 1 node outside the scene that is shown",
+    )
+    assert found.left_out == ("1 node outside the scene that is shown",)
+
+
+@pytest.mark.parametrize(
+    ("node", "said"),
+    [
+        ({"weights": [0.0, 0.5]}, "node 'one' has weights of morph targets; save it with them applied"),
+        (
+            {"matrix": [1, 0, 0, 5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]},
+            "node 'one': the last row of its matrix is [5.0, 0.0, 0.0, 1.0]; expected 0, 0, 0, 1",
+        ),
+    ],
+)
+def test_nodes_that_move_vertices_otherwise_are_refused(tmp_path, node, said):
+    with pytest.raises(lb.ModelError) as error:
+        lb.files.read_blocks(gltf(tmp_path / "a.gltf", [(corners(BOX), 0)], node))
+    assert said in str(error.value)
+
+
+@pytest.mark.parametrize("word", ["usemtl", "g"])
+def test_an_obj_object_may_have_faces_of_several_materials_and_groups(tmp_path, word):
+    """As painted stones from Blender: the object is the block, its layer that of most faces."""
+    lines = [f"v {x} {y} {z}" for x, y, z in BOX.vertices.tolist()]
+    faces = ["f " + " ".join(str(v + 1) for v in face) for face in BOX.faces]
+    other = [f"v {x + 5} {y} {z}" for x, y, z in BOX.vertices.tolist()]
+    beside = ["f " + " ".join(str(v + 9) for v in face) for face in BOX.faces]
+    drawn = [f"{word} plaster", *faces[:2], f"{word} stone", *faces[2:], f"{word} brick", *beside]
+    path = tmp_path / "a.obj"
+    path.write_text("\n".join(["o one", *lines, *other, *drawn]))
+    found = lb.files.read_blocks(path)
+    assert [(b.name, b.layer, b.volume) for b in found.blocks] == [
+        ("one", "stone", pytest.approx(6.0)),
+        ("one 2", "brick", pytest.approx(6.0)),
+    ]
+
+
+def test_a_face_that_crosses_itself_is_told_as_such(tmp_path):
+    points = [(x, y, z) for y in (0.0, 1.0) for x, z in ((0, 0), (1, 1), (1, 0), (0, 1))]
+    faces = [(0, 1, 2, 3), (7, 6, 5, 4), *((k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4))]
+    lines = [f"v {x} {y} {z}" for x, y, z in points]
+    lines += ["f " + " ".join(str(v + 1) for v in face) for face in faces]
+    path = tmp_path / "bow.obj"
+    path.write_text("\n".join(lines))
+    with pytest.raises(lb.ModelError) as error:
+        lb.files.read_blocks(path)
+    assert "a face crosses itself, and has no area: (0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, 1)" in str(
+        error.value
+    )
