@@ -77,7 +77,8 @@ def _round(flow: Flow, x: Array, plane: Planar | None) -> Pair:
     """Bounds of the problem frozen at x, by one accurate solve or by one solver after the other."""
     whole = frozen(flow, x)
     at = whole if plane is None else frozen(replace(flow, problem=plane.problem), plane.stresses_of(x))
-    found = limit_state(Programs(Stresses(scaled(at), planar=True)), plane)
+    planar = plane is not None and plane.flat
+    found = limit_state(Programs(Stresses(scaled(at), planar)), plane)
     if found is not None and (pair := Pair(whole, *found)).residuals.worst.value <= OF_BOUNDS:
         return pair
     return next(pairs_of_bounds(whole, x, OF_BOUNDS))
