@@ -38,12 +38,13 @@ def plain_numbers(make: Callable[_P, Model]) -> Callable[_P, Model]:
 
     Rounded to single precision, the same number would leave gaps between the blocks.
     """
-    parameters = inspect.signature(make).parameters
+    signature = inspect.signature(make)
+    parameters = signature.parameters
     kinds = {name: one.annotation.removesuffix(" | None") for name, one in parameters.items()}
 
     @wraps(make)
     def made(*args: _P.args, **kwargs: _P.kwargs) -> Model:
-        given = inspect.signature(make).bind(*args, **kwargs)
+        given = signature.bind(*args, **kwargs)
         asked = {
             name: value
             for name, value in given.arguments.items()

@@ -245,6 +245,5 @@ def test_the_user_may_stop_it(monkeypatch):
     found = lb.nonassociated(large(monkeypatch), progress=stop, throw=False)
     assert found.status is lb.results.Status.INTERRUPTED
     assert found.how == "path in displacements, rounded corners of yield, interrupted"
-    assert (
-        found.residuals["equilibrium"] <= displacement_path.CLOSE**2
-    )  # Newton's method: what is left is squared
+    # what a step of Newton's method leaves is squared
+    assert found.residuals["equilibrium"] <= displacement_path.CLOSE**2
