@@ -1,4 +1,4 @@
-"""The program of the load factor in one form: compiled by cvxpy, solved by Clarabel itself."""
+"""The programs of one form: compiled by cvxpy, solved by Clarabel itself."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from scipy import sparse
 
 from limitblocks.analysis.conic import Conic, compiled
 from limitblocks.analysis.forms import Rates, Stresses
-from limitblocks.analysis.programs import Solver
+from limitblocks.analysis.programs import Program, Solver
 from limitblocks.arrays import Array
 from limitblocks.problem import State
 
@@ -30,11 +30,11 @@ class Programs:
 
     def limit_state(self, solver: Solver) -> State:
         """The state of the largest load factor, NaN where there is none."""
-        return self.form.limit_state(*self._solved(solver))
+        return self.form.limit_state(*self.solved(self.form.limit(), solver))
 
-    def _solved(self, solver: Solver) -> tuple[Array, Array]:
-        """Variables and duals, NaN where there is no solution."""
-        program = compiled(self.form.limit().problem)
+    def solved(self, one: Program, solver: Solver) -> tuple[Array, Array]:
+        """Variables and duals of a program of the form, NaN where there is no solution."""
+        program = compiled(one.problem)
         try:
             found = solution(program, {**self.form.equations, **solver.settings, **FIXED})
         except (ValueError, ArithmeticError) as error:

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from limitblocks.analysis.direct import Programs
+from limitblocks.analysis.forms import Stresses
 from limitblocks.analysis.in_plane import in_plane
+from limitblocks.analysis.programs import DIRECT
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, read_only
 from limitblocks.known import known
 from limitblocks.problem import LimitProblem
+
+ROUGH = DIRECT.having({"tol_gap_abs": 1e-4, "tol_gap_rel": 1e-4, "tol_feas": 1e-4})
 
 
 def carried(problem: LimitProblem, splitting: Splitting | None = None) -> Array | None:
@@ -28,10 +33,24 @@ def carried(problem: LimitProblem, splitting: Splitting | None = None) -> Array 
 def _carried(problem: LimitProblem, splitting: Splitting | None) -> Array | None:
     plane = in_plane(problem)  # strictly within its rows is strictly within those that they imply
     splitting = splitting or Splitting(scaled(problem if plane is None else plane.problem))
-    x, p = splitting.stresses(), splitting.p
-    if x is None:
-        return None
-    x = p.stress * x if plane is None else np.asarray(plane.stresses @ (p.stress * x))
-    with np.errstate(over="ignore", invalid="ignore"):  # friction 1e-300: nothing is within
-        inside = problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0
-    return read_only(x) if inside else None
+    for found in (splitting.stresses, lambda: farthest_within(splitting)):
+        x, p = found(), splitting.p
+        if x is None:
+            continue
+        x = p.stress * x if plane is None else np.asarray(plane.stresses @ (p.stress * x))
+        with np.errstate(over="ignore", invalid="ignore"):  # friction 1e-300: nothing is within
+            if problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0:
+                return read_only(x)
+    return None
+
+
+def farthest_within(splitting: Splitting) -> Array | None:
+    """Return stresses about as far within yield as there are under the dead loads, (s,); None if none.
+
+    By one program to 1e-4, in equilibrium to rounding: of walls that are not bonded at their corners those of
+    the splitting come near to 1e-2 of it in thousands of rounds.
+    """
+    form = Stresses(splitting.p)
+    v, _ = Programs(form).solved(form.within(), ROUGH)
+    found = np.isfinite(v).all()
+    return splitting.projection.onto(splitting.p.dead, v[1:]) if found else None

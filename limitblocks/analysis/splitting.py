@@ -22,6 +22,7 @@ from limitblocks.analysis.scales import Projection, Scaled, compatible
 from limitblocks.arrays import Array
 
 ROUNDS = 200
+FEW = 60  # for stresses: those that take more have little room, and one program finds more
 ROOM = 0.1  # that stresses are asked for at first, in the units of the rows
 LESS = 0.9  # times the room each round: there may be little
 SHARE = 0.5  # of the room asked for that is enough
@@ -48,7 +49,7 @@ class Splitting:
         """Return stresses strictly within yield under the dead loads, (s,); None where none were found."""
         p = self.p
         rows = self._within(
-            lambda rows: p.F @ self._nearest(rows - p.g, p.dead)[0] + p.g, ROOM * p.cones.identity, LESS
+            lambda rows: p.F @ self._nearest(rows - p.g, p.dead)[0] + p.g, ROOM * p.cones.identity, FEW, LESS
         )
         return None if rows is None else self._nearest(rows - p.g, p.dead)[0]
 
@@ -61,7 +62,7 @@ class Splitting:
             x, u = self._nearest(rows, nothing)
             return np.asarray(rows - F @ x)
 
-        y = self._within(following, amount)
+        y = self._within(following, amount, ROUNDS)
         return None if y is None else (u, y)
 
     def following(self, u: Array, y: Array) -> Array:
@@ -77,10 +78,12 @@ class Splitting:
         """The stresses whose rows F x are nearest to given ones, shape (s, R)."""
         return sparse.csr_array(self.projection.weights @ self.p.F.T)
 
-    def _within(self, onto: Callable[[Array], Array], room: Array, less: float = 1.0) -> Array | None:
+    def _within(
+        self, onto: Callable[[Array], Array], room: Array, rounds: int, less: float = 1.0
+    ) -> Array | None:
         """Point of a space, projected `onto`, in K with a share of the `room` (R,), `less` each round."""
         cones, z = self.p.cones, room
-        for _ in range(ROUNDS):
+        for _ in range(rounds):
             inner = room + cones.nearest(z - room)
             found = onto(2.0 * inner - z)
             if (cones.margin(found) > SHARE * room[cones.heads]).all():

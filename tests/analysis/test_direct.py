@@ -99,11 +99,17 @@ def test_a_tower_is_proven_with_rates_near_one_and_not_as_it_is(monkeypatch):
     assert bounds._directly(not_bonded_through().problem, 1e-6, lambda _: None) is None
 
 
+def four_walls():
+    """A tower that splits into four walls, as the corner stones of two sides end where they meet."""
+    return structures.tower(lb.OrdunaLourenco(0.7), length=2.8, width=3.6, courses=10)
+
+
 @pytest.mark.parametrize("first", [1, 2])
-def test_what_rates_leave_open_is_proven_in_stresses(first, monkeypatch):
+@pytest.mark.parametrize("structure", [plain_facade, four_walls])
+def test_what_the_first_program_leaves_open_is_proven_by_the_second(structure, first, monkeypatch):
     bounds = import_module("limitblocks.analysis.bounds")
     monkeypatch.setattr(bounds, "programs_of", lambda problem: programs_of(problem)[:first])
-    found = bounds._directly(plain_facade().problem, 1e-6, lambda _: None)
+    found = bounds._directly(structure().problem, 1e-6, lambda _: None)
     assert (found is None) == (first == 1)
     assert found is None or found[2].width < 1e-6
 

@@ -7,6 +7,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis import splitting
 from limitblocks.analysis.conic import compiled
 from limitblocks.analysis.direct import FIXED, Programs, solution
 from limitblocks.analysis.forms import Rates, Stresses, form_of, without_multipliers
@@ -15,6 +16,7 @@ from limitblocks.analysis.interior import carried
 from limitblocks.analysis.programs import DIRECT, PLANAR
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
+from limitblocks.analysis.stability import _margin, standing_margin
 from limitblocks.evidence.residuals import Residuals, static_residuals
 
 
@@ -105,6 +107,23 @@ def test_stresses_strictly_within_yield_carry_the_dead_loads(joint):
     x = carried(problem)
     assert Residuals(static_residuals(problem, 0.0, x)).worst.value < 1e-12
     assert problem.cones.margin(problem.F @ x + problem.g).min() > 1e-3
+
+
+def test_most_of_the_room_that_there_is_is_found(monkeypatch):
+    """The splitting ends with a tenth of it or less in a tower of four walls that lean on each other."""
+    model = structures.tower(lb.OrdunaLourenco(0.7), length=2.0, width=2.8, courses=10)
+    p, most = model.problem, standing_margin(model)
+    assert _margin(p, carried(p)) > 0.3 * most
+    monkeypatch.setattr(splitting, "FEW", 1000)
+    found = scaled(p).stress * Splitting(scaled(p)).stresses()
+    assert 0.0 < _margin(p, found) < 0.1 * most
+
+
+def test_next_to_no_room_is_found_by_one_program():
+    sizes = {"count": 3, "length": 1.0, "height": 0.3, "fraction": 1.0 - 1e-8}
+    problem = structures.overhang(lb.PointContact(0.6), **sizes).problem
+    assert Splitting(scaled(problem)).stresses() is None
+    assert problem.cones.margin(problem.F @ carried(problem) + problem.g).min() > 0.0
 
 
 @pytest.mark.parametrize("joint", [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)])

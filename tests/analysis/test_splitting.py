@@ -52,7 +52,7 @@ def test_a_mechanism_opens_every_joint_in_proportion(joint):
 
 
 def test_little_room_is_found_by_asking_for_less_and_less(monkeypatch):
-    p = stack(1.0 - 1e-4)
+    p = stack(1.0 - 1e-3)
     x = Splitting(p).stresses()
     assert p.cones.margin(p.F @ x + p.g).min() > 0.0
     monkeypatch.setattr(splitting, "LESS", 1.0)
