@@ -211,7 +211,8 @@ def _compliance(
     """Dimensionless compliance of each generalised stress."""
     if stiffness is None:
         free = model.free_blocks
-        unit = np.mean([b.weight for b in free]) / np.mean([np.cbrt(b.volume) for b in free]) ** 3
+        weight = np.mean([b.weight for b in free]) or np.mean(model.problem.units.block_force)
+        unit = weight / np.mean([np.cbrt(b.volume) for b in free]) ** 3
         stiffness = (float(unit), float(unit))
     table = (
         stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}

@@ -80,8 +80,18 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
 def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flow, Bracket]:
     """Return the flow rule of a model in its own units, and what encloses every solution."""
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    _refuse_no_measure(model.problem)
     enclosing = bracket(model)
     return Flow(own_units(model, enclosing), slope, about), enclosing
+
+
+def _refuse_no_measure(problem: LimitProblem) -> None:
+    """Raise ModelError where nothing but friction resists: with one load factor its multiples solve, too."""
+    if not problem.dead.any() and not problem.g.any():
+        raise ModelError(
+            "no dead load acts on a free block, and no joint has a strength of its own: nothing measures the "
+            "load factor, which is 0 or without limit; give unit weights or other dead loads"
+        )
 
 
 def solving_state(
