@@ -20,7 +20,7 @@ def weightless(joint):
 @pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)])
 def test_that_friction_alone_holds_no_weightless_structure_is_said(analysis, joint):
-    with pytest.raises(lb.errors.ModelError, match="no dead load .* give unit weights"):
+    with pytest.raises(lb.errors.ModelError, match=r"no dead load .* give unit weights"):
         analysis(weightless(joint))
 
 

@@ -168,6 +168,7 @@ def test_large_numbers_are_never_rounded_up(capsys):
         (0.4999999999999, "0.5000000", "0.5000000"),  # rounding of a computer is none of the bound
         (12.34567891, "12.34567", "12.34568"),
         (-0.47788986, "-0.4778899", "-0.4778898"),
+        (1234567.8, "1234567", "1234568"),  # no point without a digit behind it
     ],
 )
 def test_bounds_in_tables_are_rounded_away_from_the_load_factor(bound, least, most):

@@ -15,11 +15,13 @@ from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
+    Bracket,
     Start,
     flow_of,
     load_scale,
     refuse_jammed,
     refuse_unlimited,
+    solving_state,
     start_stresses,
 )
 from limitblocks.analysis.one_thread import one_thread
@@ -44,6 +46,7 @@ PASSED_OVER = (
     "follow it"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
+AT_ONCE = "the bounds: any live load moves the structure"
 
 Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
@@ -122,7 +125,8 @@ def load_path(
         return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
-    found = planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+    found = _at_once(model, flow, enclosing, weights, tolerance) if start is None else None
+    found = found or (planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance))
     found = found or load(flow, start_stresses(model, problem, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
@@ -133,6 +137,8 @@ def load_path(
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
+    if found.how == AT_ONCE:
+        return LoadPath(steps, collapse, folds, trace, collapse.load_factor, remarks)
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
     except KeyboardInterrupt:  # the load path is complete
@@ -193,6 +199,17 @@ def _loaded(
             raise
         pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
     return _Loaded(x0, pushes, last, how, why)
+
+
+def _at_once(
+    model: Model, flow: Flow, enclosing: Bracket, weights: Array, tolerance: float
+) -> _Loaded | None:
+    """The mechanism of the bounds, without increments, where any live load moves the structure."""
+    last = solving_state(model, flow, enclosing, None, tolerance) if enclosing.nothing else None
+    if last is None:
+        return None
+    x0 = start_stresses(model, flow.problem, weights, None)
+    return _Loaded(x0, (), last, AT_ONCE, "")
 
 
 def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
