@@ -118,3 +118,19 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
     model = model_of(stones, ["base"], lb.PointContact(0.1))
     curve = capacity_curve(model, steps=2)
     assert (curve.zero, curve.ended) == (None, "4 points do not lead to an end")
+
+
+def test_a_pier_that_rocks_back_stays_on_its_corner():
+    """It turned about the inner edge of the strip left of its joint: steps were cut to 1.5e-4 m from .717 m on.
+
+    Its corner, said to open, went into the base by the second order of each step.
+    """
+    told = []
+
+    def count(point):
+        told.append(point)
+        assert len(told) < 15
+
+    portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=2.0, pier_width=0.6, pier_blocks=2)
+    curve = capacity_curve(portal, largest=0.8, progress=count)
+    assert curve.ended == "the displacement 0.8 m is reached"
