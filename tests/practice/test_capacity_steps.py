@@ -121,7 +121,7 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
 
 
 def test_a_pier_that_rocks_back_stays_on_its_corner():
-    """It turned about the inner edge of the strip left of its joint: steps were cut to 1.5e-4 m from .717 m on.
+    """It turned about the inner edge of the strip left of its joint: steps were cut to 1.5e-4 m at .717 m.
 
     Its corner, said to open, went into the base by the second order of each step.
     """
