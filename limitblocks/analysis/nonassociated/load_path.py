@@ -126,7 +126,8 @@ def load_path(
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
     found = _at_once(model, flow, enclosing, weights, tolerance) if start is None else None
-    found = found or (planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance))
+    if found is None and planar:
+        found = _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
     found = found or load(flow, start_stresses(model, problem, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)

@@ -12,10 +12,11 @@ from limitblocks.analysis.nonassociated.path_equations import (
     moved,
     residuals,
 )
-from limitblocks.analysis.nonassociated.path_layout import Factors, Layout
+from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
+from limitblocks.evidence.elimination import Factors
 from limitblocks.problem import Flow
 from limitblocks.problem.barrier import quotient
 
