@@ -74,7 +74,7 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
             return layout.factors(stiffness + held * np.eye(stiffness.shape[2]))
         except RuntimeError:  # SuperLU: singular
             continue
-    raise SolveError("the live load moves blocks that no joint holds: no path leads from a load factor of 0")
+    raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
 
 def centred(path: Path) -> tuple[Point | None, int]:
