@@ -11,7 +11,7 @@ from limitblocks.arrays import read_only
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
 from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.displaced import CLOSED, assembly_of, moved
-from limitblocks.practice.snapped import TIGHT, falls, snapped, steepest
+from limitblocks.practice.snapped import TIGHT, NoRest, falls, snapped, steepest
 from limitblocks.practice.touching import pressed_in
 
 JOINT = lb.PointContact(0.6)
@@ -134,3 +134,16 @@ def test_a_pier_that_rocks_back_stays_on_its_corner():
     portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=2.0, pier_width=0.6, pier_blocks=2)
     curve = capacity_curve(portal, largest=0.8, progress=count)
     assert curve.ended == "the displacement 0.8 m is reached"
+
+
+def test_a_snap_without_rest_is_looked_for_once(monkeypatch):
+    """It begins within the accuracy of where the step does: each shorter step took as long to the same end."""
+    asked = []
+
+    def lost(_assembly, _control, _rates, step, accuracy):
+        asked.append(step > accuracy)
+        raise NoRest("nowhere")
+
+    monkeypatch.setattr(capacity, "held", lost)
+    curve = capacity_curve(lb.structures.block(JOINT, width=0.2, height=1.0))
+    assert (curve.ended, asked) == ("no checked answer beyond 0 m: nowhere", [True])
