@@ -137,7 +137,7 @@ def test_a_pier_that_rocks_back_stays_on_its_corner():
 
 
 def test_a_snap_without_rest_is_looked_for_once(monkeypatch):
-    """It begins within the accuracy of where the step does: each shorter step took as long to the same end."""
+    """It begins where the step does, within the accuracy: each shorter step took as long to the same end."""
     asked = []
 
     def lost(_assembly, _control, _rates, step, accuracy):
