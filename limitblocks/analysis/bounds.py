@@ -30,6 +30,7 @@ from limitblocks.arrays import Array, read_only
 from limitblocks.errors import SolverFailure
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.crushing import beyond_stress_block
+from limitblocks.evidence.measure import without_rounding
 from limitblocks.evidence.proof import Proof
 from limitblocks.evidence.residuals import OF_BOUNDS, Residual, Residuals, bounds_residuals, nearest
 from limitblocks.known import known
@@ -99,8 +100,9 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
     # a live load that holds up what would fall gives a load factor, too
     problem = model.problem
     dead, pair, proof = _directly(problem, tolerance, tell) or _with_care(problem, tolerance, tell)
-    si = problem.in_si(pair.state)
-    upper = proof.upper if proof.complete else pair.upper / problem.units.live
+    si = problem.in_si(without_rounding(problem, pair.state))
+    kinematic = without_rounding(problem, replace(pair.state, load_factor=pair.upper)).load_factor
+    upper = proof.upper if proof.complete else kinematic / problem.units.live
     resultants = resultants_of(problem, pair.state.x)
     return Bounds(
         lower=si.load_factor,

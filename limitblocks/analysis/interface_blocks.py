@@ -25,9 +25,12 @@ class InterfaceBlocks:
         self.padding = np.eye(size) * (table == n)[:, :, None]
 
     def inverse(self, matrix: Any) -> sparse.csr_array:
-        """Return the inverse of a sparse matrix of this pattern; LinAlgError if a block is singular."""
+        """Return the inverse of a sparse symmetric matrix of this pattern, the pseudoinverse if singular."""
         entries, blocks = matrix.tocoo(), self.padding.copy()
         rows, columns = entries.coords
         blocks[self.interface[rows], self.place[rows], self.place[columns]] += entries.data
-        inverse = np.linalg.inv(blocks)[self.inside]
-        return sparse.coo_array((inverse, self.entries), shape=matrix.shape).tocsr()
+        try:
+            inverse = np.linalg.inv(blocks)
+        except np.linalg.LinAlgError:  # a joint is 1e10 times as strong as its loads
+            inverse = np.linalg.pinv(blocks, hermitian=True)
+        return sparse.coo_array((inverse[self.inside], self.entries), shape=matrix.shape).tocsr()

@@ -40,6 +40,7 @@ HIGHS = {
 }
 
 ROUNDS = 4  # of changing the units; each finds some eight digits more of what is light
+LEAST = 2.0**-200  # times the unit of force of a block: the least other one, whose square is a number
 COARSER = 4.0  # times what acts on a block: a unit off by more is changed, and the programs solved again
 
 
@@ -194,7 +195,7 @@ def _number(value: Array | None, shape: tuple[int, ...]) -> Array:
 
 def remeasured(problem: LimitProblem, state: State) -> LimitProblem | None:
     """The problem in units of what acts on its blocks in `state`; None where its units are so already."""
-    acting = np.maximum(Measure(problem, state).block, np.finfo(float).tiny)
+    acting = np.maximum(Measure(problem, state).block, LEAST)
     if acting.max() <= COARSER**2 and acting.min() >= 1 / COARSER:
         return None
     return problem.measured(acting * problem.units.block_force)

@@ -114,7 +114,7 @@ def _refuse_files(file: Path, kept: Kept, animation: Path | None) -> None:
         from limitblocks.reports.files import suffix
 
         suffix(kept.filed)
-        refuse_existing(kept.filed, kept.force, file, option="--report")
+        refuse_existing(kept.filed, kept.force, file, kept.output, option="--report")
     if animation:
         from limitblocks.io.formats.gltf.writer import animation_path
 

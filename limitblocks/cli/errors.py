@@ -9,6 +9,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 import typer
@@ -96,18 +97,25 @@ def exit_code(error: LimitBlocksError) -> int:
     return 3 if isinstance(error, SolveError) else 2
 
 
-def refuse_existing(file: Path | None, force: bool, *read: Path, option: str = "--output") -> None:
-    """Refuse a file that could not be written before the analysis; `read` are the files the command reads."""
+def refuse_existing(file: Path | None, force: bool, *others: Path | None, option: str = "--output") -> None:
+    """Refuse a file that could not be written before the analysis.
+
+    `others` are what the command reads, and what else it writes.
+    """
     if file is None:
         return
-    if any(file.resolve() == other.resolve() for other in read):
-        raise LimitBlocksError(f"{file} is what the command reads; name another file with {option}")
+    if any(file.resolve() == other.resolve() for other in others if other):
+        raise LimitBlocksError(f"{file} is what the command reads or writes, too; name another with {option}")
     if not os.path.isdir(file.parent):
         raise LimitBlocksError(f"{option} {file}: there is no folder {file.parent}; make it first")
     if os.path.isdir(file):
         raise LimitBlocksError(f"{option} {file} is a folder; name a file")
     device = os.path.exists(file) and not os.path.isfile(file)
-    if not device and not os.access(file.parent, os.W_OK | os.X_OK):
-        raise LimitBlocksError(f"{option} {file}: the folder {file.parent} may not be written to")
+    try:
+        if not device:
+            TemporaryFile(dir=file.parent).close()  # what may be written the system knows only as it is done
+    except OSError as error:
+        why = f"the folder {file.parent} may not be written to: {error.strerror}"
+        raise LimitBlocksError(f"{option} {file}: {why}") from None
     if not force and os.path.exists(file):
         raise LimitBlocksError(f"{file} exists; name another file with {option} or replace it with --force")

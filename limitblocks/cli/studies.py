@@ -93,7 +93,7 @@ def _answer(study: Callable[..., Study], model: Path, asked: Asked, *what: Any) 
     if asked.dilatancy and not asked.nonassociated:
         raise LimitBlocksError("--dilatancy needs --nonassociated")
     refuse_existing(asked.csv, asked.force, model, option="--csv")
-    refuse_existing(asked.output, asked.force, model)
+    refuse_existing(asked.output, asked.force, model, asked.csv)
     settings: Any = {} if asked.tolerance is None else {"tolerance": asked.tolerance}
     settings |= {"analysis": "nonassociated", "dilatancy": asked.dilatancy} if asked.nonassociated else {}
     with of_a_count("study") as show:

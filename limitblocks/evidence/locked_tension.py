@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import numpy as np
 
 from limitblocks.errors import few
@@ -32,7 +34,8 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     locked = tied & (N > CARRIED) & (across > least) & (np.abs(dq[:, 2]) <= MOVING * across)
     if not locked.any():
         return ()
-    names = [problem.interfaces[k] for k in np.flatnonzero(locked)]
+    counts = Counter(problem.interfaces[k] for k in np.flatnonzero(locked))
+    names = [name if count == 1 else f"{count} × {name}" for name, count in counts.items()]
     most = float((N * problem.units.interface_force)[locked].max())
     return (
         f"a force of up to {most:.4g} N is locked in {few(names, 3)}, whose ends move across it alone: it "

@@ -9,7 +9,7 @@ worth in the load factor. Nor may a drift that costs nothing make that power lar
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -96,3 +96,9 @@ class Measure:
     def load_factor(self) -> float:
         """Size of the load factor, or rounding errors of the power of all forces where it is less."""
         return max(abs(self.state.load_factor), ROUNDING * self.everything)
+
+
+def without_rounding(problem: LimitProblem, state: State) -> State:
+    """Return the state, its load factor zero where rounding of the power of all forces is as large."""
+    rounding = np.finfo(float).eps * Measure(problem, state).everything
+    return replace(state, load_factor=0.0) if abs(state.load_factor) <= rounding else state

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeVar
+from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 # far beyond any structure, and its powers are still finite
 Number = Annotated[float, Field(gt=-1e30, lt=1e30)]
@@ -13,6 +14,15 @@ Place = tuple[Number, Number]
 T = TypeVar("T")
 #: A list of which the first fault is told; a file of a million zeros would take gigabytes of them otherwise.
 Many = Annotated[list[T], Field(fail_fast=True)]
+
+
+def _no_truth(version: Any) -> Any:
+    if isinstance(version, bool):  # True equals 1
+        raise PydanticCustomError("literal_error", "Input should be 1")
+    return version
+
+
+Version = Annotated[Literal[1], BeforeValidator(_no_truth)]
 _ONE_FORM = {"oneOf": [{"required": ["vertices", "faces"]}, {"required": ["box"]}, {"required": ["prism"]}]}
 
 
@@ -60,7 +70,7 @@ class BlockDocument(Document):
     layer: str = ""
     """Layer or group that it is on."""
     material: str = ""
-    """What it is made of; a name in `materials` where the file has them."""
+    """What it is made of, a word; it picks the one of `materials` of this name that lists no `blocks`."""
     groups: Many[str] = []
     """Groups that it belongs to."""
     colour: Annotated[str, Field(pattern=r"^(#[0-9a-fA-F]{6})?$")] = ""

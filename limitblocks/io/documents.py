@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Union, get_type_hints
 
 from pydantic import ConfigDict, Discriminator, Field, Tag, create_model
 
-from limitblocks.io.block_documents import BlockDocument, Document, Many, Number, Place, Vector
+from limitblocks.io.block_documents import BlockDocument, Document, Many, Number, Place, Vector, Version
 from limitblocks.io.registry import JOINTS, TERMS
 from limitblocks.io.units import Force, Length
 
@@ -105,7 +105,7 @@ class MaterialDocument(Document):
     """What blocks are made of."""
 
     blocks: Many[str] = []
-    """Names, patterns, "layer:PATTERN"; left out, blocks whose layer or material has this name."""
+    """Its blocks: names, patterns, "layer:PATTERN"; left out, those whose layer or material has its name."""
     unit_weight: Annotated[float, Field(ge=0.0, lt=1e30)] | None = None
     """Weight per volume, N/m3; left out for blocks that have one, and for supports."""
     joint: JointDocument | None = None
@@ -157,7 +157,7 @@ class ModelDocument(Document):
 
     editor_schema: Annotated[str | None, Field(alias="$schema")] = None
     """Where an editor finds the JSON Schema of this file; not used."""
-    schema_version: Literal[1]
+    schema_version: Version
     """Version of this file format."""
     name: str = ""
     """Title in reports."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from limitblocks.io.block_documents import Document, Many, Number
+from limitblocks.io.block_documents import Document, Many, Number, Version
 from limitblocks.problem import ASSOCIATED, Turning
 
 Six = tuple[Number, Number, Number, Number, Number, Number]
@@ -24,7 +24,7 @@ Rows = Annotated[
 class StateDocument(Document):
     """A state with what the analysis said of it. SI units: m, rad, N."""
 
-    schema_version: Literal[1] = 1
+    schema_version: Version = 1
     """Version of this file format."""
     model_digest: str = ""
     """SHA-256 of the model."""
@@ -100,7 +100,7 @@ class BoundsDocument(StateDocument):
 class PathDocument(Document):
     """A load path; its collapse is the claimed solution."""
 
-    schema_version: Literal[1] = 1
+    schema_version: Version = 1
     analysis: Literal["path"]
     steps: Any = None
     snaps: Any = None

@@ -149,6 +149,8 @@ def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list
     bodies = [points[np.unique(np.concatenate(shell))] for shell in shells]
     low, high = bounds_of(bodies)
     volumes = np.array([_flux(points, shell) for shell in shells])
+    if len(groups) == 2 and volumes.sum() < 0.0:  # a hollow block inside out, which is turned later
+        volumes = -volumes
     whole = {int(k): list(groups[k]) for k in np.flatnonzero(volumes >= 0.0)}
     for k in np.flatnonzero(volumes < 0.0).tolist():
         around = (volumes > -volumes[k]) & (low < low[k]).all(axis=1) & (high > high[k]).all(axis=1)

@@ -171,7 +171,10 @@ def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]
             for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
         ]
         relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
-        closed = (own.ways[:, 2] <= 10.0 * CLOSED * assembly.size) & (relative[:, 2] <= least)
+        shut = own.ways[:, 2] <= 10.0 * CLOSED * assembly.size
+        # a strip along closed corners turns about its other edge: what is pressed there opens nowhere
+        slowest = relative[shut, 2].min(initial=np.inf) if own.pressed else 0.0
+        closed = shut & (relative[:, 2] <= max(slowest, 0.0) + least)
         held.append(closed & own.rigid)
         sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
     return held, sliding

@@ -26,7 +26,7 @@ from limitblocks.practice.answered import answered
 from limitblocks.practice.capacity_result import CapacityCurve, CapacityPoint, Control, to_zero, zero_of
 from limitblocks.practice.displaced import CLOSED, Assembly
 from limitblocks.practice.kept import gathered
-from limitblocks.practice.snapped import held
+from limitblocks.practice.snapped import NoRest, held
 from limitblocks.practice.touching import pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
@@ -143,8 +143,9 @@ def _ahead(
         try:
             found = _advanced(assembly, control, point, step)
         except SolveError as error:
+            lost = isinstance(error, NoRest) and step > EVENT * assembly.size  # shorter ones do, too
             step *= SHORT if step == ahead else 0.5
-            if step < least:
+            if step < least or lost:
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:

@@ -21,6 +21,10 @@ FALLS = 1e-6  # power of the dead loads over that of all of them through the lar
 TIGHT = PRECISE | {"presolve": False}
 
 
+class NoRest(SolveError):
+    """Where a structure that snaps comes to rest was not found: a shorter step finds no more."""
+
+
 def held(assembly: Assembly, control: Control, rates: Array, step: float, accuracy: float) -> Advanced | None:
     """Return the structure one step on (m, of the control point), or as far as a load factor holds it.
 
@@ -68,7 +72,7 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
 
     Raises
     ------
-    SolveError
+    NoRest
         If it does not come to rest.
     """
     changes: tuple[str, ...] = ()
@@ -80,7 +84,7 @@ def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:
         if found is None:
             break
         assembly, changes = found[0], changes + found[1]
-    raise SolveError("the structure snaps, and where it comes to rest was not found")
+    raise NoRest("the structure snaps, and where it comes to rest was not found")
 
 
 def steepest(assembly: Assembly) -> tuple[Array, float]:

@@ -220,9 +220,14 @@ class Place:
 
 
 def ground_acceleration(ground: Spectrum, demand: Callable[[Spectrum], float], capacity: float) -> float:
-    """Return the a_g of a spectrum at which a demand, which grows with it, is the capacity; m/s2."""
+    """Return the a_g of a spectrum at which a demand, which grows with it, is the capacity; m/s2.
+
+    Zero where it is less than a millionth of that of the site.
+    """
 
     def excess(a_g: float) -> float:
         return demand(replace(ground, a_g=a_g)) - capacity
 
+    if excess(ground.a_g / WIDEST) >= 0.0:
+        return 0.0
     return float(brentq(excess, ground.a_g / WIDEST, ground.a_g * WIDEST, rtol=1e-13))

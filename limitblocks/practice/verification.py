@@ -218,6 +218,8 @@ def _per_control(model: Model, rates: Array, curve: CapacityCurve, masses: tuple
     if curve.zero is None:
         raise ModelError(f"the capacity curve does not end at zero: {curve.ended}")
     refuse_other(model, curve)
+    if curve.zero == 0.0:
+        raise ModelError("the capacity curve is zero from the first: the live load meets no resistance")
     if not isclose(curve.zero, zero := zero_of(curve.points)):
         raise ModelError(
             f"the capacity curve says that it is zero at {curve.zero:g} m; by its last points, at {zero:g} m"

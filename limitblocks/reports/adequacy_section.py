@@ -6,7 +6,7 @@ from limitblocks.model import Model
 from limitblocks.practice import Adequacy
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import at_least, at_most, rounded_down, with_unit
+from limitblocks.reports.words import at_least, at_most, figures, rounded_down, with_unit
 
 FACTORED = (
     "Load factor of the structure with design values: gamma_G multiplies the dead loads, gamma_Q the live "
@@ -21,7 +21,7 @@ FACTORED = (
 def adequacy_section(_model: Model, found: Adequacy) -> Section:
     """Return the section of a load factor with partial factors."""
     end = found.result or found.bounds
-    real = [("Without dilatancy", f"{found.factor:#.7g}", "of the design model")] if found.result else []
+    real = [("Without dilatancy", figures(found.factor, 7), "of the design model")] if found.result else []
     rows = [
         (one.symbol, one.where, with_unit(one.characteristic, one.unit), one.factor,
          f"{found.factors.value(one.factor):.6g}", with_unit(one.design, one.unit))

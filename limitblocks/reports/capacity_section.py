@@ -9,7 +9,7 @@ from limitblocks.practice import CapacityCurve, CapacityPoint
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import cut
+from limitblocks.reports.words import cut, figures
 from limitblocks.shown import coordinates
 
 
@@ -25,6 +25,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
     alone = (f"the curve is its first point alone: {curve.ended}",) if len(curve.points) == 1 else ()
     # what snaps through zero has its last point beyond
     end = last.displacement if curve.zero is None else curve.zero
+    proven = figures(curve.proven_to, 6)
     ended = "end of the curve" if curve.zero is None else "load factor zero"
     return Section(
         title="Capacity curve",
@@ -36,9 +37,9 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
         headline=f"{cut(end)} m",
         quantity=f"displacement at {ended}",
         values=(
-            ("Load factor at rest", f"{first.load_factor:#.7g}", "without dilatancy, the first point"),
-            ("Ends", f"{end:#.6g} m", curve.ended),
-            ("No joint presses across a gap up to", f"{curve.proven_to:#.6g} m", "proven for the geometry"),
+            ("Load factor at rest", figures(first.load_factor, 7), "without dilatancy, the first point"),
+            ("Ends", f"{figures(end, 6)} m", curve.ended),
+            ("No joint presses across a gap up to", f"{proven} m", "proven for the geometry"),
             ("Control point", coordinates(curve.control.point.tolist()), f"m, on {curve.control.block}"),
             ("Direction", triple(curve.control.direction.tolist()), "in which its displacement is measured"),
         ),
@@ -51,7 +52,7 @@ def capacity_section(_model: Model, curve: CapacityCurve) -> Section:
 
 def _points(curve: CapacityCurve) -> Table:
     rows = [
-        (f"{one.displacement:#.6g}", f"{_clean(one.load_factor):.6g}", _changes(one),
+        (figures(one.displacement, 6), f"{_clean(one.load_factor):.6g}", _changes(one),
          few(one.across) or "none", f"{one.result.residuals.worst.value:.1e}")
         for one in curve.points
     ]  # fmt: skip

@@ -12,7 +12,7 @@ from limitblocks.model import Model
 from limitblocks.reports.claims import CheckedClaim
 from limitblocks.reports.rows import SHOWN, backward, far, loose, number
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import cut
+from limitblocks.reports.words import cut, figures
 
 OF_LOADS = "of the largest dead load tied to an interface"
 
@@ -81,7 +81,7 @@ def stability_section(_model: Model, answer: Stability) -> Section:
         quantity=f"with a margin of {answer.margin:.3g} {OF_LOADS}",
         values=(
             ("Answer", answer.kind.value.split(": ")[1], ""),
-            ("Margin", f"{answer.margin:#.4g}", f"{OF_LOADS}; at most 1"),
+            ("Margin", figures(answer.margin, 4), f"{OF_LOADS}; at most 1"),
             ("Blocks that move", few(answer.blocks, SHOWN) or "none", ""),
         ),
         judged=(answer.residuals, ARISEN),

@@ -10,7 +10,7 @@ from limitblocks.practice import SettlementCurve
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Table
 from limitblocks.reports.section import LEGEND, Section
-from limitblocks.reports.words import cut, kilonewtons
+from limitblocks.reports.words import cut, figures, kilonewtons
 
 FOLLOWING = (
     "{} at a settlement of {:.6g} m, drawn as it then is, and the mechanism that follows the support, {:.3g} "
@@ -25,7 +25,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
     end = last.found.result or last.found.bounds
     fallen = curve.falls is not None
     flow = "without dilatancy" if last.found.result else "of associated flow"
-    upper = "" if curve.falls is None else f"{curve.falls:#.7g} m"
+    upper = "" if curve.falls is None else f"{figures(curve.falls, 7)} m"
     return Section(
         title=f"Settlement of {curve.support} until collapse",
         meaning=(
@@ -38,7 +38,7 @@ def collapse_section(_model: Model, curve: SettlementCurve) -> Section:
         headline=f"{cut(curve.stands_to)} m",
         quantity="settlement up to which " + (_GAPS if curve.filled else "it stands" + _FALLS * fallen),
         values=(
-            ("Stands up to", f"{curve.stands_to:#.7g} m", _GAPS),
+            ("Stands up to", f"{figures(curve.stands_to, 7)} m", _GAPS),
             *(
                 (("Falls at", upper, "proven: no equilibrium of the structure so displaced"),)
                 if fallen
@@ -64,7 +64,7 @@ def _figure(curve: SettlementCurve) -> Figure:
 
 def _points(curve: SettlementCurve) -> Table:
     rows = [
-        (f"{one.displacement:#.7g}", kilonewtons(one.found.lower), kilonewtons(one.found.upper),
+        (figures(one.displacement, 7), kilonewtons(one.found.lower), kilonewtons(one.found.upper),
          "" if one.found.nonassociated is None else kilonewtons(one.found.nonassociated),
          few(one.changes) or "none", few(one.across) or "none")
         for one in curve.points

@@ -14,7 +14,7 @@ from limitblocks.practice.worst_position import STOPPED
 from limitblocks.reports.curve import Curve, line_curve
 from limitblocks.reports.document import Figure, Part, Table
 from limitblocks.reports.section import LEGEND, Section
-from limitblocks.reports.words import at_least, at_most, cut, kilonewtons
+from limitblocks.reports.words import at_least, at_most, cut, figures, kilonewtons
 from limitblocks.shown import coordinate
 
 SETTLED = (
@@ -85,9 +85,9 @@ def repair_section(_model: Model, found: Repair) -> Section:
         headline=kilonewtons(found.total),
         quantity=f"least sum for load factor {found.required:.6g}",
         values=(
-            ("Required", f"{found.required:#.7g}", "load factor"),
+            ("Required", figures(found.required, 7), "load factor"),
             ("Associated", at_least(found.bounds.lower), "static load factor of the reinforced structure"),
-            ("Without dilatancy", f"{found.result.load_factor:#.7g}", "of the reinforced structure"),
+            ("Without dilatancy", figures(found.result.load_factor, 7), "of the reinforced structure"),
         ),
         judged=(found.result.residuals, found.result.tolerance),
         warnings=_short_of(found) + found.remarks,

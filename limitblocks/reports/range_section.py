@@ -9,7 +9,7 @@ from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import limits
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import cut
+from limitblocks.reports.words import cut, figures
 
 MEANING = (
     "Without dilatancy many load factors solve the equations. The large one is that of the load path. "
@@ -27,7 +27,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
     (reached, below), (lowest, highest) = result.reached, result.certified
     (tried, ended), (drawn, led) = result.paths, result.mechanisms
     rows = tuple(
-        (f"{one.load_factor:#.6g}", one.origin.value, one.solution.how, one.mechanism)
+        (figures(one.load_factor, 6), one.origin.value, one.solution.how, one.mechanism)
         for one in result.answers
     )
     ends = [(word, end) for word, end in (("Least", result.least), ("Greatest", result.greatest)) if end]
@@ -61,8 +61,9 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
 
 
 def _between(least: float, greatest: float) -> str:
-    return f"{least:#.6g} to {greatest:#.6g}" if least <= greatest else "none"  # NaN where nothing was found
+    found = least <= greatest  # NaN where nothing was found
+    return f"{figures(least, 6)} to {figures(greatest, 6)}" if found else "none"
 
 
 def _spans(intervals: tuple[tuple[float, float], ...]) -> str:
-    return ", ".join(f"{low:#.6g} to {high:#.6g}" for low, high in intervals) or "none"
+    return ", ".join(f"{figures(low, 6)} to {figures(high, 6)}" for low, high in intervals) or "none"

@@ -10,7 +10,7 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Nonassociated
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.comparison import NOT_CLAIMED
-from limitblocks.reports.words import at_least, at_most
+from limitblocks.reports.words import at_least, at_most, figures
 
 SHOWN = 4  # names in a cell
 KNOWN = 0.2  # of friction: how well it is known, docs/how-sure.md
@@ -35,7 +35,7 @@ def limits(result: Nonassociated) -> tuple[Row, Row]:
 
 def number(load_factor: float) -> str:
     """Return a load factor as text."""
-    return f"{load_factor:#.7g}" if isfinite(load_factor) else "unlimited"
+    return figures(load_factor, 7) if isfinite(load_factor) else "unlimited"
 
 
 def backward(error: BackwardError) -> Row:

@@ -16,7 +16,7 @@ from limitblocks.reports.curve import convergence_curve, path_curve
 from limitblocks.reports.document import Table
 from limitblocks.reports.rows import SHOWN, Row, backward, far, limits, loose
 from limitblocks.reports.section import Section
-from limitblocks.reports.words import at_least, at_most, cut
+from limitblocks.reports.words import at_least, at_most, cut, figures
 from limitblocks.shown import many
 
 ASSOCIATED = "joints dilate by the friction angle: no solution is higher"
@@ -65,7 +65,7 @@ def nonassociated_section(model: Model, result: Nonassociated) -> Section:
         ),
         headline="none found" if result.astray else cut(result.load_factor),
         values=(
-            ("Load factor", f"{result.load_factor:#.7g}", "others may solve too, within the next two"),
+            ("Load factor", figures(result.load_factor, 7), "others may solve too, within the next two"),
             *limits(result),
             ("Dilatancy", f"{result.dilatancy:g}", "tangent of the dilatancy angle"),
             ("Twist under bending", f"about the {result.turning.value}", "what it turns about"),
@@ -96,11 +96,11 @@ def path_section(model: Model, path: LoadPath) -> Section:
         ),
         headline=end.headline,
         values=(
-            ("Load factor", f"{path.load_factor:#.7g}", f"the last of {many(len(path.steps), 'step')}"),
-            ("Peak", f"{path.peak:#.7g}", "largest load factor along the path"),
-            ("Tracked path", f"{path.tracked:#.7g}", "; ".join(path.remarks)),
+            ("Load factor", figures(path.load_factor, 7), f"the last of {many(len(path.steps), 'step')}"),
+            ("Peak", figures(path.peak, 7), "largest load factor along the path"),
+            ("Tracked path", figures(path.tracked, 7), "; ".join(path.remarks)),
             *(
-                ("Snap", f"{one.before.load_factor:#.7g} to {one.after.load_factor:#.7g}", SNAP)
+                ("Snap", f"{figures(one.before.load_factor, 7)} to {figures(one.after.load_factor, 7)}", SNAP)
                 for one in path.snaps
             ),
             *end.values[1:5],
@@ -120,7 +120,7 @@ def _steps(path: LoadPath) -> Table:
     rows = tuple(
         (
             str(k),
-            f"{step.load_factor:#.6g}",
+            figures(step.load_factor, 6),
             *(f"{step.residuals.get(name, float('nan')):.1e}" for name in names),
             few([f"{interface} {mode}" for interface, mode in step.active], SHOWN),
         )
@@ -137,7 +137,7 @@ def _designs(result: Nonassociated, source: str) -> tuple[tuple[float, str, tupl
 
 def _compared(result: Nonassociated, name: str, meaning: str) -> tuple[Row, ...]:
     unproven = "" if result.converged else "; not converged, so not proven"
-    return (*limits(result), (name, f"{result.load_factor:#.7g}", meaning + unproven))
+    return (*limits(result), (name, figures(result.load_factor, 7), meaning + unproven))
 
 
 def _proven(proof: Proof) -> tuple[str, str]:

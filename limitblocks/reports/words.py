@@ -168,7 +168,12 @@ def cut(value: float, digits: int = 4, most: bool = False) -> str:
     """
     first = Decimal(f"{value:.{digits + 3}g}")
     rounding = ROUND_CEILING if most else ROUND_FLOOR
-    return f"{float(Context(prec=digits, rounding=rounding).plus(first)):#.{digits}g}"
+    return figures(float(Context(prec=digits, rounding=rounding).plus(first)), digits)
+
+
+def figures(value: float, digits: int) -> str:
+    """Return a number to its significant figures, trailing zeros too, without a bare point behind them."""
+    return f"{value:#.{digits}g}".removesuffix(".")
 
 
 def at_least(bound: float) -> str:

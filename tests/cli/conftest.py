@@ -6,6 +6,7 @@ import pytest
 from portal_by_hand import PORTAL, solved, walked
 
 import limitblocks as lb
+import limitblocks.studies.pool  # keeps the analyses that are there when it is loaded: no fakes
 
 
 @pytest.fixture

@@ -6,6 +6,8 @@ import os
 import pytest
 from portal_by_hand import run
 
+from limitblocks.cli import errors
+
 
 def _asked_in_vain(*_arguments, **_settings):
     raise AssertionError("analysed before the output was refused")
@@ -23,9 +25,20 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_analysis(
         assert done.exit_code == 2
         assert f"{option} {path}" in done.stderr
         assert said in done.stderr
-    monkeypatch.setattr(os, "access", lambda _path, mode: mode == os.R_OK)
+
+    def denied(**_where):  # where access() says yes, too: on a share, or to root in /proc
+        raise PermissionError(errno.EACCES, "no")
+
+    monkeypatch.setattr(errors, "TemporaryFile", denied)
     done = run("nonassociated", file, option, tmp_path / "r.html")
-    assert (done.exit_code, "may not be written to" in done.stderr) == (2, True)
+    assert (done.exit_code, f"folder {tmp_path} may not be written to: no" in done.stderr) == (2, True)
+
+
+def test_one_file_for_the_result_and_its_report_is_refused(solver, file, tmp_path):
+    """The report took the place of the result without a word."""
+    solver(_asked_in_vain)
+    done = run("bounds", file, "--output", tmp_path / "r.json", "--report", tmp_path / "r.json", "--force")
+    assert (done.exit_code, "reads or writes, too" in done.stderr) == (2, True)
 
 
 @pytest.mark.usefixtures("solver")

@@ -59,7 +59,7 @@ def test_report_keeps_the_other_chapters_where_an_analysis_has_no_answer(solver,
 def test_report_refuses_to_replace_what_it_reads(file, result):
     done = run("report", file, result, "-o", result, "--force")
     assert done.exit_code == 2
-    assert "is what the command reads; name another file with --output" in done.stderr
+    assert "is what the command reads or writes, too; name another with --output" in done.stderr
 
 
 def test_report_is_labelled(file, tmp_path):

@@ -91,6 +91,7 @@ FAULTS = {
         ["interfaces[0].joint: expected the name of one of the joints, not {"],
     ),
     "unknown key at the top": (find("suports", to=[]), ["suports: unknown key; did you mean 'supports'"]),
+    "version that is no number": (find("schema_version", to=True), ["schema_version: expected 1, not True"]),
     "later version": (find("schema_version", to=2), ["schema_version: expected 1, not 2", "newer version"]),
     "decimal comma": (
         find("blocks", 1, "box", "size", to=[0, 5, 1, 2]),

@@ -193,6 +193,17 @@ def test_cavity_belongs_to_the_block_around_it(tmp_path):
     assert [block.volume for block in again.blocks] == pytest.approx([26.0, 27.0])
 
 
+def test_a_hollow_block_inside_out_is_turned_as_a_whole(tmp_path):
+    """Its cavity, the one surface that points outward, became a block within it."""
+    outer, inner = trimesh.creation.box((3, 3, 3)), trimesh.creation.box((1, 1, 1))
+    outer.invert()
+    path = tmp_path / "inside-out.stl"
+    trimesh.util.concatenate([inner, outer]).export(path)
+    imported = lb.files.read_blocks(path)
+    assert [block.volume for block in imported.blocks] == pytest.approx([26.0])
+    assert imported.notes[-1].endswith("all faces pointed inward and are turned")
+
+
 CONCAVE = lb.Block(
     "angle",
     [(x, y, z) for z in (0.0, 1.0) for x, y in ((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))],

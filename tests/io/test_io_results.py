@@ -225,6 +225,7 @@ FAULTS = {
         ["flow_multiplier: unknown key; did you mean 'flow_multipliers'"],
     ),
     "dilatancy": (MINIMAL | {"dilatancy": -0.1}, ["dilatancy: expected", "-0.1"]),
+    "no number": (MINIMAL | {"schema_version": True}, ["schema_version: expected 1, not True"]),
     "future": (MINIMAL | {"schema_version": 2}, ["schema_version: expected 1, not 2"]),
     "kind": (MINIMAL | {"analysis": "modal"}, ["analysis: expected 'nonassociated'", "'modal'"]),
     "kind of kind": (MINIMAL | {"analysis": [1]}, ["analysis: expected 'nonassociated'"]),

@@ -11,7 +11,7 @@ from limitblocks.arrays import read_only
 from limitblocks.practice import CapacityPoint, Control, capacity, capacity_curve
 from limitblocks.practice.advance import moved_until_contact
 from limitblocks.practice.displaced import CLOSED, assembly_of, moved
-from limitblocks.practice.snapped import TIGHT, falls, snapped, steepest
+from limitblocks.practice.snapped import TIGHT, NoRest, falls, snapped, steepest
 from limitblocks.practice.touching import pressed_in
 
 JOINT = lb.PointContact(0.6)
@@ -118,3 +118,32 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
     model = model_of(stones, ["base"], lb.PointContact(0.1))
     curve = capacity_curve(model, steps=2)
     assert (curve.zero, curve.ended) == (None, "4 points do not lead to an end")
+
+
+def test_a_pier_that_rocks_back_stays_on_its_corner():
+    """It turned about the inner edge of the strip left of its joint: steps were cut to 1.5e-4 m at .717 m.
+
+    Its corner, said to open, went into the base by the second order of each step.
+    """
+    told = []
+
+    def count(point):
+        told.append(point)
+        assert len(told) < 15
+
+    portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=2.0, pier_width=0.6, pier_blocks=2)
+    curve = capacity_curve(portal, largest=0.8, progress=count)
+    assert curve.ended == "the displacement 0.8 m is reached"
+
+
+def test_a_snap_without_rest_is_looked_for_once(monkeypatch):
+    """It begins where the step does, within the accuracy: each shorter step took as long to the same end."""
+    asked = []
+
+    def lost(_assembly, _control, _rates, step, accuracy):
+        asked.append(step > accuracy)
+        raise NoRest("nowhere")
+
+    monkeypatch.setattr(capacity, "held", lost)
+    curve = capacity_curve(lb.structures.block(JOINT, width=0.2, height=1.0))
+    assert (curve.ended, asked) == ("no checked answer beyond 0 m: nowhere", [True])

@@ -1,15 +1,20 @@
 """Ties, strips and dowels: closed forms, properties, misuse."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from facades import ARM, FLOOR, OWN, H, T, facade
 from stones import model_of
 
 import limitblocks as lb
+from limitblocks.analysis.nonassociated.start import state_of
 from limitblocks.analysis.scales import frictional
+from limitblocks.evidence.locked_tension import locked_tension
 from limitblocks.evidence.spanning_tree import spanning_tree
 from limitblocks.joints import Guide, Tie
 from limitblocks.practice import dowel, reinforced, strip, tie
+from limitblocks.problem import Flow
 
 JOINTS = [lb.PointContact(0.6), lb.OrdunaLourenco(0.6)]
 JOINT_NAMES = ["point contact", "paper"]
@@ -110,6 +115,20 @@ def test_tension_that_a_slide_locks_in_a_strip_is_named(joint):
     assert check.passed
     for found in (result, check):
         assert f"a force of up to {F:.4g} N is locked in strip base|block 1" in found.remarks[-1]
+
+
+def test_two_ties_of_the_same_blocks_are_counted_under_their_one_name():
+    """They have the name of their blocks, which stood there twice."""
+    model = lb.structures.block(lb.OrdunaLourenco(0.6), width=1.0, height=0.5)
+    (joint,), capacity = model.interfaces, model.free_blocks[0].weight / 8
+    places = [joint.centroid + np.array([x, 0.0, 0.0]) for x in (-0.2, 0.2)]
+    held = reinforced(model, *(strip(joint, at, width=0.1, capacity=capacity) for at in places))
+    flow = Flow(held.problem)
+    state = state_of(held, flow.problem, lb.nonassociated(held))
+    tied = flow.problem.stress_interface > 0
+    state = replace(state, x=np.where(tied, 0.5, state.x))  # both pull, by no matter what
+    (remark,) = locked_tension(held, flow, state)
+    assert "is locked in 2 × strip base|block 1, whose" in remark
 
 
 def test_what_stretches_or_carries_nothing_locks_nothing():

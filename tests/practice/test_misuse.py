@@ -203,3 +203,13 @@ def test_arguments(facade, misuse, words):
         misuse(facade)
     assert str(caught.value).startswith(words)
     assert "\n" not in str(caught.value)
+
+
+def test_what_slides_freely_has_no_capacity_to_verify():
+    """scipy found no ground acceleration that sets it off."""
+    model = lb.structures.block(lb.OrdunaLourenco(0.0), width=0.5, height=1.0)
+    result = lb.nonassociated(model)
+    linear = verification(model, result, SITE, q=2.0)
+    assert (linear.checks[0].satisfied, linear["a_g,SLD"]) == (False, 0.0)
+    with pytest.raises(lb.errors.ModelError, match="meets no resistance"):
+        verification(model, result, SITE, q=2.0, curve=capacity_curve(model))

@@ -21,6 +21,7 @@ from limitblocks.evidence.ending import BELOW_ZERO, UNBOUNDED, Status
 from limitblocks.evidence.given_power import given_power
 from limitblocks.evidence.locked_shear import locked_shear
 from limitblocks.evidence.locked_tension import locked_tension
+from limitblocks.evidence.measure import without_rounding
 from limitblocks.evidence.residuals import Residuals, mcp_residuals
 from limitblocks.evidence.results import Iteration, Nonassociated
 from limitblocks.model import Model
@@ -66,6 +67,7 @@ def finished(
     """
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
+    state = without_rounding(problem, state)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere

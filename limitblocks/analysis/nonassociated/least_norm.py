@@ -30,6 +30,8 @@ def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
     Where all rows are planes, OSQP finds them fastest and to rounding. Otherwise, and for cones, Clarabel.
     What a solver says is believed if the conditions of the minimum hold, recomputed.
     """
+    if not problem.dead.any() and problem.cones.margin(problem.g).min(initial=0.0) >= 0.0:
+        return np.zeros(len(weights))
     x = None if problem.cones.second_order else by_planes(problem, weights)
     return by_cones(problem, weights) if x is None else x
 

@@ -15,11 +15,13 @@ from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
+    Bracket,
     Start,
     flow_of,
     load_scale,
     refuse_jammed,
     refuse_unlimited,
+    solving_state,
     start_stresses,
 )
 from limitblocks.analysis.one_thread import one_thread
@@ -44,6 +46,7 @@ PASSED_OVER = (
     "follow it"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
+AT_ONCE = "the bounds: any live load moves the structure"
 
 Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
@@ -122,7 +125,9 @@ def load_path(
         return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
-    found = planar and _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+    found = _at_once(model, flow, enclosing, weights, tolerance) if start is None else None
+    if found is None and planar:
+        found = _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
     found = found or load(flow, start_stresses(model, problem, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
@@ -133,6 +138,8 @@ def load_path(
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
+    if found.how == AT_ONCE:
+        return LoadPath(steps, collapse, folds, trace, collapse.load_factor, remarks)
     try:
         tracked = end_of_first_path(model, flow, enclosing.associated, start, tolerance)
     except KeyboardInterrupt:  # the load path is complete
@@ -195,6 +202,17 @@ def _loaded(
     return _Loaded(x0, pushes, last, how, why)
 
 
+def _at_once(
+    model: Model, flow: Flow, enclosing: Bracket, weights: Array, tolerance: float
+) -> _Loaded | None:
+    """The mechanism of the bounds, without increments, where any live load moves the structure."""
+    last = solving_state(model, flow, enclosing, None, tolerance) if enclosing.nothing else None
+    if last is None:
+        return None
+    x0 = start_stresses(model, flow.problem, weights, None)
+    return _Loaded(x0, (), last, AT_ONCE, "")
+
+
 def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
     """A load path of the plane as one of the whole problem; None where that does not accept it."""
     interrupted = found.how.endswith(INTERRUPTED)
@@ -211,7 +229,8 @@ def _compliance(
     """Dimensionless compliance of each generalised stress."""
     if stiffness is None:
         free = model.free_blocks
-        unit = np.mean([b.weight for b in free]) / np.mean([np.cbrt(b.volume) for b in free]) ** 3
+        weight = np.mean([b.weight for b in free]) or np.mean(model.problem.units.block_force)
+        unit = weight / np.mean([np.cbrt(b.volume) for b in free]) ** 3
         stiffness = (float(unit), float(unit))
     table = (
         stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}

@@ -15,12 +15,15 @@ from limitblocks.analysis.nonassociated.path_equations import (
 from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.arrays import Array
+from limitblocks.errors import SolveError
+from limitblocks.evidence.elimination import Factors
 from limitblocks.problem import Flow
 from limitblocks.problem.barrier import quotient
 
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary
 ITERATIONS = 60
+HELD = 1e-9  # of the largest stiffness: springs on what nothing else holds
 
 
 def path_from(
@@ -53,7 +56,7 @@ def path_from(
     """
     p, layout = flow.problem, Layout(flow)
     C = layout.compatibility
-    lu = layout.factors(np.swapaxes(C, 1, 2) @ (layout.per_interface(1.0 / weights)[:, :, None] * C))
+    lu = _elastic(layout, np.swapaxes(C, 1, 2) @ (layout.per_interface(1.0 / weights)[:, :, None] * C))
     # -K u + a live = 0 and live.u = 1: a is one over the elastic work of the unit live load
     rho0 = float(lu.solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
     logarithms = np.zeros(p.cones.degree)
@@ -62,6 +65,16 @@ def path_from(
     logarithms[~layout.sliding] += np.log(barrier.opening)
     products = share * np.exp(logarithms)[p.cones.member] * p.cones.identity
     return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0), power)
+
+
+def _elastic(layout: Layout, stiffness: Array) -> Factors:
+    """Factors of the elastic step; weak springs hold what slides on joints without friction."""
+    for held in (0.0, HELD * float(stiffness.max())):
+        try:
+            return layout.factors(stiffness + held * np.eye(stiffness.shape[2]))
+        except RuntimeError:  # SuperLU: singular
+            continue
+    raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
 
 def centred(path: Path) -> tuple[Point | None, int]:

@@ -45,6 +45,11 @@ class Bracket:
     bounds: Bounds | None
     unclaimed: str = ""
 
+    @property
+    def nothing(self) -> bool:
+        """Whether every solution has the load factor zero."""
+        return self.frictionless == self.associated == 0.0
+
     def of(self, flow: Flow) -> Bracket:
         """Return what is claimed of the solutions of a flow rule: no lower end where it can give power."""
         return self if flow.dissipative else replace(self, frictionless=np.nan, unclaimed=TURNED)
@@ -62,9 +67,7 @@ def _bracket(model: Model) -> Bracket:
         limit_load = None
     upper = limit_load.upper if limit_load else np.inf
     lower, unclaimed = load_factor_without_shear(model.problem, limit_load is not None)
-    problem = model.problem
-    scale = abs(upper) if np.isfinite(upper) else load_scale(problem, upper) / problem.units.live
-    noise = abs(lower) < NOISE * scale
+    noise = abs(lower) < NOISE * load_scale(model.problem, abs(upper)) / model.problem.units.live
     return Bracket(0.0 if noise else lower, upper, limit_load, unclaimed)
 
 
@@ -80,20 +83,30 @@ def own_units(model: Model, enclosing: Bracket) -> LimitProblem:
 def flow_of(model: Model, dilatancy: float, turning: Turning | str) -> tuple[Flow, Bracket]:
     """Return the flow rule of a model in its own units, and what encloses every solution."""
     slope, about = checked_dilatancy(model.problem, dilatancy), turning_of(turning)
+    _refuse_no_measure(model.problem)
     enclosing = bracket(model)
     return Flow(own_units(model, enclosing), slope, about), enclosing
+
+
+def _refuse_no_measure(problem: LimitProblem) -> None:
+    """Raise ModelError where nothing but friction resists: with one load factor its multiples solve, too."""
+    if not problem.dead.any() and not problem.g.any():
+        raise ModelError(
+            "no dead load acts on a free block, and no joint has a strength of its own: nothing measures the "
+            "load factor, which is 0 or without limit; give unit weights or other dead loads"
+        )
 
 
 def solving_state(
     model: Model, flow: Flow, enclosing: Bracket, given: Start | None, tolerance: float
 ) -> State | None:
-    """What solves without a path, polished: a result given, or, where flow is associated, the bounds.
+    """What solves without a path, polished: a result given, or the bounds of associated flow or of zero.
 
     Their gap is a sum over the structure: a joint may need bounds that are closer than the tolerance.
     """
     if given is not None:
         return solution(model, flow, given, tolerance)
-    if not flow.associated or enclosing.bounds is None:
+    if not (flow.associated or enclosing.nothing) or enclosing.bounds is None:
         return None
     for share in CLOSER:
         try:

@@ -1,0 +1,115 @@
+"""Vehicles on a deck: axles, dispersion, and where they are worst."""
+
+from dataclasses import replace
+
+import facades
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.practice import (
+    Deck,
+    Vehicle,
+    vehicle_load,
+    worst_position,
+)
+
+JOINT = lb.PointContact(0.7)
+
+
+def beam():
+    """A lintel of 4 m on two piers: an axle has to lift one end, or nothing."""
+    return facades.beam(JOINT)
+
+
+def test_worst_position_is_the_end_of_the_overhang():
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2)."""
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 3.95), positions=4)
+    assert found.position == pytest.approx(3.95, abs=1e-3)
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
+def test_a_vehicle_runs_in_the_middle_of_a_bridge_wherever_that_is():
+    """A bridge drawn beside the X axis: the overhang tips about x = 3, P (x - 3) = W (3 - 2)."""
+    moved = [
+        lb.Block(one.name, np.add(one.vertices, (0, 7.5, 0)), one.faces, one.unit_weight)
+        for one in beam().blocks
+    ]
+    model = replace(beam(), blocks=moved, interfaces=lb.find_interfaces(moved, JOINT))
+    found = worst_position(model, Vehicle((10e3,), contact=1e-3), Deck(level=0.5), (3.2, 3.95), positions=4)
+    assert (found.deck.y, Deck(0.5, y=7.2).on(model).y) == (7.5, 7.2)
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / (found.position - 3.0), rel=1e-6)
+
+
+def test_the_search_finds_the_worst_position_between_the_first_ones():
+    """P (x - 3) = W (3 - 2): worst is x = 4 less half the contact, from where on less stands on the beam."""
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-4), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 4.8), positions=4)
+    assert found.position == pytest.approx(3.99995, abs=5e-6)
+    assert found.bounds.upper == pytest.approx(40e3 / 10e3 / (found.position - 3.0), rel=1e-6)
+    assert found.load_factors.min() < 0.8 * found.load_factors[:4].min()
+    assert np.isinf(found.load_factors[np.argmax(found.positions)])
+
+
+@pytest.mark.parametrize("at", [3.85, 3.95, 4.0, 4.1])
+@pytest.mark.parametrize("depth", [0.0, 0.3])
+def test_the_part_of_an_axle_beyond_the_blocks_does_nothing(at, depth):
+    """The overhang tips about x = 3 under what is left of an even load, at the middle of what is left."""
+    model, half = beam(), 0.15 + 0.5 * depth
+    axle = vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5 + depth), at)
+    left = min(4.0 - (at - half), 2 * half)
+    moment = 10e3 * left / (2 * half) * (at - half + left / 2 - 3.0)
+    assert lb.bounds(replace(model, live=axle)).upper == pytest.approx(40e3 / moment, rel=1e-9)
+
+
+def test_a_printed_envelope_says_what_stands_beside_the_blocks():
+    found = worst_position(beam(), Vehicle((10e3, 5e3), (0.0, 2.0)), Deck(level=0.5), (3.5, 3.9), positions=3)
+    assert "10 of 15 kN of axles stand on the blocks" in str(found)
+    assert "axles" not in str(worst_position(beam(), Vehicle((10e3,)), Deck(0.5), (3.5, 3.8), positions=3))
+
+
+def test_a_search_interrupted_before_any_answer_has_none():
+    def first(*_):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):  # off the overhang at x = 4
+        worst_position(beam(), Vehicle((10e3,)), Deck(level=0.5), (4.2, 5.0), positions=3, progress=first)
+
+
+def test_an_interrupted_search_keeps_the_positions_tried():
+    """The overhang tips about x = 3: P (x - 3) = W (3 - 2); of four positions two are done, 1 and 3."""
+    places = []
+
+    def second(x, _factor):
+        places.append(x)
+        if len(places) == 2:
+            raise KeyboardInterrupt
+
+    model, vehicle, deck = beam(), Vehicle((10e3,), contact=1e-3), Deck(level=0.5)
+    found = worst_position(model, vehicle, deck, (3.2, 3.8), positions=4, progress=second)
+    assert found.positions == pytest.approx([3.2, 3.6])
+    assert found.bounds.upper == pytest.approx(20e3 * 2.0 / 10e3 / 0.6, rel=1e-6)
+    assert not found.complete
+    assert not found.to_dict()["complete"]
+    assert "may be worse" in str(found)
+    assert "may be worse" in lb.report(model, found).text
+
+
+def test_vehicle_of_two_axles_and_dispersion():
+    """Forces and moments of two axles; through a fill each acts on contact + 2 spread depth, evenly."""
+    model, deck = beam(), Deck(level=1.5, spread=0.5)
+    load = vehicle_load(model, Vehicle((10e3, 20e3), (0.0, 1.2), contact=0.2), deck, 1.5)
+    total = load.on(model.free_blocks)[0]
+    assert total[:3] == pytest.approx([0, 0, -30e3])
+    assert total[4] == pytest.approx(10e3 * (1.5 - 2.0) + 20e3 * (2.7 - 2.0))
+    (_, first), _ = load.terms
+    assert np.ptp([first.start[0], first.end[0]]) == pytest.approx(0.2 + 2 * 0.5 * 1.0)
+
+
+def test_axle_on_the_approach_puts_nothing_on_the_bridge():
+    model = beam()
+    alone = vehicle_load(model, Vehicle((10e3, 20e3), (0.0, -9.0)), Deck(level=0.5), 2.0)
+    assert alone.on(model.free_blocks)[0, 2] == pytest.approx(-10e3)
+    with pytest.raises(lb.ModelError, match="stands on a free block"):
+        vehicle_load(model, Vehicle((10e3,)), Deck(level=0.5), 40.0)
