@@ -42,6 +42,17 @@ def test_what_falls_is_proven_by_a_mechanism_after_one_state(monkeypatch):
     assert len(seen) == 1
 
 
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+def test_a_smooth_dome_is_proven_to_fall(joint):
+    """The solver breaks the flow rule by 1e-6: multipliers are moved to where they follow the rates."""
+    model = structures.dome(joint(0.1), radius=2.49, thickness=0.56, courses=5, stones=18)
+    with pytest.raises(lb.errors.NoEquilibrium, match="cannot stand"):
+        lb.bounds(model)
+    answer = lb.stability(model)
+    assert answer.kind is lb.results.Standing.FALLS
+    assert answer.residuals.worst.value <= 1e-7
+
+
 def test_the_trivial_solution_of_what_falls_is_refused_by_the_checker():
     model = arch(0.05, DOWN)
     nothing = lb.results.Claim(
