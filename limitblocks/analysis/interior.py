@@ -47,8 +47,8 @@ def _carried(problem: LimitProblem, splitting: Splitting | None) -> Array | None
 def farthest_within(splitting: Splitting) -> Array | None:
     """Return stresses about as far within yield as there are under the dead loads, (s,); None if none.
 
-    By one program to 1e-4, in equilibrium to rounding: of walls that are not bonded at their corners those of
-    the splitting come near to 1e-2 of it in thousands of rounds.
+    By one program to 1e-4, in equilibrium to rounding. Where there is little room the splitting ends with a
+    tenth of it or less, after hundreds of rounds (docs/solvers.md).
     """
     form = Stresses(splitting.p)
     v, _ = Programs(form).solved(form.within(), ROUGH)
