@@ -32,7 +32,7 @@ def column(push=(1.0, 0.0, 0.0)):
 @pytest.fixture
 def programs(monkeypatch):
     """Programs that cvxpy, Clarabel or OSQP was asked to solve."""
-    solved, solve, directly, permanent = [], cp.Problem.solve, Programs._solved, least_norm.by_planes
+    solved, solve, directly, permanent = [], cp.Problem.solve, Programs.solved, least_norm.by_planes
 
     def counted(self, *settings, **named):
         solved.append(self)
@@ -48,7 +48,7 @@ def programs(monkeypatch):
 
     monkeypatch.setattr(cp.Problem, "solve", counted)
     monkeypatch.setattr(least_norm, "by_planes", counted_as_well)
-    monkeypatch.setattr(Programs, "_solved", counted_too)
+    monkeypatch.setattr(Programs, "solved", counted_too)
     return solved
 
 
