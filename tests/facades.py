@@ -4,8 +4,10 @@ from stones import model_of
 
 import limitblocks as lb
 from limitblocks.loads import added_mass
+from limitblocks.practice import Spectrum
 
 T, H, WEIGHT, FLOOR, ARM, FC, G = 0.5, 5.0, 18e3, 10e3, 0.35, 1.35, 9.81
+SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 OWN = WEIGHT * T * H
 
 

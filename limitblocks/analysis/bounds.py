@@ -100,9 +100,9 @@ def _bounds(model: Model, tolerance: float, tell: Tell) -> Bounds:
     # a live load that holds up what would fall gives a load factor, too
     problem = model.problem
     dead, pair, proof = _directly(problem, tolerance, tell) or _with_care(problem, tolerance, tell)
-    si = problem.in_si(without_rounding(problem, pair.state))
-    kinematic = without_rounding(problem, replace(pair.state, load_factor=pair.upper)).load_factor
-    upper = proof.upper if proof.complete else kinematic / problem.units.live
+    state, upper = without_rounding(problem, pair.state, pair.upper)
+    si = problem.in_si(state)
+    upper = proof.upper if proof.complete else upper / problem.units.live
     resultants = resultants_of(problem, pair.state.x)
     return Bounds(
         lower=si.load_factor,

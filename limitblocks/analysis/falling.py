@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import sparse
 
 from limitblocks.analysis.programs import falling_program, solved, solvers
-from limitblocks.analysis.scales import compatible_with
+from limitblocks.analysis.scales import compatible, scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.measure import Measure
-from limitblocks.problem import Cones, Flow, LimitProblem, State
+from limitblocks.problem import Flow, LimitProblem, State
 
 MOVING = 1e-3  # of the largest displacement rate: less counts as standing still
 FALLING = 1e-6  # of the work of the weights on their blocks' lengths: surplus work below it counts as balance
@@ -54,24 +53,17 @@ def falling(flow: Flow, loads: Array) -> Fall | None:
     for measured, acting in ((problem, loads), (light, loads / share)):
         known = replace(flow, problem=measured)
         G = known.matrix(np.zeros(measured.C.shape[0]))
+        flowing = scaled(replace(measured, F=G))
         for solver in solvers(bool(problem.cones.second_order)):
-            u, y = solved(falling_program(replace(measured, F=G), acting), solver).values
+            u, y = solved(falling_program(flowing.problem, acting), solver).values
             if not (np.isfinite(u).all() and np.isfinite(y).all()):
                 continue
-            y = following(G, measured.C @ u, y, measured.cones)
+            y = flowing.multiplier * compatible(flowing, u / flowing.rate, y / flowing.multiplier)
             strains = measured.C @ u + G.T @ y
             surplus = acting @ u - measured.g @ y - LIKELY * _worth(measured, acting, strains)
             if np.abs(strains).max() < CERTIFIED and surplus > FALLING:
                 return Fall(known, acting, State(0.0, np.zeros(measured.C.shape[0]), u, y))
     return None
-
-
-def following(G: sparse.csr_array, strains: Array, y: Array, cones: Cones) -> Array:
-    """Return the nearest multipliers that follow strains but for what brings them into K by their heads."""
-    for _ in range(2):
-        y = y - compatible_with(G, strains + G.T @ y)
-        y[cones.heads] -= np.minimum(cones.margin(y), 0.0)
-    return np.asarray(y)
 
 
 def _worth(problem: LimitProblem, loads: Array, strains: Array) -> float:

@@ -47,18 +47,23 @@ class Stresses:
             "iterative_refinement_enable": False,
         }
 
-    def within(self) -> Program:
-        """Largest room t <= 1 of stresses that carry the dead loads. Variable: t and x.
+    def within(self, loads: Array, most: float = np.inf) -> Program:
+        """Largest room t <= 1 of stresses that carry loads. Variable: t and x.
 
-        Every row has t times what its interface may carry: F x + g - t margin in K.
+        Every row has t times what its interface may carry: F x + g - t margin in K. The rows are at most
+        `most` in the mean.
         """
         p, s = self.problem, self.problem.C.shape[0]
         v, first = cp.Variable(1 + s), np.eye(1, 1 + s)
-        balance = sparse.hstack([sparse.csc_array((len(p.dead), 1)), p.C.T], format="csr")[self.balanced]
+        balance = sparse.hstack([sparse.csc_array((len(loads), 1)), p.C.T], format="csr")[self.balanced]
         rows = sparse.hstack([sparse.csr_array(-p.margin[:, None]), p.F], format="csr")
         inside = map_in_cone(rows, v, p.cones, p.g if p.g.any() else None)
-        most = sparse.csr_array(-first) @ v + np.ones(1) >= 0.0
-        constraints = [balance @ v == p.dead[self.balanced], most, *inside]
+        bounded = [sparse.csr_array(-first) @ v + np.ones(1) >= 0.0]
+        if np.isfinite(most):
+            one = p.cones.identity
+            left = np.array([most * p.cones.degree - one @ p.g])
+            bounded.append(sparse.csr_array(-np.append(0.0, one @ p.F)[None]) @ v + left >= 0.0)
+        constraints = [balance @ v == loads[self.balanced], *bounded, *inside]
         return Program(cp.Problem(cp.Minimize(-first[0] @ v), constraints), (v,))
 
     @cached_property

@@ -51,6 +51,6 @@ def farthest_within(splitting: Splitting) -> Array | None:
     tenth of it or less, after hundreds of rounds (docs/solvers.md).
     """
     form = Stresses(splitting.p)
-    v, _ = Programs(form).solved(form.within(), ROUGH)
+    v, _ = Programs(form).solved(form.within(splitting.p.dead), ROUGH)
     found = np.isfinite(v).all()
     return splitting.projection.onto(splitting.p.dead, v[1:]) if found else None

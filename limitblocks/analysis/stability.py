@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
-import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
 from limitblocks.analysis.falling import Fall, falling
+from limitblocks.analysis.forms import Stresses
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.analysis.programs import ROUNDS, Program, in_cone, solved, solvers
+from limitblocks.analysis.programs import ROUNDS, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
 from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
 from limitblocks.arrays import Array, read_only
@@ -202,21 +202,11 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, 
             if measured is None:
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
-            _, x = solved(_standing_program(measured, loads, most), solver).values
-            found = np.isfinite(x).all()
+            (v,) = solved(Stresses(measured).within(loads, most), solver).values
+            x, found = v[1:], np.isfinite(v).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
             yield x, Residuals(static_residuals(problem, load_factor, x)).worst
             measured = measured.measured(unmoved(problem, load_factor, x)) if found else None
-
-
-def _standing_program(problem: Scaled, loads: Array, most: float) -> Program:
-    """The largest margin t and its stresses, at most `most` in the mean of the rows. Variables: t, x."""
-    t, x = cp.Variable(), cp.Variable(problem.C.shape[0])
-    balance = problem.C.T @ x == loads
-    rows = problem.F @ x + problem.g
-    inside = in_cone(rows - t * problem.margin, problem.cones)
-    bounded = [problem.cones.identity @ rows <= most * problem.cones.degree] if np.isfinite(most) else []
-    return Program(cp.Problem(cp.Maximize(t), [balance, t <= MOST, *bounded, *inside]), (t, x))
 
 
 def _own_loads(problem: LimitProblem) -> Array:

@@ -98,7 +98,8 @@ class Measure:
         return max(abs(self.state.load_factor), ROUNDING * self.everything)
 
 
-def without_rounding(problem: LimitProblem, state: State) -> State:
-    """Return the state, its load factor zero where rounding of the power of all forces is as large."""
+def without_rounding(problem: LimitProblem, state: State, upper: float = 0.0) -> tuple[State, float]:
+    """Return a state and an upper load factor, zero where rounding of the power of all forces is as large."""
     rounding = np.finfo(float).eps * Measure(problem, state).everything
-    return replace(state, load_factor=0.0) if abs(state.load_factor) <= rounding else state
+    lower, upper = (a if abs(a) > rounding else 0.0 for a in (state.load_factor, upper))
+    return replace(state, load_factor=lower), upper

@@ -2,13 +2,11 @@
 
 import numpy as np
 import pytest
-from facades import G
+from facades import SITE
 
 import limitblocks as lb
 from limitblocks.practice import Floor, FloorMode, Spectrum
 from limitblocks.practice.spectra import Place
-
-SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 
 
 def test_order_of_the_modes_does_not_matter():

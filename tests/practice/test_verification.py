@@ -4,21 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from facades import ARM, FC, FLOOR, WEIGHT, G, H, T
+from facades import ARM, FC, FLOOR, SITE, WEIGHT, G, H, T
 
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
 from limitblocks.mechanics import Load
 from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
-
-SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
-
-
-@pytest.fixture(scope="module")
-def curve(facade):
-    wall = facade.free_blocks[0].vertices
-    corner = wall[(wall[:, 0] > 0) & (wall[:, 2] > 1)][0]  # above the toe
-    return capacity_curve(facade, control=("wall", corner), steps=3)
 
 
 def test_facade_of_one_block(facade, answer, curve):

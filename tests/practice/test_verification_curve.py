@@ -4,20 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from facades import FC, G, H
+from facades import FC, SITE, G, H
 
 import limitblocks as lb
-from limitblocks.practice import Spectrum, capacity_curve, verification
+from limitblocks.practice import Spectrum, verification
 from limitblocks.practice.displacement_check import _least_at
-
-SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
-
-
-@pytest.fixture(scope="module")
-def curve(facade):
-    wall = facade.free_blocks[0].vertices
-    corner = wall[(wall[:, 0] > 0) & (wall[:, 2] > 1)][0]  # above the toe
-    return capacity_curve(facade, control=("wall", corner), steps=3)
 
 
 def test_acceleration_on_the_capacity_curve(facade, answer, curve):

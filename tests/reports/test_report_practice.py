@@ -12,12 +12,11 @@ import jsonschema
 import numpy as np
 import pytest
 from chapters import chapter, rows
-from facades import ARM, FC, FLOOR, OWN, G, H, T
+from facades import ARM, FC, FLOOR, OWN, SITE, H, T
 
 import limitblocks as lb
 from limitblocks.practice import (
     Deck,
-    Spectrum,
     Vehicle,
     capacity_curve,
     least_ties,
@@ -36,7 +35,6 @@ from limitblocks.reports.pdf import GREEK, latin, pdf
 
 pypdf = pytest.importorskip("pypdf", reason="the package pypdf is not installed")
 
-SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 TIES = [tie("wall", (-T / 2, 0, z), "ground", (-6, 0, z), area=1e-3, strength=100e6) for z in (2.0, 4.5)]
 
 

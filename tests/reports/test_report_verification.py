@@ -5,14 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from chapters import chapter, rows
-from facades import ARM, FC, FLOOR, OWN, G, H, T, facade
+from facades import ARM, FC, FLOOR, OWN, SITE, G, H, T, facade
 
 import limitblocks as lb
-from limitblocks.practice import Spectrum, capacity_curve, verification
+from limitblocks.practice import capacity_curve, verification
 from limitblocks.practice.verification_result import without_curve
 from limitblocks.reports.terminal import print_result
 
-SITE = Spectrum(a_g=0.25 * G, S=1.2, F0=2.5, T_C=0.5)
 TITLE = "Kinematic verification of the mechanism"
 P, DELTA = np.array([OWN, FLOOR]), np.array([H / 2, H])  # weights and their displacements
 ALPHA = (OWN * T / 2 + FLOOR * ARM) / (P @ DELTA)

@@ -67,7 +67,7 @@ def finished(
     """
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
-    state = without_rounding(problem, state)
+    state, _ = without_rounding(problem, state)
     si, residuals = problem.in_si(state), mcp_residuals(flow, state)
     far = () if stopped else far_off(error, residuals, tolerance)
     halfway = bool(far) and how.endswith(INTERRUPTED)  # the rest of the path may lead elsewhere
