@@ -143,9 +143,8 @@ def _ahead(
         try:
             found = _advanced(assembly, control, point, step)
         except SolveError as error:
-            lost = isinstance(error, NoRest) and step > EVENT * assembly.size  # shorter ones do, too
             step *= SHORT if step == ahead else 0.5
-            if step < least or lost:
+            if step < least or isinstance(error, NoRest):
                 return f"no checked answer beyond {point.displacement:.6g} m: {error}"
             continue
         if found is None:

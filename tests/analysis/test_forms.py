@@ -119,6 +119,19 @@ def test_most_of_the_room_that_there_is_is_found(monkeypatch):
     assert 0.0 < _margin(p, found) < 0.1 * most
 
 
+def test_the_mean_of_the_rows_may_be_bounded():
+    """With less of them there is less room."""
+    p = scaled(wall(lb.OrdunaLourenco(0.6, cohesion=1e3)))
+    form, means, rooms = Stresses(p), [], []
+    for share in (np.inf, 0.9):
+        most = share * means[0] if means else np.inf
+        v, _ = Programs(form).solved(form.within(p.dead, most), DIRECT)
+        means.append(p.cones.identity @ (p.F @ v[1:] + p.g) / p.cones.degree)
+        rooms.append(v[0])
+    assert means[1] <= 0.9 * means[0] + 1e-8
+    assert rooms[1] < rooms[0] <= 1.0 + 1e-8
+
+
 def test_next_to_no_room_is_found_by_one_program():
     sizes = {"count": 3, "length": 1.0, "height": 0.3, "fraction": 1.0 - 1e-8}
     problem = structures.overhang(lb.PointContact(0.6), **sizes).problem
