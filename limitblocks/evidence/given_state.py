@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array, Indices, positions
-from limitblocks.evidence.limits import Flags, Limits
+from limitblocks.evidence.limits import ROUNDING, Flags, Limits
 from limitblocks.evidence.measure import Measure
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.sought import Sought
@@ -68,7 +68,8 @@ class Given:
     def force(self) -> Array:
         """Force at each place over what acts on the lesser block; infinite where rows need it, (places,)."""
         p, force = self.flow.problem, self.largest(self.state.x)
-        force[self.places[0][p.cones.margin(p.g) != 0.0]] = np.inf  # without a force these rows do not yield
+        apart = np.abs(p.cones.margin(p.g)) > ROUNDING * np.abs(p.g)[p.cones.heads]
+        force[self.places[0][apart]] = np.inf  # without a force these rows do not yield
         return force
 
     @cached_property

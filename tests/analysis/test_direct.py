@@ -99,19 +99,22 @@ def test_a_tower_is_proven_with_rates_near_one_and_not_as_it_is(monkeypatch):
     assert bounds._directly(not_bonded_through().problem, 1e-6, lambda _: None) is None
 
 
-def four_walls():
+def four_walls(courses):
     """A tower that splits into four walls, as the corner stones of two sides end where they meet."""
-    return structures.tower(lb.OrdunaLourenco(0.7), length=2.8, width=3.6, courses=10)
+    return structures.tower(lb.OrdunaLourenco(0.7), length=2.8, width=3.6, courses=courses)
 
 
-@pytest.mark.parametrize("first", [1, 2])
-@pytest.mark.parametrize("structure", [plain_facade, four_walls])
-def test_what_the_first_program_leaves_open_is_proven_by_the_second(structure, first, monkeypatch):
-    bounds = import_module("limitblocks.analysis.bounds")
-    monkeypatch.setattr(bounds, "programs_of", lambda problem: programs_of(problem)[:first])
-    found = bounds._directly(structure().problem, 1e-6, lambda _: None)
-    assert (found is None) == (first == 1)
-    assert found is None or found[2].width < 1e-6
+@pytest.mark.parametrize(
+    "models", [lambda: [plain_facade()], lambda: map(four_walls, (8, 10, 12))], ids=["facade", "four walls"]
+)
+def test_what_the_first_program_leaves_open_is_proven_by_the_second(models, monkeypatch):
+    """Of the towers rounding leaves two open, on one machine other ones than on the next."""
+    bounds, left = import_module("limitblocks.analysis.bounds"), []
+    for first in (1, 2):
+        monkeypatch.setattr(bounds, "programs_of", lambda problem, k=first: programs_of(problem)[:k])
+        found = [bounds._directly(model.problem, 1e-6, lambda _: None) for model in models()]
+        left.append(sum(one is None or one[2].width >= 1e-6 for one in found))
+    assert left[0] > left[1] == 0
 
 
 def in_plane_of(joint, courses, length):

@@ -108,7 +108,7 @@ def test_a_wedge_in_a_groove_slides_along_it():
 @pytest.mark.parametrize(
     ("name", "push", "apart"),
     [
-        ("eccentric_lintel", (1.0, 0.0, 0.0), 1e-4),
+        ("eccentric_lintel", (1.0, 0.0, 0.0), 5e-3),  # one of an interval
         ("arch_bridge", (1.0, 0.0, 0.0), 1e-4),
         ("corner", (1.0, 0.0, 0.0), 1e-2),
     ],

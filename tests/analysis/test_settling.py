@@ -128,3 +128,14 @@ def test_a_range_is_not_sampled_where_a_load_factor_still_changes(moved_corner, 
     monkeypatch.setattr(sampling, "polish", lambda _, one: one)
     sampler = sampling.Sampler(Flow(p), state.x, None, 1.0, lambda _: None)
     assert next(sampler.ways(0)).go() is (None if refused else state)
+
+
+def test_a_smaller_residual_is_judged_again_once_it_is_that_of_a_polish(moved_corner, monkeypatch):
+    p, asked = moved_corner.problem, []
+    monkeypatch.setattr(settling, "exact_nearby", lambda *_: bool(asked.append(1)))
+    found = settling.Settling(Flow(p), first=0.3)
+    state = State(0.3, np.zeros(p.C.shape[0]), np.zeros(p.C.shape[1]), np.zeros(len(p.g)))
+    for residual, count in ((5e-9, 1), (2e-10, 1), (3e-11, 2), (2e-11, 2), (2e-12, 3)):
+        found.keep(state, state, residual)
+        assert not found.ends()
+        assert len(asked) == count

@@ -142,11 +142,38 @@ def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypa
 
 
 def test_pivots_close_what_rounds_leave_open(monkeypatch):
-    model = pushed("two_leaf_wall", lb.OrdunaLourenco(0.7, compressive_strength=0.3e6), (1, 1, 0))
+    """One round in place of three."""
+    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.6), (1, 1, 0))
     means = (Means(Barrier(), 1, 60), Means(Barrier(), 1, 1))
-    assert lb.nonassociated(model, means=means).how.endswith("rounds of the fixed point")
+    assert lb.nonassociated(model, means=means).how.endswith("1 round of the fixed point")
     monkeypatch.setattr(closing, "pivoted", partial(polish, patience=2))
-    assert not lb.nonassociated(model, means=means, throw=False).converged
+    assert lb.nonassociated(model, means=means).how.endswith("rounds of the fixed point")
+
+
+def test_pivots_make_a_state_within_the_tolerance_exact():
+    """Without them its backward error is 1e-3, and it only stands still."""
+    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.7), (1, 1, 0))
+    found = lb.nonassociated(model, means=MEANS[2:], confirm=False)
+    assert found.residuals.worst.value <= 1e-10
+    assert found.backward_error.value <= 1e-10
+
+
+def test_paths_start_where_rows_begin_to_yield(monkeypatch):
+    """The same load factors in fewer factorisations than from an elastic step a fifth as long."""
+    models = [
+        pushed(name, lb.OrdunaLourenco(0.7), (1, 1, 0)) for name in ("wall", "segmental_arch", "dome_lunes")
+    ]
+
+    def followed():
+        found = [lb.nonassociated(model, means=MEANS[:1], confirm=False) for model in models]
+        return [one.load_factor for one in found], sum(one.history[-2].inner for one in found)
+
+    near, fewer = followed()
+    monkeypatch.setattr(tracking, "START", 1.0)
+    monkeypatch.setattr(Walk, "first", 0.3)
+    far, more = followed()
+    assert near == pytest.approx(far, rel=1e-6)
+    assert fewer < 0.95 * more
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from limitblocks.evidence.given_state import Given
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.practice import reinforced, tie
 from limitblocks.problem import Flow, State
+from limitblocks.problem.plane import Choice, mirror_of, reduced
 
 
 @pytest.mark.parametrize("name", TRUE)
@@ -65,11 +66,11 @@ def test_a_joint_that_carries_next_to_nothing_counts_by_what_it_carries():
     assert backward_error(Flow(p), replace(state, x=x)).value <= 1e-7
 
 
-@pytest.mark.parametrize(("name", "size"), [("corner", 1e-5), ("vault", 1e-5), ("vault", 1e-3)])
+@pytest.mark.parametrize(("name", "size"), [("corner", 1e-5), ("vault", 1e-5), ("vault", 3e-4)])
 def test_every_row_off_by_a_little_is_a_model_as_near(name, size):
     """Forces off by that much of what acts, rates and multipliers by as much of the largest.
 
-    In the vault off by 1e-3 rows give way one after the other: three steps do not find the mechanism.
+    In the vault off by 3e-4 rows give way one after the other: four steps do not find the mechanism.
     What is as good as still must not flow, and the flow of cones must turn less readily than it changes in
     size: else it is .04 to 1.
     """
@@ -83,7 +84,7 @@ def test_every_row_off_by_a_little_is_a_model_as_near(name, size):
     model = replace(model, live=lb.mass_proportional((0.0, 1.0, 0.0)))
     p, state = model.problem, state_of(model, lb.nonassociated(model, confirm=False))
     acting = Given(Flow(p), state).acting
-    for seed in range(3):
+    for seed in range(12):
         random = np.random.default_rng(seed)
         x = state.x + size * acting * random.uniform(-1.0, 1.0, len(state.x))
         u = state.u + size * np.abs(state.u).max() * random.uniform(-1.0, 1.0, len(state.u))
@@ -123,3 +124,17 @@ def test_what_is_off_by_little_is_no_farther_from_a_model(name):
     flow, state = flow_of(model, claim), state_of(model, claim)
     for size in (1e-5, 1e-4):
         assert size / 10 < backward_error(flow, shaken(flow.problem, state, size)).value < 5 * size
+
+
+def test_rounding_of_one_half_asks_for_no_force():
+    """Rows of a half that crush are off by 1e-16 without a force; cohesion is not."""
+    for joint, bare in (
+        (lb.OrdunaLourenco(0.7, compressive_strength=0.3e6), True),
+        (lb.OrdunaLourenco(0.7, cohesion=1e3, tensile_strength=1e3), False),
+    ):
+        vault = lb.structures.EXAMPLES["pavilion_vault"](joint)
+        p = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0))).problem
+        half = reduced(p, mirror_of(p), Choice.EVERY).problem
+        assert half.cones.margin(half.g).any()
+        none = State(0.0, np.zeros(half.C.shape[0]), np.zeros(half.C.shape[1]), np.zeros(len(half.g)))
+        assert np.isfinite(Given(Flow(half), none).force).all() is np.bool_(bare)

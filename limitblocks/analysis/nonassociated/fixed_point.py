@@ -18,7 +18,11 @@ from typing import Any
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.programs import in_cone
+from limitblocks.analysis.direct import Programs
+from limitblocks.analysis.forms import Stresses
+from limitblocks.analysis.nonassociated.frozen_flow import frozen
+from limitblocks.analysis.programs import DIRECT, in_cone
+from limitblocks.analysis.scales import scaled
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, LimitProblem, State
@@ -29,20 +33,19 @@ SETTINGS = {
     "tol_gap_rel": 1e-10,
     "tol_feas": 1e-10,
     "direct_solve_method": "qdldl",
+    "iterative_refinement_enable": False,
 }
 
 
 def frozen_mechanism(flow: Flow, x: Array) -> tuple[Array, Array] | None:
     """Rates and multipliers (u, y) of the flow frozen at x with the least gap y . (F x + g).
 
-    Beyond yield the slack counts as that of the nearest admissible one, or the gap would have no minimum.
+    They are the duals of the static program of the frozen problem. Beyond yield the slack counts as that of
+    the nearest admissible one, or the gap would have no minimum.
     """
-    problem = flow.problem
-    u, y = cp.Variable(problem.C.shape[1]), cp.Variable(len(problem.g))
-    compatible = problem.C @ u + flow.matrix(x).T @ y == 0
-    constraints = [compatible, problem.live @ u == 1, *in_cone(y, problem.cones)]
-    values = _minimised(problem.cones.nearest(problem.F @ x + problem.g) @ y, constraints, u, y)
-    return None if values is None else (values[0], values[1])
+    form = Stresses(scaled(frozen(flow, x)))
+    state = form.problem.in_problem(Programs(form).limit_state(DIRECT))
+    return (state.u, state.y) if np.isfinite(state.u).all() and np.isfinite(state.y).all() else None
 
 
 def nearest_program(
@@ -110,14 +113,6 @@ def _admissible(problem: LimitProblem, state: State) -> bool:
     unbalanced = problem.dead + state.load_factor * problem.live - problem.C.T @ state.x
     inside = problem.cones.margin(problem.F @ state.x + problem.g).min()
     return bool(np.abs(unbalanced).max() <= 1e-9 and inside >= -1e-9)
-
-
-def _minimised(
-    objective: cp.Expression, constraints: list[cp.Constraint], *variables: cp.Variable
-) -> tuple[Array, ...] | None:
-    """Values at the minimum, None if the solver leaves none."""
-    program = cp.Problem(cp.Minimize(objective), constraints)
-    return _values(lambda: program.solve(solver=cp.CLARABEL, **SETTINGS), *variables)
 
 
 def _values(solve: Callable[[], object], *variables: cp.Variable) -> tuple[Array, ...] | None:

@@ -36,15 +36,17 @@ from limitblocks.analysis.nonassociated.path_record import (
     winds,
 )
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
-from limitblocks.analysis.nonassociated.settling import FURTHER, Settling
+from limitblocks.analysis.nonassociated.settling import EXACT, FURTHER, Settling
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polished
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
-FIRST, LEAST, LONGEST = 0.3, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
+START = 0.2  # theta of the first point: above it little yields, and at 0.1 one tower finds no first point
+FIRST, LEAST, LONGEST = 0.6, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
 CUT = 0.35  # of the length after a failure
+SHORT = 0.005  # length of a step that goes across no fold
 PACE = (2.0, 2.0, 1.4, 1.0, 0.7)  # of the length after 0, 1, 2, ... correctors
 CORRECTORS = 6
 RETURNED = 1.2  # theta: the path went back beyond its start
@@ -119,13 +121,14 @@ class Walk:
 
     patience: int | None = None
     farthest = RETURNED
+    first = FIRST
     closing: Callable[[State], State] | None = None
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
         self.path, self.budget, self.progress = path, budget, progress
         self.z = Point(path.x0, np.zeros(path.flow.problem.C.shape[1]), 0.0, path.weights, path.weights, 1.0)
         self.base: Base | None = None
-        self.length, self.correctors, self.tried = FIRST, 0, TRIED
+        self.length, self.correctors, self.tried = self.first, 0, TRIED
         self.factorisations = self.failures = 0
         self.points: list[Progress] = []
         self.settling = Settling(path.flow)
@@ -138,7 +141,7 @@ class Walk:
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
         try:
-            first, self.factorisations = centred(self.path)
+            first, self.factorisations = centred(self.path, START)
             if first is None:
                 return "not centred"
             self.z = first
@@ -195,7 +198,7 @@ class Walk:
 
     def _returns(self, base: Base) -> bool:
         """Whether the corrector fell back behind the last base: the step went across a fold."""
-        if self.base is None or self.length < FIRST * CUT**4:
+        if self.base is None or self.length < SHORT:
             return False
         step = base.point.moved(-1.0, self.base.point)
         return min(base.ahead.of(step), self.base.ahead.of(step)) < 0.0
@@ -242,7 +245,7 @@ class Walk:
         self.tried = max(AGAIN, TOLERANCE / max(left, TOLERANCE)) * z.theta  # where it may solve all as it is
         state, residual = polished(flow, reached, left, patience=1)  # a point costs less than more steps
         found.keep(state, reached, residual)
-        if found.left > TOLERANCE and left < DEGENERATE:
+        if found.left > EXACT and left < DEGENERATE:
             found.keep(pivoted(flow, reached, largest=PIVOTS), reached)
         if self.closing and found.left > TOLERANCE and left < NEAR:
             found.keep(self.closing(reached), reached)

@@ -1,4 +1,4 @@
-"""The start of a path: one small elastic step from the permanent-load stresses, centred at theta = 1."""
+"""The start of a path: one small elastic step from the permanent-load stresses, centred at its theta."""
 
 from __future__ import annotations
 
@@ -77,12 +77,12 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
     raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
 
-def centred(path: Path) -> tuple[Point | None, int]:
+def centred(path: Path, theta: float = 1.0) -> tuple[Point | None, int]:
     """Return the first point of the path, None if Newton's method finds none, and the factorisations used."""
     p, cones = path.flow.problem, path.cones
     rows = p.F @ path.x0 + p.g
     s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
-    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, quotient(cones, s, path.target(1.0)), 1.0)
+    z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, quotient(cones, s, path.target(theta)), theta)
     for k in range(ITERATIONS):
         left = residuals(path, z)
         if k and distance(path, z, left) <= 1.0:

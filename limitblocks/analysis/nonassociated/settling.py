@@ -19,8 +19,7 @@ from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.problem import Flow, State
 
 EXACT = 1e-10  # residual that only a polish reaches: none of 278 rows has then a large backward error
-# Residual at which it is asked for again, and of that then: it costs 100 factorisations.
-LEFT, LESS = 1e-11, 0.1
+LESS = 0.1  # of the residual, from EXACT on, where it is asked for again: it costs 100 factorisations
 STILL = 1e-4  # change of the load factor
 # Factorisations beyond the tolerance: at most, and until the load factor is one that stands still.
 # A corner of 30 blocks moved by 1e-6 to 1e-5 m ends 26 to 1,080 beyond it.
@@ -63,7 +62,7 @@ class Settling:
             return False
         if self.left <= EXACT and self.first is None:
             return True
-        self.judged = min(LESS * self.left, LEFT)
+        self.judged = min(LESS * self.left, EXACT)
         return exact_nearby(self.flow, self.best)
 
     def stands_still(self, reached: State, factorisations: int) -> bool:

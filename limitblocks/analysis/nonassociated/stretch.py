@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.path_equations import Base, Path, Point,
 ARRIVED = 1.01  # times the last theta
 TURN = 1e-5  # of tau: how near a fold is approached, and the state after the snap
 BUDGET = 200  # factorisations; increments that succeed take 20 to 80
+FIRST = 0.3  # length of the first predictor: with .6 the peak before a snap is met less closely
 
 
 class Visit(NamedTuple):
@@ -28,6 +29,8 @@ class Visit(NamedTuple):
 
 class Stretch(Walk):
     """A walk from a point to a given theta, which keeps the points."""
+
+    first = FIRST
 
     def __init__(self, path: Path, start: Point, until: float, budget: int = BUDGET) -> None:
         super().__init__(path, budget, None)
