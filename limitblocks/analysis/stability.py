@@ -64,7 +64,7 @@ def stability(model: Model) -> Stability:
         return _answer(model, Standing.FALLS, standing_margin(model), fall=fall)
     margin = min(MOST, _margin(problem, x))
     flow, weights = Flow(problem), joint_compliance(problem)
-    own = arising(problem, weights)
+    own = arising(flow, weights)
     entries = arising_residuals(flow, weights, own) if own else ()
     if own and Residuals(entries).worst.value <= ARISEN:
         return _answer(model, Standing.STANDS, margin, x, own.x, entries)

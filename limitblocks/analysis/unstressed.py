@@ -1,6 +1,6 @@
 """The stresses that arise when the dead loads are put on unstressed blocks with slightly compliant joints.
 
-One implicit step under load control, from x = 0, of joints of one compliance W per area and zero dilatancy:
+One implicit step under load control, from x = 0, of joints of compliance W:
 
     W x = C u + G^T y,   dead = C^T x + k u,   F x + g in K,   y in K*,   (F x + g) o y = 0,
 
@@ -27,7 +27,9 @@ from limitblocks.analysis.nonassociated.stretch import Stretch
 from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem, State
 
-LEFT = 1e-10  # of the barrier at the end
+FIRST = 1.0  # barrier where a path begins, of the work of the dead loads
+LEFT = 1e-10  # at the end
+LONG = 0.6  # first predictor
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
 # nobody wedges, the step on soft springs has several solutions, and often none is found.
 SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
@@ -35,12 +37,12 @@ SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
 CARRIED = 5.0
 
 
-def joint_compliance(problem: LimitProblem) -> Array:
-    """One compliance per area, scaled so that the dead loads do unit elastic work on each part, (s,).
+def joint_compliance(problem: LimitProblem, weights: Array | None = None) -> Array:
+    """One compliance per area, or `weights`, scaled: the dead loads do unit elastic work on each part, (s,).
 
     Parts that no interface joins are problems of their own; a common scale would lose the light ones.
     """
-    p, W = problem, problem.compliance
+    p, W = problem, problem.compliance if weights is None else weights
     K = p.C.T @ sparse.diags_array(1.0 / W) @ p.C + 1e-12 * sparse.eye_array(p.C.shape[1])
     work = p.dead * linalg.spsolve(sparse.csc_array(K), p.dead)
     of_block = np.bincount(p.parts, weights=work.reshape(-1, 6).sum(axis=1))[p.parts]
@@ -48,9 +50,12 @@ def joint_compliance(problem: LimitProblem) -> Array:
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))
 
 
-def arising(problem: LimitProblem, weights: Array) -> State | None:
-    """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found."""
-    return _under_load(problem, weights)
+def arising(flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT) -> State | None:
+    """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found.
+
+    They are within yield, by what is `left` of the barrier; it begins with `first`.
+    """
+    return _under_load(flow, weights, first, left)
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:
@@ -58,7 +63,7 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
     n = problem.C.shape[1]
     on_springs = _beside(problem, sparse.eye_array(n), sparse.eye_array(n), problem.blocks)
     for stiffness in SPRINGS:
-        found = _under_load(on_springs, np.append(weights, np.full(n, 1.0 / stiffness)))
+        found = _under_load(Flow(on_springs), np.append(weights, np.full(n, 1.0 / stiffness)), FIRST, LEFT)
         if found is not None:
             x, springs = np.split(found.x, [-n])
             acting = np.abs(problem.dead) + problem.acting @ np.abs(x)
@@ -68,11 +73,12 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
 
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
-def _under_load(problem: LimitProblem, weights: Array) -> State | None:
+def _under_load(flow: Flow, weights: Array, first: float, left: float) -> State | None:
     """One implicit step from x = 0 under the dead loads.
 
     A path is under control of live.u = 1: the live load moves a coordinate of its own, tied to a spring.
     """
+    problem = flow.problem
     s, n = problem.C.shape
     controlled = _beside(
         replace(
@@ -85,16 +91,17 @@ def _under_load(problem: LimitProblem, weights: Array) -> State | None:
         sparse.eye_array(6, 1),
         ("spring",),
     )
-    flow, x0 = Flow(controlled), np.zeros(s + 1)
+    flow, x0 = replace(flow, problem=controlled), np.zeros(s + 1)
     even, elastic = problem.cones.identity, np.append(weights, 1.0)
-    path = Path(flow, Layout(flow), Barrier(1.0, power=0.0, floor=0.0), even, elastic, x0, x0)
+    path = Path(flow, Layout(flow), Barrier(first, power=0.0, floor=0.0), even, elastic, x0, x0)
     try:
         start, _ = centred(path)
     except (RuntimeError, ValueError):  # SuperLU: singular or not finite
         return None
     if start is None:
         return None
-    walk = Stretch(path, start, LEFT, BUDGET)
+    walk = Stretch(path, start, left / first, BUDGET)
+    walk.length = LONG
     if walk.go() != "arrived":
         return None
     z = walk.kept[-1]

@@ -38,7 +38,7 @@ def test_rounds_close_a_path_that_was_stopped():
     model = corner()
     problem = own_units(model, bracket(model))
     flow = Flow(problem, softening=SOFTENING)
-    x0, scale = start_stresses(model, problem, problem.compliance, None), bracket(model).associated
+    x0, scale = start_stresses(model, Flow(problem), problem.compliance, None), bracket(model).associated
     first = LARGE_MEANS[0]
     stopped = Means(first.barrier, first.seed, 60)
     power = load_scale(problem, scale) / len(problem.blocks)
@@ -87,7 +87,7 @@ def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_be
     model = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0.0, 1.0, 0.0))
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
-    x0 = start_stresses(model, problem, problem.compliance, None)
+    x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     assert closing.frozen_mechanism(flow, -x0) is not None  # tension: no gap were least
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
     state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 1, 60)], power=power)
@@ -116,14 +116,14 @@ def test_pivots_close_rounds_near_a_solution(monkeypatch):
 
 
 def test_pivots_are_not_tried_far_from_a_solution(monkeypatch):
-    """Rounds of this corner end at a residual of 3e-4, at which they would change nothing."""
+    """Where rounds of this corner end they would change nothing."""
 
     def never(*_):
         raise AssertionError("pivots cost more than the round")
 
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(closing, "pivoted", never)
-    assert lb.nonassociated(lb.structures.EXAMPLES["corner"](lb.OrdunaLourenco(0.6))).converged
+    assert lb.nonassociated(lb.structures.EXAMPLES["corner"](lb.OrdunaLourenco(0.7))).converged
 
 
 @pytest.mark.parametrize(("budget", "begin"), [(5, 0), (100, 1)])
@@ -188,7 +188,7 @@ def test_rounds_close_a_path_of_a_large_model_on_its_way(rounds, monkeypatch):
     model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
-    x0 = start_stresses(model, problem, problem.compliance, None)
+    x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
     one = Means(Barrier(3.0, 2.0, 1e-8), 1, 360)
     way = closing.Closing(flow, 1e-8) if rounds else None
@@ -283,15 +283,15 @@ def parts(state):
 
 
 def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
-    """Of corners that crush some paths leave 1e-8 to 3e-7; which ones, depends on the kernel of BLAS."""
+    """Of vaults that crush some paths leave 1e-8 to 3e-7; which ones, depends on the kernel of BLAS."""
 
-    def closes(friction, compressive_strength):
-        joint = lb.OrdunaLourenco(friction, compressive_strength=compressive_strength)
-        kind = {"length": 2.4, "return_length": 2.4, "courses": 4, "direction": (0.0, 1.0, 0.0)}
-        corner = lb.structures.corner(joint, **kind)
-        return lb.nonassociated(corner, means=MEANS[:1], confirm=False, throw=False).converged
+    def closes(friction):
+        joint = lb.OrdunaLourenco(friction, compressive_strength=0.3e6)
+        size = {"radius": 1.5, "thickness": 0.4, "length": 1.8, "courses": 7, "stones": 3}
+        vault = lb.structures.barrel_vault(joint, **size, direction=(1.0, 1.0, 0.0))
+        return lb.nonassociated(vault, means=MEANS[:1], confirm=False, throw=False).converged
 
-    corners = ((0.56, 0.3e6), (0.6, 0.3e6), (0.62, 0.3e6))
-    assert all(closes(*one) for one in corners)
+    vaults = (0.59, 0.6)
+    assert all(map(closes, vaults))
     monkeypatch.setattr(ways, "pivoted", lambda flow, state: state)
-    assert not all(closes(*one) for one in corners)
+    assert not all(map(closes, vaults))

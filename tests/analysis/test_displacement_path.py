@@ -11,7 +11,8 @@ from limitblocks.analysis.nonassociated.closing import Closing
 from limitblocks.analysis.nonassociated.contact_points import ContactPoints, contact_points
 from limitblocks.analysis.nonassociated.displacement_path import ROUNDED, pushed_over
 from limitblocks.analysis.nonassociated.means import LARGE_MEANS
-from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, permanent
+from limitblocks.analysis.nonassociated.permanent import permanent_state
+from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units
 from limitblocks.analysis.polish import defect
 from limitblocks.practice import reinforced, tie
 from limitblocks.problem import Flow
@@ -80,7 +81,10 @@ def solved(model, record=lambda _: None):
     """The solution of Eqs (54)-(59) that the path leads to, its load factor, and the flow rule."""
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
-    x0, scale = permanent(problem, problem.compliance), load_scale(problem, bracket(model).associated)
+    x0, scale = (
+        permanent_state(Flow(problem), problem.compliance),
+        load_scale(problem, bracket(model).associated),
+    )
     state, _ = pushed_over(flow, x0, scale, Closing(flow, 1e-8), record)
     return state.load_factor / problem.units.live, defect(flow, state)
 
@@ -146,7 +150,7 @@ def test_the_path_starts_where_rounded_corners_carry_less_than_the_permanent_loa
 def test_a_solution_far_from_the_path_is_not_where_it_ends(monkeypatch):
     """Rounds led a facade of 223 blocks, pushed along, from .1812 to .1731; the path goes on, to .1827."""
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=4.0).problem
-    x0, found = permanent(problem, problem.compliance), []
+    x0, found = permanent_state(Flow(problem), problem.compliance), []
 
     def closing(state):
         found.append(replace(state, load_factor=state.load_factor * (1.001 if found else 0.99)))
@@ -160,7 +164,7 @@ def test_a_solution_far_from_the_path_is_not_where_it_ends(monkeypatch):
 
 def test_the_solution_far_from_the_path_is_given_where_there_is_no_other(monkeypatch):
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=4.0).problem
-    x0, found = permanent(problem, problem.compliance), []
+    x0, found = permanent_state(Flow(problem), problem.compliance), []
 
     def closing(state):
         found.append(replace(state, load_factor=0.99 * state.load_factor))
@@ -233,7 +237,7 @@ def test_a_singular_start_is_no_path(monkeypatch):
 
     monkeypatch.setattr(displacement_path.DisplacementPath, "_factors", singular)
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=1.0).problem
-    x0 = permanent(problem, problem.compliance)
+    x0 = permanent_state(Flow(problem), problem.compliance)
     assert pushed_over(Flow(problem), x0, 1.0, lambda state: state, lambda _: None) is None
 
 

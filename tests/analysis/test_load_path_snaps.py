@@ -13,7 +13,7 @@ from limitblocks import structures
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import loading, loop, ways
 from limitblocks.analysis.nonassociated.increment import Increment, Tried
-from limitblocks.analysis.nonassociated.start import permanent
+from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.stretch import Visit
 from limitblocks.problem import Flow
 from limitblocks.structures.convex import hull
@@ -301,7 +301,9 @@ def test_a_polish_that_leads_elsewhere_is_no_end_of_increments(monkeypatch):
     """Nonassociated took it for one that the load path leads to."""
     monkeypatch.setattr(loading, "polish", lambda _, at: replace(at, load_factor=2.0 * at.load_factor))
     problem = structures.wall(lb.PointContact(0.65), length=1.2, courses=4).problem
-    given = ways.Given(Flow(problem), permanent(problem, problem.compliance), 1.0, 1e-8, (met := []).append)
+    given = ways.Given(
+        Flow(problem), permanent_state(Flow(problem), problem.compliance), 1.0, 1e-8, (met := []).append
+    )
     monkeypatch.setattr(ways, "STEPS", lb.settings.Settings(budget=60))
     state, how = given.increments()
     assert how == "increments of the load path"

@@ -6,7 +6,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis import pivot
 from limitblocks.analysis.nonassociated import path
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.means import MEANS
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.pivot import pivoted
@@ -39,7 +39,7 @@ def test_the_load_path_is_closed_early_where_it_is_not_plain_what_yields(monkeyp
 def test_a_state_off_a_solution_is_taken_to_one(joint, about, dilatancy):
     problem = lb.structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)).problem
     flow = Flow(problem, dilatancy, about)
-    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    solution, _ = track(flow, least_state(problem, problem.compliance).x, problem.compliance)
     random = np.random.default_rng(0)
     off = (v + 1e-5 * random.uniform(-1.0, 1.0, v.shape) for v in (solution.x, solution.u, solution.y))
     rough = State(solution.load_factor + 1e-5, *off)
@@ -52,7 +52,7 @@ def test_steps_close_without_newtons_method(monkeypatch):
     monkeypatch.setattr(pivot, "polished", lambda _, state, left, **__: (state, left))
     problem = lb.structures.wall(lb.PointContact(0.6), length=1.6, courses=4).problem
     flow = Flow(problem)
-    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    solution, _ = track(flow, least_state(problem, problem.compliance).x, problem.compliance)
     random = np.random.default_rng(0)
     off = (v + 1e-3 * random.uniform(-1.0, 1.0, v.shape) for v in (solution.x, solution.u, solution.y))
     rough = State(solution.load_factor + 1e-3, *off)
@@ -63,7 +63,7 @@ def test_a_block_that_slides_and_tips_at_once():
     """Friction 0.5 and half a width over half a height 0.5: both yield, one of them at rest."""
     problem = lb.structures.block(lb.PointContact(0.5), width=1.0, height=2.0).problem
     flow = Flow(problem)
-    x0 = permanent_state(problem, problem.compliance)
+    x0 = least_state(problem, problem.compliance).x
     early, _ = track(flow, x0, problem.compliance, budget=12)
     found = pivoted(flow, early)
     assert defect(flow, found) <= 1e-8
@@ -80,7 +80,7 @@ def test_what_it_cannot_better_it_returns():
 def test_nothing_is_done_where_too_many_rows_are_open():
     problem = lb.structures.wall(CRUSHING, length=0.8, courses=3).problem
     flow = Flow(problem)
-    early, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance, budget=12)
+    early, _ = track(flow, least_state(problem, problem.compliance).x, problem.compliance, budget=12)
     assert pivoted(flow, early, largest=0) is early
 
 
@@ -99,7 +99,7 @@ def test_a_state_that_ran_away_stays_where_it_is(joint, part, number):
 @pytest.mark.parametrize("columns", [1, pivot.COLUMNS, 2 * pivot.COLUMNS + 1])
 def test_as_many_columns_as_there_are_are_solved(columns):
     problem = lb.structures.wall(lb.PointContact(0.6), length=0.8, courses=3).problem
-    x = permanent_state(problem, problem.compliance)
+    x = least_state(problem, problem.compliance).x
     still = State(0.0, x, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))
     linear = pivot._Linearised(Flow(problem), still, 1e-4)
     J, _ = linear._system

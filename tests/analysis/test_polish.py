@@ -6,7 +6,7 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis import polish as polishing
 from limitblocks.analysis.nonassociated import path as paths
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.polish import Kind, classified, defect, polish
 from limitblocks.problem import ASSOCIATED, Cones, Flow, State, Turning
@@ -35,7 +35,7 @@ def test_a_rough_state_is_polished_to_rounding(joint, flow, monkeypatch):
     monkeypatch.setattr(paths, "TRIED", 1e-3)
     problem = lb.structures.wall(joint, length=0.8, courses=3, direction=(0.8, 0.6, 0)).problem
     rule = Flow(problem, **FLOWS[flow])
-    solution, path = track(rule, permanent_state(problem, problem.compliance), problem.compliance)
+    solution, path = track(rule, least_state(problem, problem.compliance).x, problem.compliance)
     assert path.residual <= 1e-10
     rough = noisy(solution, 1e-5)
     assert defect(rule, rough) > 1e-6
@@ -47,7 +47,7 @@ def test_where_it_is_plain_which_planes_yield_one_step_ends_at_rounding(joint, m
     """The equations are linear then; without refinement the proximal term leaves a part of the first step."""
     problem = lb.structures.arch(joint, radius=5.0, thickness=1.0, voussoirs=15).problem
     flow, made = Flow(problem), []
-    solution, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    solution, _ = track(flow, least_state(problem, problem.compliance).x, problem.compliance)
     factors = polishing.factors_in_order
     monkeypatch.setattr(polishing, "factors_in_order", lambda *given: (made.append(1), factors(*given))[1])
     assert defect(flow, polish(flow, noisy(solution, 1e-6), until=1e-13)) <= 1e-13
@@ -64,7 +64,7 @@ def test_the_polish_returns_what_it_cannot_better():
 def test_a_solution_stays_as_it_is():
     problem = lb.structures.block(lb.OrdunaLourenco(0.4), width=1.0, height=1.0).problem
     flow = Flow(problem)
-    state, _ = track(flow, permanent_state(problem, problem.compliance), problem.compliance)
+    state, _ = track(flow, least_state(problem, problem.compliance).x, problem.compliance)
     assert polish(flow, state, until=1e-9) is state
 
 

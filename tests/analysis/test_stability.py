@@ -213,7 +213,7 @@ FALSE = {
 def test_false_states_that_do_not_arise_are_refused_by_the_residual_that_names_it(name):
     problem = between_walls(lb.OrdunaLourenco(0.3), 20.0).problem
     weights = joint_compliance(problem)
-    z = arising(problem, weights)
+    z = arising(Flow(problem), weights)
     state = State(0.0, z.x, z.u, z.y)
     flow = Flow(problem)
     assert Residuals(arising_residuals(flow, weights, state)).worst.value < 1e-8
@@ -326,7 +326,7 @@ def test_which_joints_are_stiff_can_decide_whether_friction_holds():
         problem = lb.structures.EXAMPLES["arch, vertical joints"](lb.OrdunaLourenco(friction)).problem
         factor = np.exp(np.random.default_rng(seed).normal(size=len(problem.interfaces)))
         weights = joint_compliance(problem) * factor[problem.stress_interface]
-        own = arising(problem, weights)
+        own = arising(Flow(problem), weights)
         return (
             own is not None and Residuals(arising_residuals(Flow(problem), weights, own)).worst.value < 1e-6
         )

@@ -131,9 +131,9 @@ def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypa
         "limitblocks.analysis.in_plane.mirror_of", lambda problem: None
     )  # one half comes before
     door = [(1.2, 0.0, 0.8, 1.2)]
-    joint = lb.OrdunaLourenco(0.8, compressive_strength=0.3e6)
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=0.3e6)
     model = structures.facade(
-        joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=(0, 1, 0)
+        joint, length=3.2, courses=5, return_length=1.6, openings=door, direction=(1, 1, 0)
     )
     assert not lb.nonassociated(model, means=MEANS[:1], throw=False).converged
     found = lb.nonassociated(model, means=(MEANS[0], Means(Barrier(3.0), 1, 1)))
@@ -142,9 +142,9 @@ def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypa
 
 
 def test_pivots_close_what_rounds_leave_open(monkeypatch):
-    """One round in place of three."""
-    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.6), (1, 1, 0))
-    means = (Means(Barrier(), 1, 60), Means(Barrier(), 1, 1))
+    """One round in place of two."""
+    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.5), (1, 1, 0))
+    means = (Means(Barrier(), 1, 40), Means(Barrier(), 1, 1))
     assert lb.nonassociated(model, means=means).how.endswith("1 round of the fixed point")
     monkeypatch.setattr(closing, "pivoted", partial(polish, patience=2))
     assert lb.nonassociated(model, means=means).how.endswith("rounds of the fixed point")

@@ -90,7 +90,7 @@ def test_paths_from_the_solution_about_the_centroid_lead_to_ones_of_table_5():
     enclosing = bracket(model)
     problem = own_units(model, enclosing)
     flow = Flow(problem, 0.0, Turning.PRESSURE)
-    x0 = start_stresses(model, problem, problem.compliance, lb.nonassociated(model))
+    x0 = start_stresses(model, Flow(problem), problem.compliance, lb.nonassociated(model))
     power = load_scale(problem, enclosing.associated) / len(problem.blocks)
     for softening, means in product(closed, TURNED_MEANS[:4]):
         softened = replace(flow, softening=softening)

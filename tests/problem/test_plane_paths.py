@@ -14,7 +14,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
+from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.means import follow
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.evidence.residuals import mcp_residuals
@@ -68,7 +68,7 @@ def test_associated_flow_in_the_plane_has_the_load_factor_of_the_bounds(name):
     model = structures.ferris_tin_loi_wall(1, JOINTS[name])
     plane, weights = in_plane(model.problem, Choice.FLOWING), model.problem.compliance
     flow = Flow(plane.problem, ASSOCIATED)
-    x0 = permanent_state(plane.problem, plane.compliance_of(weights))
+    x0 = least_state(plane.problem, plane.compliance_of(weights)).x
     power = load_scale(plane.problem, lb.bounds(model).upper) / len(model.free_blocks)
     state, _ = follow(flow, x0, plane.compliance_of(weights), power=power)
     assert state.load_factor / plane.problem.units.live == pytest.approx(lb.bounds(model).upper, rel=1e-6)

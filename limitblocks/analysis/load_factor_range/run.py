@@ -111,7 +111,7 @@ def _task(model: Model, flow: Flow, enclosing: Bracket, progress: Progress | Non
             factor = float(state.load_factor / problem.units.live) if state else known
             progress(Iteration(factor, how, 0.0, {}, 0, 0))
 
-    x0 = start_stresses(model, problem, problem.compliance, None)
+    x0 = start_stresses(model, flow, problem.compliance, None)
     return Task(model, flow, enclosing, x0, scale, Collected(flow, limits, scale, endless), tell)
 
 

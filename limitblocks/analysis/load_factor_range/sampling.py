@@ -10,12 +10,12 @@ from typing import NamedTuple
 import cvxpy as cp
 import numpy as np
 
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
 from limitblocks.analysis.nonassociated.loading import pushed
 from limitblocks.analysis.nonassociated.means import MEANS, SOFTENING, Means
 from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import UNSETTLED
+from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
@@ -115,7 +115,7 @@ class Sampler:
         shear[places.col[np.isin(places.row % 6, (0, 1))]] = True
         factors = ratios[0][p.stress_interface] + np.where(shear, ratios[1][0], 0.0)
         weights = p.compliance * STIFFNESS**factors
-        return self._tracked(means, permanent_state(p, weights), weights)
+        return self._tracked(means, permanent_state(self.flow, weights), weights)
 
     def _stepped(self, random: Array) -> State | None:
         x0 = self._permanent(random)

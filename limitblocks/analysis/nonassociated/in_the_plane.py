@@ -16,7 +16,8 @@ from limitblocks.analysis.interior import carried
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
-from limitblocks.analysis.nonassociated.start import Start, permanent, start_stresses
+from limitblocks.analysis.nonassociated.permanent import permanent_state
+from limitblocks.analysis.nonassociated.start import Start, start_stresses
 from limitblocks.analysis.nonassociated.ways import Half, no_half
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
@@ -84,7 +85,7 @@ def flow_in_plane(
         return None
     plane = _in_units_of(model, flow.problem, choice)
     own = plane.compliance_of(weights)
-    x0 = None if own is None else _start(model, flow.problem, plane, own, weights, start)
+    x0 = None if own is None else _start(model, flow, plane, own, weights, start)
     if own is None or x0 is None:
         return None
     return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
@@ -130,20 +131,20 @@ def found_in_plane_or_whole(
         state, how = solve(one.flow, one.x0, no_half)
         return one.plane.lifted(state), way_in_plane(how, IN_HALF)
 
-    return solve(flow, start_stresses(model, flow.problem, weights, start), half)
+    return solve(flow, start_stresses(model, flow, weights, start), half)
 
 
 def _start(
-    model: Model, problem: LimitProblem, plane: Planar, own: Array, weights: Array, start: Start | None
+    model: Model, flow: Flow, plane: Planar, own: Array, weights: Array, start: Start | None
 ) -> Array | None:
-    """Stresses of the plane to start from: given, or the least under the dead loads, which stand."""
+    """Stresses of the plane to start from: given, or those of the dead loads, which stand."""
     if start is not None:
-        x = start_stresses(model, problem, weights, start)
+        x = start_stresses(model, flow, weights, start)
         return plane.stresses_of(x) if plane.symmetric(x) else None
     if carried(model.problem) is None:
         dead_load_state(model.problem)
-    usual = _in_units_of(model, problem, Choice.FLOWING)  # one for all choices of rows
-    return permanent(usual.problem, own)
+    usual = _in_units_of(model, flow.problem, Choice.FLOWING)  # one for all choices of rows
+    return permanent_state(replace(flow, problem=usual.problem), own)
 
 
 def way_in_plane(how: str, where: str = "in the plane") -> str:

@@ -1,4 +1,4 @@
-"""State of the permanent loads: of all stresses within yield that carry them, those of least norm.
+"""Of all stresses within yield that carry the dead loads, those of least norm.
 
 The norm x^T W x is the elastic energy of joints of compliance W. Matrices and solvers are called as they are:
 cvxpy took longer over this program than they do.
@@ -15,7 +15,7 @@ from scipy import sparse
 from limitblocks.analysis.conic import Conic
 from limitblocks.analysis.direct import FIXED, solution
 from limitblocks.arrays import Array
-from limitblocks.problem import LimitProblem
+from limitblocks.problem import LimitProblem, State
 
 # Polishing solves the equations of the active rows: after 50 to 225 steps if at all, to rounding.
 OSQP = {"eps_abs": 1e-5, "eps_rel": 1e-5, "max_iter": 500, "polishing": True, "verbose": False}
@@ -24,20 +24,21 @@ CLARABEL = FIXED | {"tol_gap_abs": 1e-10, "tol_gap_rel": 1e-10, "tol_feas": 1e-1
 ACCURATE = 1e-7
 
 
-def permanent_state(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses under the dead loads alone of least norm x^T W x; None if no solver finds them.
+def least_state(problem: LimitProblem, weights: Array) -> State | None:
+    """Stresses of least norm x^T W x under the dead loads alone, and their multipliers; None if not found.
 
-    Where all rows are planes, OSQP finds them fastest and to rounding. Otherwise, and for cones, Clarabel.
-    What a solver says is believed if the conditions of the minimum hold, recomputed.
+    They fulfil W x = C u + F^T y. Where all rows are planes, OSQP finds them fastest and to rounding;
+    otherwise, and for cones, Clarabel. What a solver says is believed if the conditions of the minimum hold,
+    recomputed.
     """
     if not problem.dead.any() and problem.cones.margin(problem.g).min(initial=0.0) >= 0.0:
-        return np.zeros(len(weights))
-    x = None if problem.cones.second_order else by_planes(problem, weights)
-    return by_cones(problem, weights) if x is None else x
+        return State(0.0, *(np.zeros(size) for size in (*problem.C.shape, len(problem.g))))
+    found = None if problem.cones.second_order else by_planes(problem, weights)
+    return by_cones(problem, weights) if found is None else found
 
 
-def by_planes(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses of least norm x^T W x by OSQP; None where they do not meet the conditions."""
+def by_planes(problem: LimitProblem, weights: Array) -> State | None:
+    """The state of least norm x^T W x by OSQP; None where it does not meet the conditions."""
     A = sparse.csc_matrix(sparse.vstack([problem.C.T, problem.F]))
     least = np.append(problem.dead, -problem.g)
     most = np.append(problem.dead, np.full(len(problem.g), np.inf))
@@ -52,8 +53,8 @@ def by_planes(problem: LimitProblem, weights: Array) -> Array | None:
     return _believed(problem, weights, found.x, found.y)
 
 
-def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
-    """Stresses of least norm x^T W x by Clarabel; None where they do not meet the conditions."""
+def by_cones(problem: LimitProblem, weights: Array) -> State | None:
+    """The state of least norm x^T W x by Clarabel; None where it does not meet the conditions."""
     A = sparse.csc_array(sparse.vstack([problem.C.T, -problem.F]))
     program = Conic(np.zeros(len(weights)), A, np.append(problem.dead, problem.g), problem.cones, weights)
     found = solution(program, CLARABEL)
@@ -61,9 +62,10 @@ def by_cones(problem: LimitProblem, weights: Array) -> Array | None:
     return _believed(problem, weights, np.array(found.x), np.append(dual[:n], -dual[n:]))
 
 
-def _believed(problem: LimitProblem, weights: Array, x: Array, dual: Array) -> Array | None:
+def _believed(problem: LimitProblem, weights: Array, x: Array, dual: Array) -> State | None:
     n = problem.C.shape[1]
-    return x if violation(problem, weights, x, -dual[:n], -dual[n:]) <= ACCURATE else None
+    state = State(0.0, x, -dual[:n], -dual[n:])
+    return state if violation(problem, weights, x, state.u, state.y) <= ACCURATE else None
 
 
 @np.errstate(all="ignore")  # a state that ran away is not believed

@@ -68,13 +68,13 @@ def load_path(
 ) -> LoadPath:
     """Return the states through which the structure goes from the permanent loads to collapse.
 
-    The blocks are rigid and the joints slightly compliant. The first state is that of the permanent loads
-    of least elastic energy; increments of the displacement on which the live load works follow, each from
-    the stresses that the one before left, with slip and opening that do not go back. Each is followed by
-    arclength: where the displacement has to fall before it can grow again the structure snaps. At collapse
-    the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold. What is unique:
-    the way, for the compliance and the increments given. What is not: the permanent-load state without
-    the compliance, and the collapse load itself.
+    The blocks are rigid and the joints slightly compliant. The first state is what joints bear once the
+    permanent loads are put on unstressed blocks; increments of the displacement on which the live load works
+    follow, each from the stresses that the one before left, with slip and opening that do not go back. Each
+    is followed by arclength: where the displacement has to fall before it can grow again the structure snaps.
+    At collapse the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold.
+    What is unique: the way, for the compliance and the increments given. What is not: the permanent-load
+    state without the compliance, and the collapse load itself.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ def load_path(
     found = _at_once(model, flow, enclosing, weights, tolerance) if start is None else None
     if found is None and planar:
         found = _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
-    found = found or load(flow, start_stresses(model, problem, weights, start), weights)
+    found = found or load(flow, start_stresses(model, flow, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
     record(end(flow, found.last))
@@ -209,7 +209,7 @@ def _at_once(
     last = solving_state(model, flow, enclosing, None, tolerance) if enclosing.nothing else None
     if last is None:
         return None
-    x0 = start_stresses(model, flow.problem, weights, None)
+    x0 = start_stresses(model, flow, weights, None)
     return _Loaded(x0, (), last, AT_ONCE, "")
 
 

@@ -156,7 +156,7 @@ def end_of_first_path(
     weights = flow.problem.compliance
     planar = flow_in_plane(model, flow, weights, start)
     if planar is None:
-        at, x0, half = flow, start_stresses(model, flow.problem, weights, start), _not_looked_for
+        at, x0, half = flow, start_stresses(model, flow, weights, start), _not_looked_for
     else:
         at, x0, half = planar.flow, planar.x0, no_half
     scale = load_scale(at.problem, associated)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from limitblocks.analysis.bounds import bounds
 from limitblocks.analysis.interior import carried
-from limitblocks.analysis.nonassociated.least_norm import permanent_state
+from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.without_shear import load_factor_without_shear
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
@@ -135,9 +135,13 @@ def state_of(model: Model, problem: LimitProblem, result: Bounds | Nonassociated
 
 
 def load_scale(problem: LimitProblem, associated: float) -> float:
-    """Dimensionless load factor that paths are measured by; that of the dead loads where none limits them."""
-    limit, dead = associated * problem.units.live, float(np.linalg.norm(problem.dead))
-    return limit if 0.0 < limit < np.inf else (dead or 1.0) / float(np.linalg.norm(problem.live))
+    """Dimensionless load factor that paths are measured by: the associated one, or that of the dead loads.
+
+    The lesser of them: where blocks are wedged nothing but crushing may limit the associated one.
+    """
+    limit, live = associated * problem.units.live, float(np.linalg.norm(problem.live))
+    dead = float(np.linalg.norm(problem.dead)) / live
+    return min((scale for scale in (limit, dead) if 0.0 < scale < np.inf), default=1.0 / live)
 
 
 def refuse_jammed(enclosing: Bracket) -> None:
@@ -159,8 +163,8 @@ def refuse_unlimited(flow: Flow, associated: float) -> None:
         raise UnlimitedLoad("with dilatancy equal to friction the live load can grow without limit")
 
 
-def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: Start | None) -> Array:
-    """Dimensionless stresses to start from: given, or the least under the dead loads, proven to balance them.
+def start_stresses(model: Model, flow: Flow, weights: Array, start: Start | None) -> Array:
+    """Dimensionless stresses to start from: given, or those of the dead loads, proven to balance them.
 
     Raises
     ------
@@ -168,20 +172,13 @@ def start_stresses(model: Model, problem: LimitProblem, weights: Array, start: S
         The state given belongs to another model, or it is not in equilibrium within yield.
     """
     if start is not None:
-        return _given(model, problem, start)
+        return _given(model, flow.problem, start)
     if carried(model.problem) is None:  # a least-norm state of what falls may look like one
         dead_load_state(model.problem)
-    x = permanent(problem, weights)
+    x = permanent_state(flow, weights)
     if x is None:
         raise SolveError("no state of the permanent loads was found, though they stand")
     return x
-
-
-def permanent(problem: LimitProblem, weights: Array) -> Array | None:
-    """Least stresses under the permanent loads, the same to the last digit whichever analysis asks first."""
-    ratios = np.round(weights / problem.compliance, 9)
-    kept = ("permanent state", ratios.tobytes())
-    return known(problem, kept, lambda: permanent_state(problem, ratios * problem.compliance))
 
 
 def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:

@@ -83,8 +83,13 @@ class Stretch(Walk):
 
     def _predict(self) -> None:
         super()._predict()
-        if self.base is not None and self.z.theta < self._stop:
-            start, tangent = moved(self.path, self.base.point, 1.0, self.base.correction), self.base.tangent
+        if self.base is None or self.z.theta >= self._stop:
+            return
+        z, correction, tangent, _ = self.base
+        start = moved(self.path, z, 1.0, correction)
+        if start.theta < self._stop < z.theta:  # the end is on the way to the corrected point
+            self.z = moved(self.path, z, (self._stop - z.theta) / correction.theta, correction)
+        else:
             self.z = moved(self.path, start, (self._stop - start.theta) / tangent.theta, tangent)
 
     def visits(self, rho: float) -> tuple[Visit, ...]:

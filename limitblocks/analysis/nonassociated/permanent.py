@@ -1,0 +1,64 @@
+"""State of the permanent loads: what joints bear once the dead loads are put on unstressed blocks.
+
+One implicit step of joints of compliance W, with the flow of the analysis:
+
+    W x = C u + G^T y,   dead = C^T x,   F x + g in K,   y in K*,   (F x + g) o y = 0
+
+(:mod:`limitblocks.analysis.unstressed`). For associated flow, G = F, that is the state of least norm x^T W x.
+Such a state leans on dilatancy: a stone between two heavy ones gives them part of its weight, for which they
+have to be pressed apart, and then friction at its sides resists the live load as well.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from limitblocks.analysis.nonassociated.least_norm import least_state
+from limitblocks.analysis.unstressed import arising, joint_compliance
+from limitblocks.arrays import Array
+from limitblocks.evidence.residuals import Residuals, static_residuals
+from limitblocks.known import known
+from limitblocks.problem import Flow, State, Turning
+
+DILATES = 1e-6  # of the elastic energy: from 1e-4 on where stresses change, up to 1e-10 elsewhere
+# Barriers where paths begin, tried in turn: the small one takes a third of the factorisations, but may find
+# nothing where the dead loads hardly stand
+FIRST = (1e-5, 1.0)
+LEFT = 1e-9  # of the barrier: stresses are off by at most 1e-3 of the largest
+ADMISSIBLE = 1e-8  # residual of equilibrium and yield
+
+
+def permanent_state(flow: Flow, weights: Array) -> Array | None:
+    """Return the stresses under the dead loads that joints of compliance `weights` bear, (s,).
+
+    Where no path leads to any, as where nothing but self-stress holds a block, those of least norm; None
+    where there are none either. What twists turns about the centroid. The same to the last digit whichever
+    analysis asks first.
+    """
+    ratios = np.round(weights / flow.problem.compliance, 9)
+    flow = replace(flow, turning=Turning.CENTROID)
+    kept = ("permanent state", ratios.tobytes(), flow.dilatancy)
+    return known(flow.problem, kept, lambda: _permanent_state(flow, ratios * flow.problem.compliance))
+
+
+def _permanent_state(flow: Flow, weights: Array) -> Array | None:
+    p = flow.problem
+    if not p.cones.second_order or flow.associated or not p.dead.any():  # planes cost little
+        least = least_state(p, weights)
+        if least is not None and not _dilates(flow, weights, least):
+            return least.x
+    scaled = joint_compliance(p, weights)
+    for first in FIRST:
+        found = arising(flow, scaled, first, LEFT)
+        if found is not None and Residuals(static_residuals(p, 0.0, found.x)).worst.value <= ADMISSIBLE:
+            return found.x
+    found = least_state(p, weights)
+    return None if found is None else found.x
+
+
+def _dilates(flow: Flow, weights: Array, least: State) -> bool:
+    """Whether normal forces of the state of least norm work on the dilatancy that it has and flow has not."""
+    other = flow.problem.F.T @ least.y - flow.strains(least.x, least.y)
+    return bool(np.abs(least.x * other).sum() > DILATES * (least.x @ (weights * least.x)))
