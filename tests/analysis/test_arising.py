@@ -30,9 +30,15 @@ def test_what_arises_hardly_depends_on_the_barrier(joint):
     assert np.abs(found - exact).max() < 2e-3 * np.abs(exact).max()
 
 
-def test_plane_models_whose_state_of_least_norm_does_not_dilate_take_no_path(monkeypatch):
-    """Multipliers of joints that carry nothing dilate: no normal force works on that."""
-    monkeypatch.setattr(permanent, "arising", None)
-    joint = lb.PointContact(0.7, cone="inner")
-    problem = lb.structures.arch(joint, radius=1.0, thickness=0.3, voussoirs=9).problem
-    assert permanent_state(Flow(problem), problem.compliance) is not None
+def test_where_the_dead_loads_hardly_stand_a_path_from_a_large_barrier_finds_what_arises():
+    """Of three boxes the light uppermost one overhangs by .45 of its length, and falls beyond half of it."""
+    blocks = [lb.Block.box("ground", (20.0, 20.0, 1.0), (0.0, 0.0, -0.5))]
+    for k, (x, weight) in enumerate(((0.0, 20e3), (0.0, 20e3), (0.45, 20.0))):
+        blocks.append(lb.Block.box(f"box {k}", (1.0, 1.0, 1.0), (x, 0.0, k + 0.5), weight))
+    joints = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
+    push = lb.mass_proportional((1.0, 0.0, 0.0))
+    problem = lb.Model(blocks, ["ground"], joints, lb.self_weight(), push).problem
+    flow, W = Flow(problem), joint_compliance(problem)
+    small, large = (arising(flow, W, first, permanent.LEFT) for first in permanent.FIRST)
+    assert small is None
+    np.testing.assert_array_equal(permanent_state(flow, problem.compliance), large.x)

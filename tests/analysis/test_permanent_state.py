@@ -139,6 +139,13 @@ def test_no_friction_without_normal_force_beside_a_cube_that_stands_on_its_base(
     assert lb.load_path(model).collapse.load_factor == pytest.approx(FRICTION, rel=2e-3)
 
 
+def test_barriers_are_not_measured_by_what_only_crushing_limits():
+    """Between fixed stones the associated one is 94, and a barrier in its measure held the cube at 7.9."""
+    found = lb.nonassociated(between(None, BESIDE[1]))
+    assert found.associated > 50.0
+    assert FRICTION <= found.load_factor < 1.5 * FRICTION
+
+
 @pytest.mark.parametrize("name", ["eccentric_lintel", "pavilion_vault", "cantilever_stair", "facade"])
 @pytest.mark.parametrize("joint", [lb.OrdunaLourenco(0.6), lb.PointContact(0.6)], ids=repr)
 def test_permanent_state_is_a_fixed_point_of_frozen_friction(name, joint):
@@ -171,7 +178,7 @@ def test_where_only_self_stress_holds_a_block_the_permanent_state_is_that_of_lea
 
 
 def test_plane_models_whose_least_state_does_not_dilate_take_no_path(monkeypatch):
-    """Of an arch that stands on its joints inside yield, but for two that flow at no force."""
+    """Multipliers of joints of this arch that carry nothing dilate: no normal force works on that."""
     monkeypatch.setattr(permanent, "arising", None)
     problem = lb.structures.arch(
         lb.PointContact(0.7, cone="inner"), radius=1.0, thickness=0.3, voussoirs=9
