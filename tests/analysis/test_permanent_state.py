@@ -175,6 +175,14 @@ def test_where_only_self_stress_holds_a_block_the_permanent_state_is_that_of_lea
     problem = model.problem
     x = permanent_state(Flow(problem), problem.compliance)
     np.testing.assert_array_equal(x, least_state(problem, problem.compliance).x)
+    found = lb.nonassociated(model)
+    for one in (lb.load_path(model, throw=False).collapse, found):
+        assert any("no stresses were found that arise" in remark for remark in one.remarks)
+    for start in (x * problem.stress_units, found):
+        given = lb.nonassociated(model, start=start)
+        assert not any("arise under the dead loads" in remark for remark in given.remarks)
+    free = lb.nonassociated(between(None, lb.PointContact(0.7)))
+    assert not any("arise under the dead loads" in remark for remark in free.remarks)
 
 
 def test_plane_models_whose_least_state_does_not_dilate_take_no_path(monkeypatch):

@@ -60,10 +60,12 @@ def finished(
     confirm: bool = True,
     limit: float | None = None,
     why: str = "",
+    said: tuple[str, ...] = (),
 ) -> Nonassociated:
     """The result of a state, raised as NotConverged where its residuals are above the tolerance.
 
     With a `limit` of the backward error, unless that is within it; the error says `why`, if that is known.
+    What is `said` already stands first among the remarks.
     """
     problem = flow.problem
     state, error, change, stopped = _evidence(model, state, flow, tolerance, confirm, limit)
@@ -77,7 +79,7 @@ def finished(
     if status is Status.OUT_OF_STEPS and within(error, residuals, tolerance, limit):
         status = Status.NEARBY
     remarks = _remarks(model, state, flow, how if status is Status.CONVERGED else "", tolerance)
-    remarks = (*_of_load_factor(si.load_factor, enclosing, status, why, tolerance), *remarks)
+    remarks = (*said, *_of_load_factor(si.load_factor, enclosing, status, why, tolerance), *remarks)
     remarks += (*unconfirmed(change), *far, *(UNCHECKED,) * (stopped and residuals.worst.value <= tolerance))
     claimed = enclosing.of(flow)
     result = Nonassociated(

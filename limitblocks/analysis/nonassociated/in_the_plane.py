@@ -16,7 +16,7 @@ from limitblocks.analysis.interior import carried
 from limitblocks.analysis.nonassociated.loading import ADMISSIBLE, Pushed
 from limitblocks.analysis.nonassociated.path_equations import Point
 from limitblocks.analysis.nonassociated.path_record import IN_HALF, INTERRUPTED
-from limitblocks.analysis.nonassociated.permanent import permanent_state
+from limitblocks.analysis.nonassociated.permanent import arose, permanent_state
 from limitblocks.analysis.nonassociated.start import Start, start_stresses
 from limitblocks.analysis.nonassociated.ways import Half, no_half
 from limitblocks.analysis.stability import dead_load_state
@@ -26,6 +26,12 @@ from limitblocks.known import known
 from limitblocks.model import Model
 from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar
+
+PRESTRESSED = (
+    "no stresses were found that arise under the dead loads without dilatancy: the path starts from those of "
+    "least elastic energy, for which something may have to press the blocks together; stability says whether "
+    "they stand without"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,6 +95,13 @@ def flow_in_plane(
     if own is None or x0 is None:
         return None
     return InPlane(flow, plane, replace(flow, problem=plane.problem), x0, own)
+
+
+def by_self_stress(model: Model, flow: Flow, weights: Array) -> tuple[str, ...]:
+    """What is said where paths start from stresses that do not arise under the dead loads."""
+    planar = flow_in_plane(model, flow, weights, None)
+    at, own = (flow, weights) if planar is None else (planar.flow, planar.weights)
+    return () if arose(at, own) else (PRESTRESSED,)
 
 
 def plane_of(model: Model, problem: LimitProblem, x: Array) -> Planar | None:

@@ -8,7 +8,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from limitblocks.analysis.nonassociated.finished import end, finished
-from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, flow_in_plane, way_in_plane
+from limitblocks.analysis.nonassociated.in_the_plane import (
+    InPlane,
+    admissible,
+    by_self_stress,
+    flow_in_plane,
+    way_in_plane,
+)
 from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed, pushed
 from limitblocks.analysis.nonassociated.loop import end_of_first_path
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
@@ -132,8 +138,18 @@ def load_path(
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
     record(end(flow, found.last))
+    said = by_self_stress(model, flow, weights) if start is None and found.how != AT_ONCE else ()
     collapse = finished(
-        model, found.last, enclosing, tuple(history), flow, found.how, tolerance, throw, why=found.why
+        model,
+        found.last,
+        enclosing,
+        tuple(history),
+        flow,
+        found.how,
+        tolerance,
+        throw,
+        why=found.why,
+        said=said,
     )
     told_by = Told(softness * _unit(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)

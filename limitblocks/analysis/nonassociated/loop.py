@@ -9,7 +9,11 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
 from limitblocks.analysis.nonassociated.finished import end, finished
-from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane, found_in_plane_or_whole
+from limitblocks.analysis.nonassociated.in_the_plane import (
+    by_self_stress,
+    flow_in_plane,
+    found_in_plane_or_whole,
+)
 from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, recorder
@@ -114,6 +118,7 @@ def nonassociated(
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
     history, record = recorder(progress)
+    said: tuple[str, ...] = ()
     state = solving_state(model, flow, enclosing, start, tolerance)
     if state is not None:
         how = "the bounds, of which flow is associated" if start is None else "the state given to start from"
@@ -131,9 +136,10 @@ def nonassociated(
             return first_to_solve(given, means, near, half)
 
         state, how = found_in_plane_or_whole(model, flow, first, tolerance, solve)
+        said = by_self_stress(model, flow, flow.problem.compliance) if first is None else ()
     record(end(flow, state))
     return finished(
-        model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit
+        model, state, enclosing, tuple(history), flow, how, tolerance, throw, confirm, limit=limit, said=said
     )
 
 

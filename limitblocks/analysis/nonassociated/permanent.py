@@ -37,25 +37,35 @@ def permanent_state(flow: Flow, weights: Array) -> Array | None:
     where there are none either. What twists turns about the centroid. The same to the last digit whichever
     analysis asks first.
     """
+    return _known(flow, weights)[0]
+
+
+def arose(flow: Flow, weights: Array) -> bool:
+    """Whether the stresses of `permanent_state` arise by themselves, or flow is associated."""
+    return _known(flow, weights)[1]
+
+
+def _known(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
     ratios = np.round(weights / flow.problem.compliance, 9)
     flow = replace(flow, turning=Turning.CENTROID)
     kept = ("permanent state", ratios.tobytes(), flow.dilatancy)
-    return known(flow.problem, kept, lambda: _permanent_state(flow, ratios * flow.problem.compliance))
+    return known(flow.problem, kept, lambda: _found(flow, ratios * flow.problem.compliance))
 
 
-def _permanent_state(flow: Flow, weights: Array) -> Array | None:
+def _found(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
+    """The stresses, and whether they arise by themselves."""
     p = flow.problem
     if not p.cones.second_order or flow.associated or not p.dead.any():  # planes cost little
         least = least_state(p, weights)
         if least is not None and not _dilates(flow, weights, least):
-            return least.x
+            return least.x, True
     scaled = joint_compliance(p, weights)
     for first in FIRST:
         found = arising(flow, scaled, first, LEFT)
         if found is not None and Residuals(static_residuals(p, 0.0, found.x)).worst.value <= ADMISSIBLE:
-            return found.x
+            return found.x, True
     found = least_state(p, weights)
-    return None if found is None else found.x
+    return (None if found is None else found.x), False
 
 
 def _dilates(flow: Flow, weights: Array, least: State) -> bool:
