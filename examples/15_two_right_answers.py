@@ -15,8 +15,8 @@ safe side.
 What decides in reality is how tightly the block was fitted. `load_path` decides by its starting state:
 `start=` another one, and the answer is another. From P = W the block slides before it tips, and P stays. From
 P = 0 it tips a little and presses against the ceiling by what the compliance of the joints makes of that, so
-that the answer is a third one; it lies on the same line. So does that of `nonassociated`, whose path has a
-barrier that adds a little to P.
+that the answer is a third one; it lies on the same line. So does that of `nonassociated`, whose path adds
+next to nothing to P.
 
 Source: Drucker (1954), J. Appl. Mech. 21, 71-74; the complementarity problem and its many solutions: Orduña
 & Lourenço (2005), Part I, Section 5.

@@ -40,7 +40,8 @@ def test_a_block_between_floor_and_ceiling_keeps_the_press_it_starts_with():
     model = JAMMED["jammed_block"]()
     path = lb.load_path(model, start=JAMMED["at_rest"](model, 1.0))
     assert path.load_factor == pytest.approx(0.3 * 3, rel=1e-9)
-    assert 0.905 < path.tracked < 0.95  # the barrier of the tracked path does
+    assert path.tracked == pytest.approx(0.3 * 3, rel=1e-5)  # .92 where its barrier does not fade first
+    assert path.tracked > 0.3 * 3
     (remark,) = path.remarks
     assert remark.startswith(f"the tracked path of nonassociated ends at {path.tracked:.6g}, ")
     assert remark in str(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.path import Walk, track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
 from limitblocks.arrays import Array
@@ -111,6 +111,7 @@ def follow(
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
     closing: Callable[[State], State] | None = None,
+    further: Callable[[Walk], Walk] | None = None,
 ) -> tuple[State, tuple[Tracked, ...]]:
     """Follow paths until one is closed.
 
@@ -130,6 +131,8 @@ def follow(
         Called with each accepted point.
     closing : callable, optional
         A further means to close a state near a solution.
+    further : callable, optional
+        Takes a walk at its end, and returns the one to tell of.
 
     Returns
     -------
@@ -138,7 +141,16 @@ def follow(
     """
     tried = []
     for one in means:
-        outcome = track(flow, x0, weights, **one._asdict(), power=power, progress=progress, closing=closing)
+        outcome = track(
+            flow,
+            x0,
+            weights,
+            **one._asdict(),
+            power=power,
+            progress=progress,
+            closing=closing,
+            further=further,
+        )
         tried.append(outcome)
         if outcome[1].closed or outcome[1].interrupted:
             return outcome[0], tuple(info for _, info in tried)

@@ -53,6 +53,7 @@ RETURNED = 1.2  # theta: the path went back beyond its start
 TRIED, AGAIN, LAST = 1e-2, 0.2, 1e-11  # theta where the polish is tried first, how often, and last
 DEGENERATE, NEAR = 3e-3, 1e-6  # residuals from which on complementary pivots and rounds are tried
 PIVOTS = 200  # pairs of slack and multiplier that are not plain: more cost more than further steps
+COMPLIANT = 1e-4  # rho down to which the last base is kept that the barrier may fade from
 BUDGET = 600  # factorisations
 
 
@@ -72,6 +73,7 @@ def track(
     power: float = 1.0,
     progress: Callable[[Progress], None] | None = None,
     closing: Callable[[State], State] | None = None,
+    further: Callable[[Walk], Walk] | None = None,
 ) -> tuple[State, Tracked]:
     """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
 
@@ -97,6 +99,8 @@ def track(
         Called with each accepted point.
     closing : callable, optional
         A further means to close a state near a solution, tried where the polish leaves one open.
+    further : callable, optional
+        Takes the walk at its end, and returns the one to tell of.
 
     Returns
     -------
@@ -106,14 +110,10 @@ def track(
     with np.errstate(all="ignore"):  # a point that ran away is not accepted
         walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
         walk.patience, walk.closing = patience, closing
-        end = walk.go()
-        if end not in (CLOSED, INTERRUPTED) and walk.settling.unsettled:
-            end = UNSETTLED
-        best, left = walk.settling.best, walk.settling.left
-        if best is None or (end == INTERRUPTED and defect(flow, walk.state) < left):  # nothing starts from it
-            best, left = walk.state, defect(flow, walk.state)
-    counts = walk.factorisations, walk.failures, tuple(walk.points)
-    return best, Tracked(walk.path.barrier, seed, end, left, *counts)
+        walk.end = walk.go()
+        if further is not None:
+            walk = further(walk)
+        return walk.told(seed)
 
 
 class Walk:
@@ -123,6 +123,10 @@ class Walk:
     farthest = RETURNED
     first = FIRST
     closing: Callable[[State], State] | None = None
+    begin: Point | None = None  # a first point that is known
+    compliant: tuple[Path, Base] | None = None  # the last base on the way down before rho is at its floor
+    end = ""  # what the end was
+    said = ""  # what else to say of the way here
 
     def __init__(self, path: Path, budget: int, progress: Callable[[Progress], None] | None) -> None:
         self.path, self.budget, self.progress = path, budget, progress
@@ -138,13 +142,25 @@ class Walk:
         """The last accepted point as a state."""
         return (self.base.point if self.base else self.z).state
 
+    def told(self, seed: int) -> tuple[State, Tracked]:
+        """Return the solution, or the best state met, and how the path of this seed went."""
+        end, flow, found = self.end, self.path.flow, self.settling
+        if end not in (CLOSED, INTERRUPTED) and found.unsettled:
+            end = UNSETTLED
+        best, left = found.best, found.left
+        if best is None or (end == INTERRUPTED and defect(flow, self.state) < left):  # nothing starts from it
+            best, left = self.state, defect(flow, self.state)
+        counts = self.factorisations, self.failures, tuple(self.points)
+        return best, Tracked(self.path.barrier, seed, end, left, *counts, self.said)
+
     def go(self) -> str:
         """Follow the path to its end, and say what it was."""
         try:
-            first, self.factorisations = centred(self.path, START)
-            if first is None:
+            if self.begin is None:
+                self.begin, self.factorisations = centred(self.path, START)
+            if self.begin is None:
                 return "not centred"
-            self.z = first
+            self.z = self.begin
             while not self._closed():
                 if self.factorisations >= self.budget:
                     return "budget"
@@ -210,11 +226,13 @@ class Walk:
         self.points.append(Progress(z.theta, z.load_factor, sign, self.factorisations, least))
         if self.progress is not None:
             self.progress(self.points[-1])
-        if self.z.theta > self.farthest:
+        if z.theta > self.farthest:
             raise Lost("returned")
         if self.base is not None:
             self.length = min(PACE[min(self.correctors, len(PACE) - 1)] * self.length, LONGEST)
-        self.path = moved_on(self.path, self.z)
+        if sign == self.points[0].sign and self.path.rho(z.theta) >= COMPLIANT:
+            self.compliant = self.path, base
+        self.path = moved_on(self.path, z)
         self.base = base
         self._predict()
 

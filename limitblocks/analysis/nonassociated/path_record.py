@@ -17,6 +17,8 @@ UNSETTLED = "its load factor still changing"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
 DISPLACED = "path in displacements, rounded corners of yield"
 RETURNS = "springs back"
+EARLY, FADED = "compliance faded first", "barrier faded first"
+BORNE = "% of the load factor on its barrier"
 
 log = logging.getLogger(ITERATIONS)
 
@@ -47,6 +49,18 @@ def off_load_path(how: str) -> tuple[str, ...]:
             *symmetric,
             "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
             "load_factor_range shows others",
+        )
+    if BORNE in how:
+        return (
+            *symmetric,
+            "the barrier of the path presses joints together that may bear nothing, and part of this load "
+            "factor, an estimate of which `how` gives, is friction at them; load_path goes without",
+        )
+    if EARLY in how:
+        return (
+            *symmetric,
+            "a path on which compliance fades before the barrier led to this solution: it need not be that "
+            "of the load path, which load_path follows; load_factor_range shows others",
         )
     if DISPLACED in how:
         return (
@@ -90,7 +104,7 @@ class Tracked:
     """How a path went.
 
     `end` is "closed", or why it ended without a solution; `points` holds every accepted point; `residual` the
-    worst one of Eqs (54)-(59).
+    worst one of Eqs (54)-(59); `said` what else is to say of the way.
     """
 
     barrier: Barrier
@@ -100,6 +114,7 @@ class Tracked:
     factorisations: int
     failures: int
     points: tuple[Progress, ...]
+    said: str = ""
 
     @property
     def closed(self) -> bool:
@@ -116,7 +131,10 @@ class Tracked:
         """What path it was, in words."""
         size = "small barrier" if self.barrier == Barrier() else f"barrier {self.barrier.size:g}"
         large = f" ({LARGE})" if self.barrier.size > Barrier().size else ""
-        return f"tracked path, {size}{large}, power {self.barrier.power:g}, seed {self.seed}"
+        early = f", {EARLY}" * (self.barrier.power > 1.0 and not large)
+        return (
+            f"tracked path, {size}{large}, power {self.barrier.power:g}, seed {self.seed}{early}{self.said}"
+        )
 
     @property
     def folds(self) -> int:

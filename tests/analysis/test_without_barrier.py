@@ -1,0 +1,122 @@
+"""What of a load factor the barrier of its path bears: an estimate, and the answer without it."""
+
+import numpy as np
+import pytest
+
+import limitblocks as lb
+from limitblocks.analysis.nonassociated import without_barrier as fading
+from limitblocks.analysis.nonassociated.means import Means, follow
+from limitblocks.analysis.nonassociated.path_equations import Barrier
+from limitblocks.analysis.nonassociated.path_record import off_load_path
+from limitblocks.analysis.nonassociated.permanent import permanent_state
+from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units
+from limitblocks.analysis.nonassociated.stretch import Stretch
+from limitblocks.analysis.nonassociated.without_barrier import borne
+from limitblocks.problem import Flow
+from tests.analysis.test_permanent_state import BESIDE, FRICTION, between
+
+PRESSED, EARLY = "presses joints together", "compliance fades before the barrier"
+
+
+def followed(model, barrier=None):
+    """The first path alone: its load factor, and what its barrier is said to bear of it."""
+    enclosing = bracket(model)
+    flow = Flow(own_units(model, enclosing), softening=1e-3)
+    problem, walks = flow.problem, []
+    power = load_scale(problem, enclosing.associated) / len(problem.blocks)
+    means = Means(barrier or Barrier(), 1, 300)
+    x0 = permanent_state(flow, problem.compliance)
+    state, (info,) = follow(
+        flow,
+        x0,
+        problem.compliance,
+        means=[means],
+        power=power,
+        further=lambda walk: walks.append(walk) or walk,
+    )
+    assert info.closed
+    with np.errstate(all="ignore"):
+        return state.load_factor / problem.units.live, borne(*walks[0].compliant)
+
+
+@pytest.mark.parametrize("joint", BESIDE, ids=repr)
+@pytest.mark.parametrize("neighbours", [None, 2.0, 5.0])
+def test_joints_that_only_a_barrier_presses_resist_nothing(neighbours, joint):
+    """The cube between stones slides at the friction of its base; the barrier had held it at .32 to .41."""
+    found = lb.nonassociated(between(neighbours, joint))
+    assert found.how.endswith("barrier faded first")
+    assert found.load_factor == pytest.approx(FRICTION, rel=5e-3)
+    assert not any(PRESSED in remark for remark in found.remarks)
+
+
+@pytest.mark.parametrize("joint", BESIDE, ids=repr)
+@pytest.mark.parametrize("neighbours", [2.0, 5.0])
+def test_the_share_of_the_barrier_is_what_the_load_factor_has_too_much(neighbours, joint):
+    """To first order; it falls with the root of the size."""
+    model = between(neighbours, joint)
+    load_factor, share = followed(model)
+    assert share == pytest.approx(1.0 - FRICTION / load_factor, rel=0.15)
+    smaller, rest = followed(model, Barrier(size=2e-4))
+    assert rest == pytest.approx(1.0 - FRICTION / smaller, rel=0.15)
+    assert rest == pytest.approx(share / 10.0, rel=0.25)
+
+
+def test_where_loads_press_all_joints_the_barrier_bears_nothing():
+    blocks = [
+        lb.Block.box("ground", (4.0, 2.0, 0.2), (0.0, 0.0, -0.1)),
+        lb.Block.box("stone", (1.0, 1.0, 1.0), (0.0, 0.0, 0.5), 20e3),
+    ]
+    joints = lb.find_interfaces(blocks, lb.OrdunaLourenco(FRICTION))
+    model = lb.Model(blocks, ["ground"], joints, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+    load_factor, share = followed(model)
+    assert load_factor == pytest.approx(FRICTION, rel=1e-9)
+    assert abs(share) < 1e-4
+    assert "barrier faded" not in lb.nonassociated(model).how
+
+
+def test_a_barrier_that_does_not_fade_is_told(monkeypatch):
+    """The state is a solution all the same."""
+    model = between(5.0, BESIDE[2])
+    lb.bounds(model)
+    assert permanent_state(Flow(own_units(model, bracket(model))), model.problem.compliance) is not None
+    monkeypatch.setattr(Stretch, "go", lambda walk: "lost")
+    found = lb.nonassociated(model)
+    assert found.load_factor > 1.05 * FRICTION
+    assert lb.check_mcp(model, found).passed
+    assert found.how.endswith("about 11 % of the load factor on its barrier")
+    assert any(PRESSED in remark for remark in found.remarks)
+
+
+def test_ctrl_c_while_the_barrier_fades_leaves_the_solution_there_is(monkeypatch):
+    model = between(5.0, BESIDE[2])
+    lb.bounds(model)
+    assert permanent_state(Flow(own_units(model, bracket(model))), model.problem.compliance) is not None
+
+    def pressed(walk):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Stretch, "go", pressed)
+    found = lb.nonassociated(model)
+    assert found.how.endswith("interrupted")
+    assert found.load_factor > 1.05 * FRICTION
+    assert any(PRESSED in remark for remark in found.remarks)
+
+
+def test_a_rest_without_solution_leaves_the_solution_there_is(monkeypatch):
+    monkeypatch.setattr(fading, "BUDGET", 0)
+    model = between(5.0, BESIDE[0])
+    found = lb.nonassociated(model)
+    assert found.how.endswith("about 13 % of the load factor on its barrier")
+    assert lb.check_mcp(model, found).passed
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ("tracked path, barrier 0.02, power 2, seed 1, compliance faded first", EARLY),
+        ("tracked path, small barrier, seed 1, about 6 % of the load factor on its barrier", PRESSED),
+    ],
+)
+def test_paths_that_may_leave_the_load_path_are_remarked(how, said):
+    (remark,) = off_load_path(how)
+    assert said in remark
