@@ -8,7 +8,6 @@ from paths import start
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
     Point,
@@ -19,6 +18,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
 )
 from limitblocks.analysis.nonassociated.path_newton import Newton, inverses
 from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.problem import Turning
 from limitblocks.problem.barrier import central
 

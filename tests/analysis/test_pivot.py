@@ -8,7 +8,7 @@ from limitblocks.analysis import pivot
 from limitblocks.analysis.nonassociated import path
 from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.means import MEANS
-from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.problem import Flow, State, Turning

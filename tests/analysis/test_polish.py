@@ -7,7 +7,7 @@ import limitblocks as lb
 from limitblocks.analysis import polish as polishing
 from limitblocks.analysis.nonassociated import path as paths
 from limitblocks.analysis.nonassociated.least_norm import least_state
-from limitblocks.analysis.nonassociated.path import track
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.polish import Kind, classified, defect, polish
 from limitblocks.problem import ASSOCIATED, Cones, Flow, State, Turning
 

@@ -9,12 +9,12 @@ from paths import start
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import closing, finished, ways
+from limitblocks.analysis.nonassociated import closing, finished, tracking, ways
 from limitblocks.analysis.nonassociated import increment as increments
-from limitblocks.analysis.nonassociated import path as tracking
+from limitblocks.analysis.nonassociated import path as walking
 from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
 from limitblocks.analysis.nonassociated.means import MEANS, Means
-from limitblocks.analysis.nonassociated.path import Walk, track
+from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import (
     Barrier,
     Point,
@@ -23,6 +23,7 @@ from limitblocks.analysis.nonassociated.path_equations import (
 from limitblocks.analysis.nonassociated.path_record import Progress, winds
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.start import load_scale
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.polish import defect, polish
 from limitblocks.evidence import backward_error
 
@@ -72,7 +73,7 @@ def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypat
             return -1.0
         return float(np.sign(inner(walk.path.cones, walk.z, turn, walk.base.tangent)))
 
-    monkeypatch.setattr(tracking.Walk, "_heading", by_angle)
+    monkeypatch.setattr(Walk, "_heading", by_angle)
     _, path = track(*begin, barrier=barrier, seed=1, budget=250)
     assert not path.closed
 
@@ -169,7 +170,7 @@ def test_paths_start_where_rows_begin_to_yield(monkeypatch):
         return [one.load_factor for one in found], sum(one.history[-2].inner for one in found)
 
     near, fewer = followed()
-    monkeypatch.setattr(tracking, "START", 1.0)
+    monkeypatch.setattr(walking, "START", 1.0)
     monkeypatch.setattr(Walk, "first", 0.3)
     far, more = followed()
     assert near == pytest.approx(far, rel=1e-6)
@@ -225,8 +226,8 @@ def test_theta_has_to_fall_to_a_third_in_as_many_factorisations_as_there_is_pati
 
 def test_a_path_ends_at_the_first_point_that_is_a_solution_as_it_is(monkeypatch):
     """The residual of a point falls with theta; that of the point before the end is above the tolerance."""
-    monkeypatch.setattr(tracking, "polished", lambda _flow, state, left, **_: (state, left))
-    monkeypatch.setattr(tracking, "pivoted", lambda _flow, state, **_: state)
+    monkeypatch.setattr(walking, "polished", lambda _flow, state, left, **_: (state, left))
+    monkeypatch.setattr(walking, "pivoted", lambda _flow, state, **_: state)
     model = structures.ferris_tin_loi_wall(3, lb.OrdunaLourenco(0.65))
     _, path = track(*start(model), barrier=Barrier(3.0, 2.0, 1e-10), seed=1, budget=100)
     before, last = path.points[-2:]

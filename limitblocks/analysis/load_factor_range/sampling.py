@@ -12,11 +12,11 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.loading import pushed
 from limitblocks.analysis.nonassociated.means import MEANS, SOFTENING, Means
-from limitblocks.analysis.nonassociated.path import track
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import UNSETTLED
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.settings import Settings
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array

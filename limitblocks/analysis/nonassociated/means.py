@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from limitblocks.analysis.nonassociated.path import Walk, track
+from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.arrays import Array
 from limitblocks.errors import refuse_kind, sequence_of
 from limitblocks.joints.base import checked_count

@@ -15,7 +15,6 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
-    Barrier,
     Base,
     Path,
     Point,
@@ -35,13 +34,12 @@ from limitblocks.analysis.nonassociated.path_record import (
     Tracked,
     winds,
 )
-from limitblocks.analysis.nonassociated.path_start import centred, path_from
+from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.analysis.nonassociated.settling import EXACT, FURTHER, Settling
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polished
-from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import TOLERANCE
-from limitblocks.problem import Flow, State
+from limitblocks.problem import State
 
 START = 0.2  # theta of the first point: above it little yields, and at 0.1 one tower finds no first point
 FIRST, LEAST, LONGEST = 0.6, 1e-6, 1e3  # lengths of predictors: mean relative change of s and y
@@ -59,61 +57,6 @@ BUDGET = 600  # factorisations
 
 class Lost(Exception):
     """The path cannot be followed any further."""
-
-
-def track(
-    flow: Flow,
-    x0: Array,
-    weights: Array,
-    *,
-    barrier: Barrier | None = None,
-    seed: int = 0,
-    budget: int = BUDGET,
-    patience: int | None = None,
-    power: float = 1.0,
-    progress: Callable[[Progress], None] | None = None,
-    closing: Callable[[State], State] | None = None,
-    further: Callable[[Walk], Walk] | None = None,
-) -> tuple[State, Tracked]:
-    """Follow one path from the permanent loads to a solution of Eqs (54)-(59).
-
-    Parameters
-    ----------
-    flow : Flow
-        The limit problem and its flow rule.
-    x0 : Array, shape (s,)
-        Stresses under the permanent loads, dimensionless.
-    weights : Array, shape (s,)
-        Compliance of the joints, which the path follows as long as the barrier is small.
-    barrier : Barrier, optional
-        How compliance and barrier fade; a small barrier by default.
-    seed : int
-        Of the weights of the products.
-    budget : int
-        Factorisations.
-    patience : int, optional
-        Factorisations in which theta must fall to a third; a path that takes longer is given up.
-    power : float
-        Unit of the barrier's size, dimensionless.
-    progress : callable, optional
-        Called with each accepted point.
-    closing : callable, optional
-        A further means to close a state near a solution, tried where the polish leaves one open.
-    further : callable, optional
-        Takes the walk at its end, and returns the one to tell of.
-
-    Returns
-    -------
-    State, Tracked
-        The solution, or the best state met, and how the path went.
-    """
-    with np.errstate(all="ignore"):  # a point that ran away is not accepted
-        walk = Walk(path_from(flow, x0, weights, barrier or Barrier(), seed, power), budget, progress)
-        walk.patience, walk.closing = patience, closing
-        walk.end = walk.go()
-        if further is not None:
-            walk = further(walk)
-        return walk.told(seed)
 
 
 class Walk:

@@ -48,16 +48,16 @@ def without_barrier(walk: Walk) -> Walk:
     share = borne(path, base)
     if abs(share) <= MOST:
         return walk
-    end = INTERRUPTED
+    walk.said = f", about {100.0 * abs(share):.2g} {BORNE}"
     try:
         rest = _rest(walk, path, base)
-        end = rest.end if rest else CLOSED
-        if rest is not None and end == CLOSED:
-            return rest
     except KeyboardInterrupt:
-        pass
-    walk.end = INTERRUPTED if end == INTERRUPTED else CLOSED
-    walk.said = f", about {100.0 * abs(share):.2g} {BORNE}"
+        walk.end = INTERRUPTED
+        return walk
+    if rest is not None and rest.end == CLOSED:
+        return rest
+    if rest is not None and rest.end == INTERRUPTED:
+        walk.end = INTERRUPTED
     return walk
 
 
