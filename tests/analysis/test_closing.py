@@ -173,12 +173,12 @@ def test_a_large_model_follows_the_means_that_are_given(monkeypatch):
 
 
 def test_the_last_path_of_a_large_model_is_followed_where_the_one_before_ends(monkeypatch):
-    """A facade of 160 (point contacts, out) takes 25 s to show that it is needed: here the others are cut."""
+    """A dome of 289 (no crushing, out) takes a minute to show that it is needed: here the others are cut."""
     *others, last = LARGE_MEANS
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(ways, "LARGE_MEANS", (*(one._replace(budget=1) for one in others), last))
     monkeypatch.setattr(closing, "closed", lambda _flow, _nearest, state, _tolerance: (state, 0))
-    assert lb.nonassociated(corner()).how == "tracked path, barrier 0.2 (large barrier), power 2, seed 2"
+    assert lb.nonassociated(corner()).how == "tracked path, barrier 3 (large barrier), power 2, seed 2"
 
 
 @pytest.mark.parametrize("rounds", [True, False])

@@ -70,12 +70,12 @@ REDUCED_MEANS = (
 # halves of 8 to 42 blocks such a path takes 1,898 factorisations together, with random weights 2,237, with
 # the whole of it where joints open 2,515, with both 3,222; of a dome of 289 (point contacts, diagonal)
 # 1,906, and more than 12,000 with both. It goes on, without compliance, to where rounds close it, which
-# take a few tries on the way, or to where it is a solution as it is. A facade of 160 (point contacts, out)
-# closes with a barrier of 0.2 alone.
+# take a few tries on the way, or to where it is a solution as it is. The last is for a dome of 289 (no
+# crushing, out), which winds with equal weights, at 1.5e-7, and stays at 6e-6 with a barrier of 0.2.
 LARGE_MEANS = (
     Means(Barrier(), 1, 100),
     Means(Barrier(3.0, 2.0, 1e-12, 0.3), 0, 6000, 2000),
-    Means(Barrier(0.2, 2.0, 1e-8), 2, 4000),
+    Means(Barrier(3.0, 2.0, 1e-12, 0.3), 2, 4000, 2000),
 )
 # Beyond 300 blocks in space a smaller barrier closed nothing in 60 s: that of 3 goes on, without compliance.
 # So a tower of 504 (point contacts, diagonal) closes in 50 s, and not with the floor of 1e-8; a house of 505
