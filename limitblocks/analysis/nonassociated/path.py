@@ -67,7 +67,7 @@ class Walk:
     first = FIRST
     closing: Callable[[State], State] | None = None
     begin: Point | None = None  # a first point that is known
-    compliant: tuple[Path, Base] | None = None  # the last base on the way down before rho is at its floor
+    compliant: tuple[Path, Base] | None = None  # the last base on the way down with rho of COMPLIANT or more
     end = ""  # what the end was
     said = ""  # what else to say of the way here
 
