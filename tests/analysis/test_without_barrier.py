@@ -1,5 +1,7 @@
 """What of a load factor the barrier of its path bears: an estimate, and the answer without it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -108,6 +110,18 @@ def test_a_rest_without_solution_leaves_the_solution_there_is(monkeypatch):
     found = lb.nonassociated(model)
     assert found.how.endswith("about 13 % of the load factor on its barrier")
     assert lb.check_mcp(model, found).passed
+
+
+def test_all_of_what_holds_by_self_stress_alone_is_on_the_barrier():
+    """Vertical joints between voussoirs: stresses that carry the dead loads exist, but do not arise."""
+    arch = lb.structures.EXAMPLES["arch, vertical joints"](lb.PointContact(0.75))
+    model = replace(arch, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    assert not lb.stability(model).stands
+    found = lb.nonassociated(model)
+    share = float(found.how.partition("about ")[2].partition(" %")[0])
+    assert 90.0 < share <= 100.0
+    for said in ("no stresses were found that arise", PRESSED):
+        assert any(said in remark for remark in found.remarks)
 
 
 @pytest.mark.parametrize(

@@ -48,7 +48,8 @@ def without_barrier(walk: Walk) -> Walk:
     share = borne(path, base)
     if abs(share) <= MOST:
         return walk
-    walk.said = f", about {100.0 * abs(share):.2g} {BORNE}"
+    percent = min(100.0 * abs(share), 100.0)
+    walk.said = f", about {percent:.{int(percent < 10.0)}f} {BORNE}"
     try:
         rest = _rest(walk, path, base)
     except KeyboardInterrupt:
