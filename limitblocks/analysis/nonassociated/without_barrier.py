@@ -4,6 +4,7 @@ Where compliance and barrier fade alike, mu / rho stays. A joint that nothing pr
 all along, and where it slides its friction is part of the load factor. It grows with the root of the
 barrier's size, so that twice its derivative by the logarithm of the size is this part.
 Where it is too large the barrier fades first, at the compliance there is, and then what is left of both.
+Without the barrier it is plain what yields: where that path stops, a round of the fixed point closes it.
 """
 
 from __future__ import annotations
@@ -12,16 +13,20 @@ from dataclasses import replace
 
 import numpy as np
 
+from limitblocks.analysis.nonassociated.closing import Closing
 from limitblocks.analysis.nonassociated.increment import FADING
 from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Base, Equations, Path, moved
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import BORNE, CLOSED, FADED, INTERRUPTED
 from limitblocks.analysis.nonassociated.stretch import Stretch
+from limitblocks.evidence.residuals import TOLERANCE
 
 MOST = 5e-3  # of the load factor that the barrier may bear
 LEFT = 1e-4  # of the barrier after it has faded: a hundredth of what it bore
+LESS = 0.5  # of the barrier: where more is left nothing is gained
 BUDGET, PATIENCE = 300, 100  # factorisations of the rest of the path
+LOST, CLOSED_BY = "lost", ", closed by rounds"
 
 
 def borne(path: Path, base: Base) -> float:
@@ -48,8 +53,7 @@ def without_barrier(walk: Walk) -> Walk:
     share = borne(path, base)
     if abs(share) <= MOST:
         return walk
-    percent = min(100.0 * abs(share), 100.0)
-    walk.said = f", about {percent:.{int(percent < 10.0)}f} {BORNE}"
+    walk.said = _told(share)
     try:
         rest = _rest(walk, path, base)
     except KeyboardInterrupt:
@@ -62,24 +66,39 @@ def without_barrier(walk: Walk) -> Walk:
     return walk
 
 
+def _told(share: float) -> str:
+    """What is said of a share of the load factor."""
+    percent = min(100.0 * abs(share), 100.0)
+    return f", about {percent:.{int(percent < 10.0)}f} {BORNE}"
+
+
 def _rest(walk: Walk, path: Path, base: Base) -> Walk | None:
-    """The walk from a base on without the barrier; None where that does not fade."""
+    """The walk from a base on without the barrier, or what is left of it; None where that is most."""
     z = moved(path, base.point, 1.0, base.correction)
     size, used = path.barrier.size, walk.factorisations
     fading = Barrier(size * z.theta / FADING, 0.0, 0.0)
     elastic = path.rho(z.theta) * path.elastic
     fade = Stretch(replace(path, barrier=fading, elastic=elastic), replace(z, theta=FADING), LEFT * FADING)
-    ended, used = fade.go(), used + fade.factorisations
-    walk.factorisations = used
-    if ended != "arrived":
+    fade.go()
+    walk.factorisations = used = used + fade.factorisations
+    if fade.base is None or fade.kept[-1].theta > LESS * FADING:
         return None
     left = fade.kept[-1]
     barrier = replace(path.barrier, size=size * left.theta / FADING)
     rest = Walk(replace(path, barrier=barrier), used + BUDGET, walk.progress)
-    rest.begin, rest.tried, rest.patience = replace(left, theta=z.theta), np.inf, PATIENCE
+    rest.begin = rest.z = replace(left, theta=z.theta)
+    rest.tried, rest.patience = np.inf, PATIENCE
     rest.factorisations, rest.failures = used, walk.failures
-    rest.end = rest.go()
+    rest.end = rest.go() if fade.arrived else LOST
+    rest.said = f", {FADED}"
+    if rest.end not in (CLOSED, INTERRUPTED) and path.flow.constant:
+        rest.settling.keep(Closing(path.flow, TOLERANCE)(rest.state), rest.state)
+        rest.end = CLOSED if rest.settling.left <= TOLERANCE else rest.end
+        rest.said += CLOSED_BY
+    bears = borne(fade.path, fade.base)
+    if abs(bears) > MOST:
+        rest.said = _told(bears)
     rest.path = replace(rest.path, barrier=path.barrier)  # as which it is told
-    rest.points, rest.said = walk.points + rest.points, f", {FADED}"
+    rest.points = walk.points + rest.points
     walk.factorisations = rest.factorisations
     return rest
