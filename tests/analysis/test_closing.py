@@ -18,13 +18,13 @@ from limitblocks.analysis.nonassociated.means import (
     REDUCED_MEANS,
     SOFTENING,
     Means,
-    follow,
 )
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import defect
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.problem import Flow, State
+from tests.analysis.paths import follow
 
 
 def corner():

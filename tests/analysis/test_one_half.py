@@ -7,10 +7,11 @@ import pytest
 import limitblocks as lb
 from limitblocks.analysis.nonassociated import ways
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
-from limitblocks.analysis.nonassociated.means import LARGE_MEANS, MEANS, REDUCED_MEANS, Means, follow
+from limitblocks.analysis.nonassociated.means import LARGE_MEANS, MEANS, REDUCED_MEANS, Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.start import flow_of, load_scale
 from limitblocks.problem.plane import Planar
+from tests.analysis.paths import follow
 
 SECOND = (Means(Barrier(), 1, 1), Means(Barrier(0.02, 2.0), 1, 300))  # the first path is stopped at once
 

@@ -9,11 +9,12 @@ from scipy import sparse
 import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
-from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING, follow
+from limitblocks.analysis.nonassociated.means import SOFTENING, TURNED_MEANS, TURNED_SOFTENING
 from limitblocks.analysis.nonassociated.start import bracket, load_scale, own_units, start_stresses
 from limitblocks.analysis.polish import polish
 from limitblocks.evidence.residuals import TOLERANCE, mcp_residuals
 from limitblocks.problem import Flow, Turning
+from tests.analysis.paths import follow
 
 MU, HEIGHT, ARM = 0.5, 0.2, 0.45
 TABLE_5 = "centre of pressure"

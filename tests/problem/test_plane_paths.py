@@ -15,11 +15,11 @@ from limitblocks import structures
 from limitblocks.analysis.in_plane import in_plane
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
 from limitblocks.analysis.nonassociated.least_norm import least_state
-from limitblocks.analysis.nonassociated.means import follow
 from limitblocks.analysis.nonassociated.start import load_scale
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import ASSOCIATED, Flow
 from limitblocks.problem.plane import Choice, Planar
+from tests.analysis.paths import follow
 
 PAPER = lb.OrdunaLourenco(0.65, slip="paper")
 JOINTS = {

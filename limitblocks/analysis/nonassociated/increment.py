@@ -185,9 +185,14 @@ def _from_start(visit: Visit, behind: float) -> Visit:
 
 def _without_barrier(path: Path, weights: Array, visit: Visit, left: float) -> Tried:
     """The increment that ends at a visit with as little of the barrier as is left."""
-    size = path.barrier.size * visit.point.theta / FADING
-    fading = replace(path, barrier=Barrier(size, 0.0, 0.0), elastic=visit.rho * weights, behind=0.0)
+    fading = fading_from(path, visit.point, visit.rho * weights)
     return faded(Increment((visit,), replace(visit.point, theta=FADING), visit.rho, fading), left)
+
+
+def fading_from(path: Path, z: Point, elastic: Array) -> Path:
+    """The path on which theta is the barrier, from FADING on: that of a point, at a compliance that stays."""
+    barrier = Barrier(path.barrier.size * z.theta / FADING, 0.0, 0.0)
+    return replace(path, barrier=barrier, elastic=elastic, behind=0.0)
 
 
 @np.errstate(all="ignore")

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import Progress, Tracked
-from limitblocks.analysis.nonassociated.tracking import track
-from limitblocks.arrays import Array
 from limitblocks.errors import refuse_kind, sequence_of
 from limitblocks.joints.base import checked_count
-from limitblocks.problem import Flow, State
 
 
 class Means(NamedTuple):
@@ -101,59 +96,3 @@ TURNED_MEANS = tuple(
 # Epsilon of Table 5 along the path, of the force of an interface: paths from the permanent loads wind where
 # it is smaller; those that start near a solution end too far from the printed form where it is larger.
 SOFTENING, TURNED_SOFTENING = 1e-3, 1e-6
-
-
-def follow(
-    flow: Flow,
-    x0: Array,
-    weights: Array,
-    *,
-    means: Sequence[Means] = MEANS,
-    power: float = 1.0,
-    progress: Callable[[Progress], None] | None = None,
-    closing: Callable[[State], State] | None = None,
-    further: Callable[[Walk], Walk] | None = None,
-) -> tuple[State, tuple[Tracked, ...]]:
-    """Follow paths until one is closed.
-
-    Parameters
-    ----------
-    flow : Flow
-        The limit problem and its flow rule.
-    x0 : Array, shape (s,)
-        Stresses under the permanent loads, dimensionless.
-    weights : Array, shape (s,)
-        Compliance of the joints.
-    means : sequence of Means
-        The paths to try, in this order.
-    power : float
-        Unit of the barriers' sizes, dimensionless.
-    progress : callable, optional
-        Called with each accepted point.
-    closing : callable, optional
-        A further means to close a state near a solution.
-    further : callable, optional
-        Takes a walk at its end, and returns the one to tell of.
-
-    Returns
-    -------
-    State, tuple of Tracked
-        The solution, or the state of least residual; how each path went that was tried.
-    """
-    tried = []
-    for one in means:
-        outcome = track(
-            flow,
-            x0,
-            weights,
-            **one._asdict(),
-            power=power,
-            progress=progress,
-            closing=closing,
-            further=further,
-        )
-        tried.append(outcome)
-        if outcome[1].closed or outcome[1].interrupted:
-            return outcome[0], tuple(info for _, info in tried)
-    state, _ = min(tried, key=lambda outcome: outcome[1].residual)
-    return state, tuple(info for _, info in tried)

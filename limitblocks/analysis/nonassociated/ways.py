@@ -21,13 +21,13 @@ from limitblocks.analysis.nonassociated.means import (
     TURNED_MEANS,
     TURNED_SOFTENING,
     Means,
-    follow,
 )
 from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import DISPLACED, INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.settling import exact_nearby
+from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.nonassociated.without_barrier import without_barrier
 from limitblocks.analysis.pivot import pivoted
 from limitblocks.analysis.polish import defect, polish, polished
@@ -70,11 +70,11 @@ class Given:
             loading = one.barrier.size <= SMALL and one.barrier.power <= 1.0
             return without_barrier(walk) if loading and not rounds else walk
 
-        state, (info,) = follow(
+        state, info = track(
             replace(self.flow, softening=softening),
             self.x0,
             problem.compliance,
-            means=[one],
+            **one._asdict(),
             power=self.scale / len(problem.blocks),
             progress=lambda at: self.record(at.told(problem.units.live)),
             closing=closing,

@@ -14,9 +14,9 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.closing import Closing
-from limitblocks.analysis.nonassociated.increment import FADING
+from limitblocks.analysis.nonassociated.increment import FADING, fading_from
 from limitblocks.analysis.nonassociated.path import Walk
-from limitblocks.analysis.nonassociated.path_equations import Barrier, Base, Equations, Path, moved
+from limitblocks.analysis.nonassociated.path_equations import Base, Equations, Path, moved
 from limitblocks.analysis.nonassociated.path_newton import Newton
 from limitblocks.analysis.nonassociated.path_record import BORNE, CLOSED, FADED, INTERRUPTED
 from limitblocks.analysis.nonassociated.stretch import Stretch
@@ -24,7 +24,6 @@ from limitblocks.evidence.residuals import TOLERANCE
 
 MOST = 5e-3  # of the load factor that the barrier may bear
 LEFT = 1e-4  # of the barrier after it has faded: a hundredth of what it bore
-LESS = 0.5  # of the barrier: where more is left nothing is gained
 BUDGET, PATIENCE = 300, 100  # factorisations of the rest of the path
 LOST, CLOSED_BY = "lost", ", closed by rounds"
 
@@ -33,12 +32,8 @@ def borne(path: Path, base: Base) -> float:
     """Share of the load factor that the barrier bears at a point of a path; an estimate."""
     p, z = path.flow.problem, base.point
     still = np.zeros_like(z.x), np.zeros(p.C.shape[1]), 0.0, np.zeros_like(z.s)
-    try:
-        (change,) = Newton(path, z).solve(Equations(*still, -z.y))
-    except (RuntimeError, ValueError):  # SuperLU: singular or not finite
-        return 0.0
-    share = 2.0 * change.load_factor / z.load_factor
-    return float(share) if np.isfinite(share) else 0.0
+    (change,) = Newton(path, z).solve(Equations(*still, -z.y))
+    return float(np.divide(2.0 * change.load_factor, z.load_factor))
 
 
 def without_barrier(walk: Walk) -> Walk:
@@ -73,15 +68,14 @@ def _told(share: float) -> str:
 
 
 def _rest(walk: Walk, path: Path, base: Base) -> Walk | None:
-    """The walk from a base on without the barrier, or what is left of it; None where that is most."""
+    """The walk from a base on without the barrier, or what is left of it; None where that is no less."""
     z = moved(path, base.point, 1.0, base.correction)
     size, used = path.barrier.size, walk.factorisations
-    fading = Barrier(size * z.theta / FADING, 0.0, 0.0)
-    elastic = path.rho(z.theta) * path.elastic
-    fade = Stretch(replace(path, barrier=fading, elastic=elastic), replace(z, theta=FADING), LEFT * FADING)
+    fading = fading_from(path, z, path.rho(z.theta) * path.elastic)
+    fade = Stretch(fading, replace(z, theta=FADING), LEFT * FADING)
     fade.go()
     walk.factorisations = used = used + fade.factorisations
-    if fade.base is None or fade.kept[-1].theta > LESS * FADING:
+    if fade.base is None or fade.kept[-1].theta >= FADING:
         return None
     left = fade.kept[-1]
     barrier = replace(path.barrier, size=size * left.theta / FADING)
@@ -91,7 +85,7 @@ def _rest(walk: Walk, path: Path, base: Base) -> Walk | None:
     rest.factorisations, rest.failures = used, walk.failures
     rest.end = rest.go() if fade.arrived else LOST
     rest.said = f", {FADED}"
-    if rest.end not in (CLOSED, INTERRUPTED) and path.flow.constant:
+    if rest.end not in (CLOSED, INTERRUPTED):
         rest.settling.keep(Closing(path.flow, TOLERANCE)(rest.state), rest.state)
         rest.end = CLOSED if rest.settling.left <= TOLERANCE else rest.end
         rest.said += CLOSED_BY
