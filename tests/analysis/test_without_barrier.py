@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
+from limitblocks.analysis.nonassociated import ways
 from limitblocks.analysis.nonassociated import without_barrier as fading
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
@@ -151,6 +152,20 @@ def test_most_of_what_holds_by_self_stress_alone_is_on_the_barrier():
     assert 0.5 < said(found) <= 1.0
     for words in ("no stresses were found that arise", PRESSED):
         assert any(words in remark for remark in found.remarks)
+
+
+@pytest.mark.parametrize("barrier", [Barrier(0.02, 2.0), Barrier(0.3)], ids=repr)
+def test_barriers_that_are_not_those_of_loading_do_not_fade_first(barrier, monkeypatch):
+    """Most are lost, after 200 factorisations."""
+
+    def never(_):
+        raise AssertionError("no load path")
+
+    monkeypatch.setattr(ways, "without_barrier", never)
+    model = between(2.0, BESIDE[2])
+    assert lb.nonassociated(model, means=[Means(barrier, 1, 300)]).converged
+    with pytest.raises(AssertionError, match="no load path"):
+        lb.nonassociated(model)
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,6 @@ from limitblocks.analysis.nonassociated.means import (
     TURNED_SOFTENING,
     Means,
 )
-from limitblocks.analysis.nonassociated.path import Walk
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import DISPLACED, INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -64,12 +63,7 @@ class Given:
     def tracked(self, one: Means, softening: float = SOFTENING, closing: Closing | None = None) -> Way:
         """Return the end of one path, and which path it was."""
         problem = self.flow.problem
-
-        def unaided(walk: Walk) -> Walk:
-            rounds = closing is not None and closing.solution is not None
-            loading = one.barrier.size <= SMALL and one.barrier.power <= 1.0
-            return without_barrier(walk) if loading and not rounds else walk
-
+        loading = one.barrier.size <= SMALL and one.barrier.power <= 1.0
         state, info = track(
             replace(self.flow, softening=softening),
             self.x0,
@@ -78,7 +72,7 @@ class Given:
             power=self.scale / len(problem.blocks),
             progress=lambda at: self.record(at.told(problem.units.live)),
             closing=closing,
-            further=unaided,
+            further=without_barrier if loading else None,
         )
         how = f"{info.how}{closing.how}" if closing and state is closing.solution else info.how
         return state, f"{how}, {info.end}" if info.end in (INTERRUPTED, UNSETTLED) else how

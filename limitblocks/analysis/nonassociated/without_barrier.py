@@ -68,14 +68,14 @@ def _told(share: float) -> str:
 
 
 def _rest(walk: Walk, path: Path, base: Base) -> Walk | None:
-    """The walk from a base on without the barrier, or what is left of it; None where that is no less."""
+    """The walk from a base on without the barrier, or with what is left of it; None where that is all."""
     z = moved(path, base.point, 1.0, base.correction)
     size, used = path.barrier.size, walk.factorisations
     fading = fading_from(path, z, path.rho(z.theta) * path.elastic)
     fade = Stretch(fading, replace(z, theta=FADING), LEFT * FADING)
     fade.go()
     walk.factorisations = used = used + fade.factorisations
-    if fade.base is None or fade.kept[-1].theta >= FADING:
+    if fade.base is None:
         return None
     left = fade.kept[-1]
     barrier = replace(path.barrier, size=size * left.theta / FADING)
