@@ -37,14 +37,21 @@ SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
 CARRIED = 5.0
 
 
-def joint_compliance(problem: LimitProblem, weights: Array | None = None) -> Array:
+def elastic_displacements(problem: LimitProblem, weights: Array) -> Array:
+    """Displacements (6 n,) under the dead loads on joints of compliance `weights` that never yield."""
+    C = problem.C
+    K = C.T @ sparse.diags_array(1.0 / weights) @ C + 1e-12 * sparse.eye_array(C.shape[1])
+    return np.asarray(linalg.spsolve(sparse.csc_array(K), problem.dead))
+
+
+def joint_compliance(problem: LimitProblem, weights: Array | None = None, u: Array | None = None) -> Array:
     """One compliance per area, or `weights`, scaled: the dead loads do unit elastic work on each part, (s,).
 
-    Parts that no interface joins are problems of their own; a common scale would lose the light ones.
+    Parts that no interface joins are problems of their own; a common scale would lose the light ones. The
+    elastic displacements `u` on joints of that compliance may be known.
     """
     p, W = problem, problem.compliance if weights is None else weights
-    K = p.C.T @ sparse.diags_array(1.0 / W) @ p.C + 1e-12 * sparse.eye_array(p.C.shape[1])
-    work = p.dead * linalg.spsolve(sparse.csc_array(K), p.dead)
+    work = p.dead * (elastic_displacements(p, W) if u is None else u)
     of_block = np.bincount(p.parts, weights=work.reshape(-1, 6).sum(axis=1))[p.parts]
     of_interface = of_block[p.ends.max(axis=1)][p.stress_interface]
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))

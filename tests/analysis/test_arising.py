@@ -5,6 +5,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks.analysis import unstressed
+from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated import permanent
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.unstressed import arising, joint_compliance
@@ -30,15 +31,41 @@ def test_what_arises_hardly_depends_on_the_barrier(joint):
     assert np.abs(found - exact).max() < 2e-3 * np.abs(exact).max()
 
 
-def test_where_the_dead_loads_hardly_stand_a_path_from_a_large_barrier_finds_what_arises():
-    """Of three boxes the light uppermost one overhangs by .45 of its length, and falls beyond half of it."""
+WEIGHTS, OVERHANG = (20e3, 20e3, 20.0), 0.499
+
+
+def stacked(beside):
+    """Three boxes, the light uppermost one overhanging by .499 of its length; it falls beyond half of it.
+
+    `beside`, a light stone in a row of three that bear two others: these turn, and it yields at its sides.
+    """
+    places = [(0.0, 0.5, 1.0), (0.0, 1.5, 1.0), (OVERHANG, 2.5, 1.0)]
+    weights = list(WEIGHTS)
+    if beside:
+        places += [(3.0, 0.5, 1.0), (4.0, 0.5, 1.0), (5.0, 0.5, 1.0), (4.6, 1.5, 1.6), (3.3, 1.5, 1.0)]
+        weights += [20e3, 2e3, 20e3, 20e3, 5e3]
     blocks = [lb.Block.box("ground", (20.0, 20.0, 1.0), (0.0, 0.0, -0.5))]
-    for k, (x, weight) in enumerate(((0.0, 20e3), (0.0, 20e3), (0.45, 20.0))):
-        blocks.append(lb.Block.box(f"box {k}", (1.0, 1.0, 1.0), (x, 0.0, k + 0.5), weight))
+    for k, ((x, z, length), weight) in enumerate(zip(places, weights, strict=True)):
+        blocks.append(lb.Block.box(f"box {k}", (length, 1.0, 1.0), (x, 0.0, z), weight))
     joints = lb.find_interfaces(blocks, lb.OrdunaLourenco(0.6))
-    push = lb.mass_proportional((1.0, 0.0, 0.0))
-    problem = lb.Model(blocks, ["ground"], joints, lb.self_weight(), push).problem
+    return lb.Model(blocks, ["ground"], joints, lb.self_weight(), lb.mass_proportional((1.0, 0.0, 0.0)))
+
+
+def test_where_the_dead_loads_hardly_stand_a_path_from_a_large_barrier_finds_what_arises():
+    problem = stacked(beside=True).problem
     flow, W = Flow(problem), joint_compliance(problem)
     small, large = (arising(flow, W, first, permanent.LEFT) for first in permanent.FIRST)
     assert small is None
     np.testing.assert_array_equal(permanent_state(flow, problem.compliance), large.x)
+
+
+def test_joints_that_nowhere_yield_bear_what_statics_says_without_a_path(monkeypatch):
+    """The weights above each joint, and the moment of the light box about the centre of its contact area."""
+    monkeypatch.setattr(permanent, "arising", None)
+    problem = stacked(beside=False).problem
+    found = resultants_of(problem, permanent_state(Flow(problem), problem.compliance))
+    above, light = np.cumsum(WEIGHTS[::-1])[::-1], WEIGHTS[-1]
+    np.testing.assert_allclose(found[:, 2], -above, rtol=1e-9)
+    levers = np.array([OVERHANG, OVERHANG, OVERHANG / 2.0])
+    np.testing.assert_allclose(np.linalg.norm(found[:, 3:5], axis=1), light * levers, rtol=1e-9)
+    np.testing.assert_allclose(found[:, [0, 1, 5]], 0.0, atol=1e-9 * above[0])

@@ -4,7 +4,8 @@ One implicit step of joints of compliance W, with the flow of the analysis:
 
     W x = C u + G^T y,   dead = C^T x,   F x + g in K,   y in K*,   (F x + g) o y = 0
 
-(:mod:`limitblocks.analysis.unstressed`). For associated flow, G = F, that is the state of least norm x^T W x.
+(:mod:`limitblocks.analysis.unstressed`). Where joints that never yield bear the dead loads within yield, that
+is what arises, y = 0. For associated flow, G = F, it is the state of least norm x^T W x.
 Such a state leans on dilatancy: a stone between two heavy ones gives them part of its weight, for which they
 have to be pressed apart, and then friction at its sides resists the live load as well.
 """
@@ -16,11 +17,11 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.least_norm import least_state
-from limitblocks.analysis.unstressed import arising, joint_compliance
+from limitblocks.analysis.unstressed import arising, elastic_displacements, joint_compliance
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, static_residuals
 from limitblocks.known import known
-from limitblocks.problem import Flow, State, Turning
+from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 DILATES = 1e-6  # of the elastic energy: from 1e-4 on where stresses change, up to 1e-10 elsewhere
 # Barriers where paths begin, tried in turn: the small one takes a third of the factorisations, but may find
@@ -55,17 +56,26 @@ def _known(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
 def _found(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
     """The stresses, and whether they arise by themselves."""
     p = flow.problem
+    u = elastic_displacements(p, weights)
+    elastic = p.C @ u / weights
+    if _admissible(p, elastic):
+        return elastic, True
     if not p.cones.second_order or flow.associated or not p.dead.any():  # planes cost little
         least = least_state(p, weights)
         if least is not None and not _dilates(flow, weights, least):
             return least.x, True
-    scaled = joint_compliance(p, weights)
+    scaled = joint_compliance(p, weights, u)
     for first in FIRST:
         found = arising(flow, scaled, first, LEFT)
-        if found is not None and Residuals(static_residuals(p, 0.0, found.x)).worst.value <= ADMISSIBLE:
+        if found is not None and _admissible(p, found.x):
             return found.x, True
     found = least_state(p, weights)
     return (None if found is None else found.x), False
+
+
+def _admissible(problem: LimitProblem, x: Array) -> bool:
+    """Whether stresses balance the dead loads within yield."""
+    return Residuals(static_residuals(problem, 0.0, x)).worst.value <= ADMISSIBLE
 
 
 def _dilates(flow: Flow, weights: Array, least: State) -> bool:
