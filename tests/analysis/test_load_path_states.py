@@ -1,5 +1,7 @@
 """The load path: its first state by hand, every state admissible, its end, and its stiffness."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from stones import imbalance
@@ -150,3 +152,14 @@ def test_a_path_goes_on_from_a_result(walked):
         path.collapse.stress_resultants, abs=1e-9 * np.abs(path.collapse.stress_resultants).max()
     )
     assert again.load_factor == pytest.approx(path.load_factor, abs=1e-5)
+
+
+@pytest.mark.parametrize("budget", [100, 200])
+def test_the_last_state_of_a_path_that_does_not_end_is_within_yield(budget):
+    """The polish of a state far from collapse balances the loads, but a hundredth to a tenth beyond yield."""
+    model = structures.EXAMPLES["corner"](lb.PointContact(0.7))
+    model = replace(model, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    path = lb.load_path(model, settings=lb.settings.Settings(budget=budget), throw=False)
+    assert not path.collapse.converged
+    for residuals in (*(step.residuals for step in path.steps), path.collapse.residuals):
+        assert max(residuals["equilibrium"], residuals["yield"]) <= 1e-8

@@ -117,8 +117,7 @@ def pushed(
     Returns
     -------
     tuple of Pushed, State, str
-        The increments, the collapse or the last state, polished where that changes its load factor by no
-        more than DRIFT, and why there is no collapse, in words.
+        The increments, the collapse or the last state within yield, and why there is no collapse, in words.
     """
     soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
     barrier = Barrier(settings.barrier, floor=0.0)
@@ -151,13 +150,15 @@ def pushed(
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
-    return tuple(pushes), _polished(flow, pushes[-1].state if pushes else at_rest(flow, x0)), why
+    last = pushes[-1].state if pushes else at_rest(flow, x0)
+    return tuple(pushes), _polished(flow, last, tolerance), why
 
 
-def _polished(flow: Flow, reached: State) -> State:
-    """The state polished, unless that leads elsewhere than the increments do."""
+def _polished(flow: Flow, reached: State, tolerance: float) -> State:
+    """The state polished where that is the collapse: else its stresses may be far beyond yield."""
     state = polish(flow, reached)
-    return state if near(state, reached.load_factor) else reached
+    closed = near(state, reached.load_factor) and defect(flow, state) <= tolerance
+    return state if closed else reached
 
 
 def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:
