@@ -81,26 +81,11 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
 def _under_load(flow: Flow, weights: Array, first: float, left: float) -> State | None:
-    """One implicit step from x = 0 under the dead loads.
-
-    A path is under control of live.u = 1: the live load moves a coordinate of its own, tied to a spring.
-    """
-    problem = flow.problem
-    s, n = problem.C.shape
-    controlled = _beside(
-        replace(
-            problem,
-            C=sparse.csr_array(sparse.hstack([problem.C, sparse.csr_array((s, 1))])),
-            dead=np.append(problem.dead, 0.0),
-            live=np.append(np.zeros(n), 1.0),
-        ),
-        sparse.eye_array(1, n + 1, k=n),
-        sparse.eye_array(6, 1),
-        ("spring",),
-    )
-    flow, x0 = replace(flow, problem=controlled), np.zeros(s + 1)
-    even, elastic = problem.cones.identity, np.append(weights, 1.0)
-    path = Path(flow, Layout(flow), Barrier(first, power=0.0, floor=0.0), even, elastic, x0, x0)
+    """One implicit step from x = 0 under the dead loads; without a live load there is no load factor to find."""
+    s, n = flow.problem.C.shape
+    flow = replace(flow, problem=replace(flow.problem, live=np.zeros(n)))
+    even, x0 = flow.problem.cones.identity, np.zeros(s)
+    path = Path(flow, Layout(flow), Barrier(first, power=0.0, floor=0.0), even, weights, x0, x0)
     try:
         start, _ = centred(path)
     except (RuntimeError, ValueError):  # SuperLU: singular or not finite
@@ -109,10 +94,7 @@ def _under_load(flow: Flow, weights: Array, first: float, left: float) -> State 
         return None
     walk = Stretch(path, start, left / first, BUDGET)
     walk.length = LONG
-    if walk.go() != "arrived":
-        return None
-    z = walk.kept[-1]
-    return State(0.0, z.x[:-1], z.u[:-1], z.y)
+    return walk.kept[-1].state if walk.go() == "arrived" else None
 
 
 def _beside(problem: LimitProblem, C: Any, resultants: Any, names: tuple[str, ...]) -> LimitProblem:

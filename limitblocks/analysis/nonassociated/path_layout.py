@@ -177,7 +177,8 @@ class Layout:
         """
         live, n, d = self.problem.live, self.problem.C.shape[1], self.rates.shape[1]
         moving = np.zeros(n + 1, dtype=bool)
-        moving[self.problem.C.indices[self.problem.C.data != 0.0]] = moving[n] = True
+        moving[self.problem.C.indices[self.problem.C.data != 0.0]] = True
+        moving[n] = live.any()
         order = rates_in_order(self.problem)
         order = order[moving[order]]
         number, size = np.full(n + 1, -1), len(order)
