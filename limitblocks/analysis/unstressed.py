@@ -6,7 +6,7 @@ One implicit step under load control, from x = 0, of joints of compliance W:
 
 k = 0. Where friction alone cannot keep a block that nobody wedges, it has no solution. Then weak springs k
 tie every block to the ground: those whose springs carry a share of their load are not held. A barrier on
-(F x + g) o y fades along a path that is followed by arclength: steps that lower it may fail.
+(F x + g) o y fades along a path that is followed by arclength: steps that lower a large one fail.
 The question is that of Kao et al. (2022), Coupled rigid-block analysis, Computer-Aided Design 146, 103216.
 """
 
@@ -57,12 +57,15 @@ def joint_compliance(problem: LimitProblem, weights: Array | None = None, u: Arr
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))
 
 
-def arising(flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT) -> State | None:
+def arising(
+    flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT, *, along_path: bool = True
+) -> State | None:
     """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found.
 
-    They are within yield, by what is `left` of the barrier; it begins with `first`.
+    They are within yield, by what is `left` of the barrier; it begins with `first`, and falls along a path,
+    or from step to step of Newton's method.
     """
-    return _under_load(flow, weights, first, left)
+    return _under_load(flow, weights, first, left, along_path)
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:
@@ -70,7 +73,7 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
     n = problem.C.shape[1]
     on_springs = _beside(problem, sparse.eye_array(n), sparse.eye_array(n), problem.blocks)
     for stiffness in SPRINGS:
-        found = _under_load(Flow(on_springs), np.append(weights, np.full(n, 1.0 / stiffness)), FIRST, LEFT)
+        found = _under_load(Flow(on_springs), np.append(weights, np.full(n, 1.0 / stiffness)))
         if found is not None:
             x, springs = np.split(found.x, [-n])
             acting = np.abs(problem.dead) + problem.acting @ np.abs(x)
@@ -80,18 +83,20 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
 
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
-def _under_load(flow: Flow, weights: Array, first: float, left: float) -> State | None:
-    """One implicit step from x = 0 under the dead loads; without a live load there is no load factor to find."""
+def _under_load(
+    flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT, along_path: bool = True
+) -> State | None:
+    """One implicit step from x = 0 under the dead loads; without a live load there is no load factor."""
     s, n = flow.problem.C.shape
     flow = replace(flow, problem=replace(flow.problem, live=np.zeros(n)))
     even, x0 = flow.problem.cones.identity, np.zeros(s)
     path = Path(flow, Layout(flow), Barrier(first, power=0.0, floor=0.0), even, weights, x0, x0)
     try:
-        start, _ = centred(path)
+        start, _ = centred(path, until=None if along_path else left / first)
     except (RuntimeError, ValueError):  # SuperLU: singular or not finite
         return None
-    if start is None:
-        return None
+    if start is None or not along_path:
+        return None if start is None else start.state
     walk = Stretch(path, start, left / first, BUDGET)
     walk.length = LONG
     return walk.kept[-1].state if walk.go() == "arrived" else None

@@ -65,3 +65,11 @@ def test_factors_are_as_sparse_as_in_an_order_that_is_searched_for(joint):
     )
     assert own <= 1.1 * searched
     assert other >= 3.0 * own
+
+
+@pytest.mark.parametrize("entry", [np.nan, np.inf, 1e300])
+def test_a_matrix_whose_factors_overflow_is_refused(entry):
+    """Of a polish far from collapse: SuperLU read beyond its arrays, and ended the process."""
+    K = sparse.csc_array(np.array([[1.0, entry], [-entry, 1.0]]))
+    with pytest.raises(np.linalg.LinAlgError, match="ran away"):
+        diagonal_factors(K)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
@@ -23,6 +25,7 @@ from limitblocks.problem.barrier import quotient
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary
 ITERATIONS = 60
+FALLS, NEAR = 0.1, 10.0  # of the barrier with a step, and how near to the path it begins
 HELD = 1e-9  # of the largest stiffness: springs on what nothing else holds
 
 
@@ -77,15 +80,22 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
     raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
 
-def centred(path: Path, theta: float = 1.0) -> tuple[Point | None, int]:
-    """Return the first point of the path, None if Newton's method finds none, and the factorisations used."""
-    p, cones = path.flow.problem, path.cones
+def centred(path: Path, theta: float = 1.0, until: float | None = None) -> tuple[Point | None, int]:
+    """Return the first point of the path, None if Newton's method finds none, and the factorisations used.
+
+    Or that at `until`, where compliance stays and steps near the path lower the barrier tenfold.
+    """
+    p, cones, last = path.flow.problem, path.cones, theta if until is None else until
     rows = p.F @ path.x0 + p.g
     s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
     z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, quotient(cones, s, path.target(theta)), theta)
     for k in range(ITERATIONS):
         left = residuals(path, z)
-        if k and distance(path, z, left) <= 1.0:
+        off = distance(path, z, left) if k else np.inf
+        if off <= 1.0 and z.theta <= last:
             return z, k
-        z = moved(path, z, 1.0, Newton(path, z).solve(left)[0])
+        aim = max(FALLS * z.theta, last) if off <= NEAR else z.theta
+        products = (1.0 - aim / z.theta) * z.y  # L(s)^-1 times s o y less its target
+        (step,) = Newton(path, z).solve(replace(left, multiplier=products))
+        z = moved(path, z, 1.0, replace(step, theta=aim - z.theta))
     return None, ITERATIONS
