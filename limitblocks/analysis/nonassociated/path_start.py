@@ -25,7 +25,7 @@ from limitblocks.problem.barrier import quotient
 SPREAD = 0.7  # of the logarithms of the weights
 INSIDE = 0.1  # least distance of the first slacks from the boundary
 ITERATIONS = 60
-FALLS, NEAR = 0.1, 10.0  # of the barrier with a step, and how near to the path it begins
+FALLS = 0.1  # barrier after a step: of 93 models .03 misses one, .3 takes 1.1 times the factorisations
 HELD = 1e-9  # of the largest stiffness: springs on what nothing else holds
 
 
@@ -83,7 +83,7 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
 def centred(path: Path, theta: float = 1.0, until: float | None = None) -> tuple[Point | None, int]:
     """Return the first point of the path, None if Newton's method finds none, and the factorisations used.
 
-    Or that at `until`, where compliance stays and steps near the path lower the barrier tenfold.
+    Or that at `until`, where compliance stays: steps lower the barrier once products are positive.
     """
     p, cones, last = path.flow.problem, path.cones, theta if until is None else until
     rows = p.F @ path.x0 + p.g
@@ -94,7 +94,7 @@ def centred(path: Path, theta: float = 1.0, until: float | None = None) -> tuple
         off = distance(path, z, left) if k else np.inf
         if off <= 1.0 and z.theta <= last:
             return z, k
-        aim = max(FALLS * z.theta, last) if off <= NEAR else z.theta
+        aim = max(FALLS * z.theta, last) if off < np.inf else z.theta
         products = (1.0 - aim / z.theta) * z.y  # L(s)^-1 times s o y less its target
         (step,) = Newton(path, z).solve(replace(left, multiplier=products))
         z = moved(path, z, 1.0, replace(step, theta=aim - z.theta))
