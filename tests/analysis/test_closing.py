@@ -183,14 +183,14 @@ def test_the_last_path_of_a_large_model_is_followed_where_the_one_before_ends(mo
 
 @pytest.mark.parametrize("rounds", [True, False])
 def test_rounds_close_a_path_of_a_large_model_on_its_way(rounds, monkeypatch):
-    """The path of this vault closes in 302 factorisations with them, and in 420 without."""
+    """The path of this vault closes in 253 factorisations with them, and in 354 without."""
     vault = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.6))
     model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
     x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
-    one = Means(Barrier(3.0, 2.0, 1e-8), 1, 360)
+    one = Means(Barrier(3.0, 2.0, 1e-8), 1, 300)
     way = closing.Closing(flow, 1e-8) if rounds else None
     _, (info,) = follow(flow, x0, problem.compliance, means=[one], power=power, closing=way)
     assert info.closed is rounds

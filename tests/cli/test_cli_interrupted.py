@@ -180,8 +180,8 @@ def test_a_report_that_osqp_is_stopped_in_has_the_code_of_an_interruption(monkey
         return found
 
     monkeypatch.setattr(osqp.OSQP, "solve", pressed)
-    wall = lb.structures.wall(lb.OrdunaLourenco(0.6, slip="paper"), length=1.2, courses=3)
-    model, output = wall.save(tmp_path / "model.json"), tmp_path / "report.md"
+    lintel = lb.structures.eccentric_lintel(lb.OrdunaLourenco(0.6, slip="paper"))  # yields under its weight
+    model, output = lintel.save(tmp_path / "model.json"), tmp_path / "report.md"
     assert run("report", model, "--bounds", "--path", "-o", output).exit_code == 130
     assert "Associated bounds" in output.read_text(encoding="utf-8")
 
