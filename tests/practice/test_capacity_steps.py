@@ -129,7 +129,7 @@ def test_a_pier_that_rocks_back_stays_on_its_corner():
 
     def count(point):
         told.append(point)
-        assert len(told) < 15
+        assert len(told) < 25  # hundreds then
 
     portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=2.0, pier_width=0.6, pier_blocks=2)
     curve = capacity_curve(portal, largest=0.8, progress=count)
