@@ -14,6 +14,8 @@ from limitblocks.evidence.results import Nonassociated
 from limitblocks.model import Model
 from limitblocks.shown import Result, kept, many
 
+FLAT = 1e-8  # of the load factor: a smaller fall is within its accuracy, and its secant leads anywhere
+
 
 @dataclass(frozen=True, eq=False)
 class Control:
@@ -165,5 +167,7 @@ def to_zero(before: CapacityPoint | None, point: CapacityPoint) -> float:
     """Return how far ahead the secant of two points is zero, m; infinite where they do not fall to it."""
     if before is None or point.snapped:
         return np.inf
-    slope = (before.load_factor - point.load_factor) / (point.displacement - before.displacement)
-    return point.load_factor / slope if slope > 0.0 else np.inf
+    fall, step = before.load_factor - point.load_factor, point.displacement - before.displacement
+    flat = abs(fall) <= FLAT * max(abs(before.load_factor), abs(point.load_factor))
+    slope = fall / step
+    return np.inf if flat or not slope > 0.0 else point.load_factor / slope
