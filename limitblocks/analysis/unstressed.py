@@ -13,7 +13,6 @@ The question is that of Kao et al. (2022), Coupled rigid-block analysis, Compute
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -57,23 +56,12 @@ def joint_compliance(problem: LimitProblem, weights: Array | None = None, u: Arr
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))
 
 
-def arising(
-    flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT, *, along_path: bool = True
-) -> State | None:
-    """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found.
-
-    They are within yield, by what is `left` of the barrier; it begins with `first`, and falls along a path,
-    or from step to step of Newton's method.
-    """
-    return _under_load(flow, weights, first, left, along_path)
-
-
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:
     """Which blocks weak springs have to carry, shape (n,); None where no step with springs succeeds."""
     n = problem.C.shape[1]
-    on_springs = _beside(problem, sparse.eye_array(n), sparse.eye_array(n), problem.blocks)
+    flow = Flow(_on_springs(problem))
     for stiffness in SPRINGS:
-        found = _under_load(Flow(on_springs), np.append(weights, np.full(n, 1.0 / stiffness)))
+        found = arising(flow, np.append(weights, np.full(n, 1.0 / stiffness)))
         if found is not None:
             x, springs = np.split(found.x, [-n])
             acting = np.abs(problem.dead) + problem.acting @ np.abs(x)
@@ -83,10 +71,14 @@ def not_held(problem: LimitProblem, weights: Array) -> Array | None:
 
 
 @np.errstate(all="ignore")  # a point that ran away is not accepted
-def _under_load(
-    flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT, along_path: bool = True
+def arising(
+    flow: Flow, weights: Array, first: float = FIRST, left: float = LEFT, *, along_path: bool = True
 ) -> State | None:
-    """One implicit step from x = 0 under the dead loads; without a live load there is no load factor."""
+    """The stresses that arise on joints of compliance `weights`, and the displacements; None if not found.
+
+    They are within yield, by what is `left` of the barrier; it begins with `first`, and falls along a path,
+    or from step to step of Newton's method. Without a live load there is no load factor to find.
+    """
     s, n = flow.problem.C.shape
     flow = replace(flow, problem=replace(flow.problem, live=np.zeros(n)))
     even, x0 = flow.problem.cones.identity, np.zeros(s)
@@ -102,16 +94,17 @@ def _under_load(
     return walk.kept[-1].state if walk.go() == "arrived" else None
 
 
-def _beside(problem: LimitProblem, C: Any, resultants: Any, names: tuple[str, ...]) -> LimitProblem:
-    """The problem with further interfaces that never yield, each of its own compatibility and resultants."""
-    free = sparse.csr_array((len(problem.g), C.shape[0]))
+def _on_springs(problem: LimitProblem) -> LimitProblem:
+    """The problem with further interfaces that never yield: a spring to each rate of each block."""
+    springs = sparse.eye_array(problem.C.shape[1])
+    free = sparse.csr_array((len(problem.g), problem.C.shape[1]))
     return replace(
         problem,
-        C=sparse.csr_array(sparse.vstack([problem.C, C])),
+        C=sparse.csr_array(sparse.vstack([problem.C, springs])),
         F=sparse.csr_array(sparse.hstack([problem.F, free])),
         G=sparse.csr_array(sparse.hstack([problem.G, free])),
-        resultants=sparse.csr_array(sparse.block_diag([problem.resultants, resultants])),
-        interfaces=problem.interfaces + names,
+        resultants=sparse.csr_array(sparse.block_diag([problem.resultants, springs])),
+        interfaces=problem.interfaces + problem.blocks,
     )
 
 

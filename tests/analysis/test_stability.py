@@ -279,7 +279,7 @@ def test_undecided_says_once_how_near_the_best_state_came(monkeypatch):
     ("lost", "words"),
     [
         (
-            f"{arising.__module__}._under_load",
+            f"{arising.__module__}.arising",
             "neither such that do nor blocks that slide through were found",
         ),
         (f"{answers.__name__}.falling", "blocks that nobody wedges move, but no mechanism of them was found"),

@@ -150,15 +150,10 @@ def pushed(
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
-    last = pushes[-1].state if pushes else at_rest(flow, x0)
-    return tuple(pushes), _polished(flow, last, tolerance), why
-
-
-def _polished(flow: Flow, reached: State, tolerance: float) -> State:
-    """The state polished where that is the collapse: else its stresses may be far beyond yield."""
-    state = polish(flow, reached)
-    closed = near(state, reached.load_factor) and defect(flow, state) <= tolerance
-    return state if closed else reached
+    if not pushes:
+        return (), at_rest(flow, x0), why
+    last = pushes[-1]
+    return tuple(pushes), _closed(flow, last.increment, tolerance) or last.state, why
 
 
 def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:

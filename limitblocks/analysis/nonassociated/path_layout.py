@@ -173,7 +173,8 @@ class Layout:
     def _pattern(self) -> tuple[Any, sparse.csr_array, Indices]:
         """[[0, live], [live^T, 0]] in the order of elimination, what takes parts of K to its data, the order.
 
-        Rates that move nothing, out of the plane of a planar problem, are left out.
+        Rates that move nothing, out of the plane of a planar problem, are left out, and the load factor where
+        there is no live load.
         """
         live, n, d = self.problem.live, self.problem.C.shape[1], self.rates.shape[1]
         moving = np.zeros(n + 1, dtype=bool)
