@@ -62,6 +62,15 @@ def test_where_the_dead_loads_hardly_stand_steps_from_a_small_barrier_find_what_
     assert np.abs(x - large).max() < 2e-3 * np.abs(large).max()
 
 
+def test_what_arises_in_a_stair_is_found_by_steps_that_lower_the_barrier_tenfold():
+    """Not by steps to .03 of it or less."""
+    problem = lb.structures.EXAMPLES["cantilever_stair"](lb.OrdunaLourenco(0.4)).problem
+    flow, W = Flow(problem), joint_compliance(problem)
+    found = arising(flow, W, permanent.FIRST, permanent.LEFT, along_path=False)
+    exact = arising(flow, W)
+    assert np.abs(found.x - exact.x).max() < 2e-3 * np.abs(exact.x).max()
+
+
 def test_joints_that_nowhere_yield_bear_what_statics_says_without_a_path(monkeypatch):
     """The weights above each joint, and the moment of the light box about the centre of its contact area."""
     monkeypatch.setattr(permanent, "arising", None)

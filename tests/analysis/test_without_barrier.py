@@ -178,3 +178,16 @@ def test_barriers_that_are_not_those_of_loading_do_not_fade_first(barrier, monke
 def test_paths_that_may_leave_the_load_path_are_remarked(how, words):
     (remark,) = off_load_path(how)
     assert words in remark
+
+
+def test_the_rest_of_a_path_without_barrier_ends_where_rounds_may_not():
+    """Along governs: pushed diagonally the lintel goes at the same push along, by the root of two."""
+    joint = lb.OrdunaLourenco(0.6, compressive_strength=0.3e6)
+    directions = (1.0, 0.0, 0.0), (1.0, 1.0, 0.0)
+    along, diagonal = (
+        lb.nonassociated(lb.structures.eccentric_lintel(joint, eccentricity=0.1, direction=direction))
+        for direction in directions
+    )
+    assert along.how.endswith(", barrier faded first")
+    assert diagonal.how.endswith(", barrier faded first")
+    assert diagonal.load_factor == pytest.approx(np.sqrt(2.0) * along.load_factor, rel=1e-6)

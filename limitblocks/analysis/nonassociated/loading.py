@@ -150,10 +150,7 @@ def pushed(
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
-    if not pushes:
-        return (), at_rest(flow, x0), why
-    last = pushes[-1]
-    return tuple(pushes), _closed(flow, last.increment, tolerance) or last.state, why
+    return tuple(pushes), pushes[-1].state if pushes else at_rest(flow, x0), why
 
 
 def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:
