@@ -121,7 +121,7 @@ class Walk:
     def _advance(self) -> None:
         """Correct the point, or accept it and predict the next one."""
         left = residuals(self.path, self.z)
-        off = distance(self.path, self.z, left)
+        off = distance(self.path, self.z, left, self._lax)
         if np.isnan(off) or (off > 1.0 and self.correctors == CORRECTORS):
             self._retreat()
             return
@@ -150,6 +150,11 @@ class Walk:
             self._retreat()
         else:
             self._accept(sign, base)
+
+    @property
+    def _lax(self) -> bool:
+        """Whether a point on the way may be farther off than the end."""
+        return False
 
     def _heading(self, sign: float, turn: Point) -> float:
         """Whether theta grows (1) or falls (-1) along the path: it falls first, and turns with det J."""

@@ -29,6 +29,10 @@ LEAST_THETA = 0.05  # part of theta that a move leaves
 MOST_THETA = 3.0  # and its largest growth
 WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
 FLOW = 0.05  # of theta: how far off the flow may be
+# Where the compliance stays, on the way to the point asked for: the flow may be off by a share of the strains
+# of unit stresses, but products are closer to their targets, or some points have no successor. So 123 load
+# paths take .7 of the time, and 245 of 278 converge where 234 did.
+LAX, CLOSER = 1e-4, float(np.log(1.5))
 ROUNDING = 4.0 * float(np.finfo(float).eps)  # of the stresses: what the compliance makes of it is no error
 
 
@@ -156,12 +160,17 @@ def theta_slope(path: Path, z: Point) -> Equations:
     return Equations(flow, np.zeros_like(p.dead), path.behind * rho, np.zeros_like(z.s), -z.y / z.theta)
 
 
-def distance(path: Path, z: Point, left: Equations) -> float:
-    """Return how far a point is from the path, products by the slack F x + g; at most one is near."""
+def distance(path: Path, z: Point, left: Equations, lax: bool = False) -> float:
+    """Return how far a point is from the path, products by the slack F x + g; at most one is near.
+
+    A `lax` one may be farther off where the compliance stays: theta says nothing of the flow there.
+    """
     rounding = ROUNDING * path.rho(z.theta) * path.elastic * np.abs(z.x)
-    flow = FLOW * z.theta * (1.0 - path.behind)
-    off = float((np.abs(left.flow) / (flow + rounding)).max())
-    return max(off, spread(path.cones, z.s + left.slack, z.y, path.target(z.theta)) / WIDE)
+    flow = FLOW * z.theta * (1.0 - path.behind) + rounding
+    lax = lax and not path.barrier.power
+    off = float((np.abs(left.flow) / (flow + LAX * path.elastic if lax else flow)).max())
+    far = spread(path.cones, z.s + left.slack, z.y, path.target(z.theta))
+    return max(off, far / (CLOSER if lax else WIDE))
 
 
 def moved(path: Path, z: Point, t: float, d: Point) -> Point:

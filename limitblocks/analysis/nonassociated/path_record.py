@@ -51,10 +51,11 @@ def off_load_path(how: str) -> tuple[str, ...]:
             "load_factor_range shows others",
         )
     if BORNE in how:
+        (share,) = (part.removesuffix(BORNE) for part in how.split(", ") if part.endswith(BORNE))
         return (
             *symmetric,
-            "the barrier of the path presses joints together that may bear nothing, and part of this load "
-            "factor, an estimate of which `how` gives, is friction at them; load_path goes without",
+            f"the barrier of the path presses joints together that may bear nothing, and {share}% of this "
+            "load factor, by an estimate, is friction at them; load_path goes without",
         )
     if EARLY in how:
         return (

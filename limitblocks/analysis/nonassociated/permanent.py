@@ -25,7 +25,7 @@ from limitblocks.problem import Flow, LimitProblem, State, Turning
 
 DILATES = 1e-6  # of the elastic energy: from 1e-4 on where stresses change, up to 1e-10 elsewhere
 # Barrier to begin with: steps of Newton's method from it find what arises in all of 93 models of the gallery
-# that yield, in two thirds of the time of a path, and for boxes that hardly stand, where a path is lost
+# that yield, in two thirds of the time of a path
 FIRST = 1e-5
 LEFT = 1e-9  # of the barrier: stresses are off by at most 1e-3 of the largest
 ADMISSIBLE = 1e-8  # residual of equilibrium and yield

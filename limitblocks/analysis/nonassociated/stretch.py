@@ -52,6 +52,10 @@ class Stretch(Walk):
         return self.points[k].sign == self.points[0].sign
 
     @property
+    def _lax(self) -> bool:
+        return self.z.theta > ARRIVED * self.until
+
+    @property
     def _stop(self) -> float:
         """The theta that a step stops at: that of a fold once tau grows again, else the last."""
         return self.fold if np.isfinite(self.fold) and self._forward(-1) else self.until
