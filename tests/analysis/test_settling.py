@@ -55,6 +55,22 @@ def test_a_path_ends_only_where_its_state_is_exact_for_a_model_nearby(moved_corn
     assert early.load_factor > 1.05 * found.load_factor
 
 
+def test_states_within_the_tolerance_that_are_exact_for_no_model_are_polished_now_and_then(
+    moved_corner, monkeypatch
+):
+    """Not at every point."""
+    lefts, polished = [], path.polished
+
+    def counted(flow, state, left, **options):
+        lefts.append(left)
+        return polished(flow, state, left, **options)
+
+    monkeypatch.setattr(path, "polished", counted)
+    found = followed(moved_corner)
+    assert 2 <= sum(left <= 1e-8 for left in lefts) <= 10
+    assert len(found.history) > 100
+
+
 def test_a_load_factor_that_still_changes_is_no_answer(moved_corner, monkeypatch):
     monkeypatch.setattr(path, "FURTHER", 100)
     with pytest.raises(lb.NotConverged, match="the load factor still changed as its path was followed on"):

@@ -208,7 +208,8 @@ class Walk:
             raise Lost("no solution at the end")
         flow, reached, found = self.path.flow, self.state, self.settling
         left = defect(flow, reached)
-        self.tried = max(AGAIN, TOLERANCE / max(left, TOLERANCE)) * z.theta  # where it may solve all as it is
+        # where it may solve all as it is; half as far on where it does, and yet is exact for no model nearby
+        self.tried = max(AGAIN, TOLERANCE / max(left, 2.0 * TOLERANCE)) * z.theta
         state, residual = polished(flow, reached, left, patience=1)  # a point costs less than more steps
         found.keep(state, reached, residual)
         if found.left > EXACT and left < DEGENERATE:
