@@ -157,23 +157,27 @@ def _pushed(path: Path, weights: Array, rho: float, left: float, spans: tuple[fl
 
 def _started(curve: Path) -> tuple[Point | None, int]:
     """The first point of an increment, and factorisations; where many rows yield, by a barrier that fades."""
-    try:
-        start, used = centred(curve)
-        if start is not None:
-            return start, used
-        size = (
-            INSIDE**2 * float(curve.elastic.mean()) / curve.power
-        )  # its slacks are as large as the first ones
-        fading = replace(curve, barrier=Barrier(size, 0.0, 0.0))
-        start, more = centred(fading)
-    except (RuntimeError, ValueError):
-        return None, 1
+    start, used = _centred(curve)
+    if start is not None:
+        return start, used
+    # its slacks are as large as the first ones
+    size = INSIDE**2 * float(curve.elastic.mean()) / curve.power
+    fading = replace(curve, barrier=Barrier(size, 0.0, 0.0))
+    start, more = _centred(fading)
     if start is None:
         return None, used + more
     walk = Stretch(fading, start, curve.barrier.size / size)
     walk.go()
     start = replace(walk.kept[-1], theta=1.0) if walk.arrived else None
     return start, used + more + walk.factorisations
+
+
+def _centred(curve: Path) -> tuple[Point | None, int]:
+    """The first point by Newton's method, None where it runs away, and factorisations."""
+    try:
+        return centred(curve)
+    except (RuntimeError, ValueError):  # SuperLU: singular or not finite
+        return None, 1
 
 
 def _from_start(visit: Visit, behind: float) -> Visit:

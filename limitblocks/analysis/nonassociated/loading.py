@@ -126,6 +126,7 @@ def pushed(
     strength = float(np.linalg.norm(flow.problem.g) / np.linalg.norm(flow.problem.live))
     endless = CLIMBED * max(scale, strength)
     pushes: list[Pushed] = []
+    farthest: tuple[Pushed, ...] = ()  # before any were taken back
     used, failures, sprung = 0, 0, None
     while used < settings.budget and rho * LEAST < first:
         met, proof, closed = _ended(flow, increment(path, weights, rho, settings.left), tolerance)
@@ -135,6 +136,7 @@ def pushed(
             failures += 1
             if met.returned:
                 sprung = pushes[-1].state.load_factor if pushes else 0.0
+                farthest = max(farthest, tuple(pushes), key=_length)
             path, rho = _again(path, rho, pushes, met.returned, settings.growth)
             continue
         state = met.increment.end.state
@@ -150,7 +152,13 @@ def pushed(
     why = USED_UP.format(settings.budget) if used >= settings.budget else TOO_SMALL
     if sprung is not None:
         why += SPRINGS_BACK.format(sprung / flow.problem.units.live)
-    return tuple(pushes), pushes[-1].state if pushes else at_rest(flow, x0), why
+    farthest = max(tuple(pushes), farthest, key=_length)
+    return farthest, farthest[-1].state if farthest else at_rest(flow, x0), why
+
+
+def _length(pushes: tuple[Pushed, ...]) -> float:
+    """Displacement of increments together."""
+    return sum(1.0 / one.increment.rho for one in pushes)
 
 
 def _again(path: Path, rho: float, pushes: list[Pushed], returned: bool, growth: float) -> tuple[Path, float]:
