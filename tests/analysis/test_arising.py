@@ -7,6 +7,7 @@ import limitblocks as lb
 from limitblocks.analysis import unstressed
 from limitblocks.analysis.in_si import resultants_of
 from limitblocks.analysis.nonassociated import permanent
+from limitblocks.analysis.nonassociated.path_layout import Layout
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.unstressed import arising, joint_compliance
 from limitblocks.problem import Flow
@@ -67,6 +68,19 @@ def test_what_arises_in_a_stair_is_found_by_steps_that_lower_the_barrier_tenfold
     found = arising(flow, W, permanent.FIRST, permanent.LEFT, along_path=False)
     exact = arising(flow, W)
     assert np.abs(found.x - exact.x).max() < 2e-3 * np.abs(exact.x).max()
+
+
+def test_steps_cost_less_than_a_path_from_the_same_barrier(monkeypatch):
+    """Factorisations of what arises in a stair."""
+    problem = lb.structures.EXAMPLES["cantilever_stair"](lb.OrdunaLourenco(0.4)).problem
+    flow, W, made, used = Flow(problem), joint_compliance(problem), [], {}
+    factors = Layout.factors
+    monkeypatch.setattr(Layout, "factors", lambda *given: made.append(0) or factors(*given))
+    for along_path in (False, True):
+        made.clear()
+        assert arising(flow, W, permanent.FIRST, permanent.LEFT, along_path=along_path) is not None
+        used[along_path] = len(made)
+    assert used[False] < 0.8 * used[True]
 
 
 def test_joints_that_nowhere_yield_bear_what_statics_says_without_a_path(monkeypatch):

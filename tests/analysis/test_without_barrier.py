@@ -184,9 +184,10 @@ def test_paths_that_may_leave_the_load_path_are_remarked(how, words):
     assert words in remark
 
 
-def test_the_rest_of_a_path_without_barrier_ends_where_rounds_may_not():
+@pytest.mark.parametrize("friction", [0.3, 0.6])
+def test_the_rest_of_a_path_without_barrier_ends_where_rounds_may_not(friction):
     """Along governs: pushed diagonally the lintel goes at the same push along, by the root of two."""
-    joint = lb.OrdunaLourenco(0.6, compressive_strength=0.3e6)
+    joint = lb.OrdunaLourenco(friction, compressive_strength=0.3e6)
     directions = (1.0, 0.0, 0.0), (1.0, 1.0, 0.0)
     along, diagonal = (
         lb.nonassociated(lb.structures.eccentric_lintel(joint, eccentricity=0.1, direction=direction))
