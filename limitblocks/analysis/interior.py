@@ -11,6 +11,7 @@ from limitblocks.analysis.programs import DIRECT
 from limitblocks.analysis.scales import scaled
 from limitblocks.analysis.splitting import Splitting
 from limitblocks.arrays import Array, read_only
+from limitblocks.evidence.residuals import TOLERANCE, Residuals, static_residuals
 from limitblocks.known import known
 from limitblocks.problem import LimitProblem
 
@@ -39,7 +40,8 @@ def _carried(problem: LimitProblem, splitting: Splitting | None) -> Array | None
             continue
         x = p.stress * x if plane is None else np.asarray(plane.stresses @ (p.stress * x))
         with np.errstate(over="ignore", invalid="ignore"):  # friction 1e-300: nothing is within
-            if problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0:
+            within = problem.cones.margin(problem.F @ x + problem.g).min(initial=np.inf) > 0.0
+            if within and Residuals(static_residuals(problem, 0.0, x)).worst.value <= TOLERANCE:
                 return read_only(x)
     return None
 

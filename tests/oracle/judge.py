@@ -64,7 +64,7 @@ def write(record: dict[str, dict], file: Path = RECORD) -> None:
 
 
 def judged(model: lb.Model, expected: Truth) -> Verdict:
-    """Compare `lb.bounds` with the truth."""
+    """Compare `lb.bounds`, checked by `lb.check_mcp`, with the truth."""
     if expected.verdict == "undecided":
         return Verdict("undecided")
     try:
@@ -89,6 +89,8 @@ def judged(model: lb.Model, expected: Truth) -> Verdict:
     width = result.upper - result.lower
     # bounds that hold but lie farther apart than the library promises
     wide = width > 2 * (RELATIVE * value + ROUNDING)
+    if not wide and not lb.check_mcp(model, result).passed:
+        return Verdict("check fails", said)
     return Verdict("wide" if wide else "right", said, width / value if result.proven and value else None)
 
 
