@@ -25,8 +25,9 @@ NEEDED = {
     2132: "polish, weights over 13 decades",
     2809: "shears in units of friction",
     4261: "multipliers that follow the rates",
-    771082: "stresses of the dead loads that balance them",
     41166: "another pair where the first is not proven",
+    771082: "stresses of the dead loads that balance them",
+    990163: "bounds that say themselves how far apart they are",
 }
 
 
