@@ -49,8 +49,9 @@ def _carried(problem: LimitProblem, splitting: Splitting | None) -> Array | None
 def farthest_within(splitting: Splitting) -> Array | None:
     """Return stresses about as far within yield as there are under the dead loads, (s,); None if none.
 
-    By one program to 1e-4, brought into equilibrium as far as rounding lets it: residuals judge that. Where there is little room the splitting ends with a
-    tenth of it or less, after hundreds of rounds (docs/solvers.md).
+    By one program to 1e-4, brought into equilibrium as far as rounding lets it: residuals judge that. Where
+    there is little room the splitting ends with a tenth of it or less, after hundreds of rounds
+    (docs/solvers.md).
     """
     form = Stresses(splitting.p)
     v, _ = Programs(form).solved(form.within(splitting.p.dead), ROUGH)
