@@ -97,7 +97,7 @@ class _Mixture:
         """Both sides proven with the least part of strict states; as they were where none does."""
         x, y = self.repair.balanced(state.load_factor, state.x), self.repair.following(state.u, state.y)
         reach = self.prover.kinematic.reach(state.u, y)
-        static = self._static_part(state.load_factor, x)
+        static, prover = self._static_part(state.load_factor, x), self.prover
         kinematic, v, z = self._opened(reach, self._spare(state.load_factor, x))
         lower, upper, again = (-np.inf, ""), (np.inf, ""), (True, True)
         for _ in range(ROUNDS):
@@ -108,8 +108,9 @@ class _Mixture:
             if kinematic <= MOST:
                 work = 1.0 + kinematic * float(self.own.live @ v)  # of the live load, Eq. (55)
                 mixed = replace(mixed, u=(u + kinematic * v) / work, y=(y + kinematic * z) / work)
-            lower = self.prover.lower(mixed, RESERVE) if again[0] else lower
-            upper = self.prover.upper(mixed, RESERVE) if again[1] else upper
+            prover = prover.at(mixed)  # as whoever checks the state makes it
+            lower = prover.lower(mixed, RESERVE) if again[0] else lower
+            upper = prover.upper(mixed, RESERVE) if again[1] else upper
             again = (bool(lower[1]) and static <= MOST, bool(upper[1]) and kinematic <= MOST)
             if not any(again):
                 break
@@ -124,13 +125,13 @@ class _Mixture:
 
     @cached_property
     def prover(self) -> Prover:
-        return Prover(self.own, self.inner, self.acting)
+        return Prover(self.own, self.dead, self.acting)
 
     def _static_part(self, load_factor: float, x: Array) -> float:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
         reach = self.prover.static.reach(load_factor, x)
         lack = _lack(reach)
-        gain = (self.prover.margin - reach.room)[lack > 0.0]
+        gain = (self.own.cones.margin(self.own.F @ self.inner + self.own.g) - reach.room)[lack > 0.0]
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
         return float(parts.max(initial=0.0))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -97,6 +97,11 @@ class Prover:
     problem: LimitProblem
     dead: Array
     acting: Array
+
+    def at(self, state: State) -> Prover:
+        """The same for another state."""
+        acting = acting_at(self.problem, state)
+        return self if np.array_equal(acting, self.acting) else replace(self, acting=acting)
 
     @cached_property
     def static(self) -> Static:

@@ -105,8 +105,11 @@ def within_cone(v, up, friction):
     b = -(v[:2] @ up[:2]) + mu2 * v[2] * up[2]
     c = up[:2] @ up[:2] - mu2 * up[2] ** 2
     roots = [-c / (2 * b)] if a == 0.0 and b != 0.0 else []
-    if a != 0.0 and b * b >= a * c:
-        q = -(b + np.copysign(np.sqrt(b * b - a * c), b))
+    # b^2 - a c, which vanishes where v and up are parallel: no difference of squares, that would leave 1e-8
+    tilted, turned = v[:2] * up[2] - up[:2] * v[2], v[0] * up[1] - v[1] * up[0]
+    more = mu2 * (tilted @ tilted) - turned**2
+    if a != 0.0 and more >= 0.0:
+        q = -(b + np.copysign(np.sqrt(more), b))
         roots = [q / a, c / q] if q != 0.0 else [0.0]
     ends = sorted({-np.inf, *roots, np.inf, *([up[2] / v[2]] if v[2] != 0.0 else [])})
     inside = [

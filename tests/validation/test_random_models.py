@@ -26,8 +26,10 @@ NEEDED = {
     2809: "shears in units of friction",
     4261: "multipliers that follow the rates",
     41166: "another pair where the first is not proven",
+    450098: "double root of the closed form",
     771082: "stresses of the dead loads that balance them",
     990163: "bounds that say themselves how far apart they are",
+    990236: "proven by what the result carries",
 }
 
 
