@@ -131,7 +131,7 @@ class _Mixture:
         """Least part of the inner stresses that pays for what x needs; infinite where they have no room."""
         reach = self.prover.static.reach(load_factor, x)
         lack = _lack(reach)
-        gain = (self.own.cones.margin(self.own.F @ self.inner + self.own.g) - reach.room)[lack > 0.0]
+        gain = (self.prover.margin - reach.room)[lack > 0.0]
         parts = np.where(gain > 0.0, lack[lack > 0.0] / gain, np.inf)
         return float(parts.max(initial=0.0))
 
