@@ -21,6 +21,7 @@ from scipy.sparse import linalg
 from limitblocks.analysis.nonassociated.path import BUDGET
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_measures import by_units
 from limitblocks.analysis.nonassociated.path_start import centred
 from limitblocks.analysis.nonassociated.stretch import Stretch
 from limitblocks.arrays import Array
@@ -82,7 +83,8 @@ def arising(
     s, n = flow.problem.C.shape
     flow = replace(flow, problem=replace(flow.problem, live=np.zeros(n)))
     even, x0 = flow.problem.cones.identity, np.zeros(s)
-    path = Path(flow, Layout(flow), Barrier(first, power=0.0, floor=0.0), even, weights, x0, x0)
+    barrier, own = Barrier(first, power=0.0, floor=0.0), by_units(flow.problem, weights, 1.0)
+    path = Path(flow, Layout(flow), barrier, even, weights, x0, x0, own)
     try:
         start, _ = centred(path, until=None if along_path else left / first)
     except (RuntimeError, ValueError):  # SuperLU: singular or not finite

@@ -82,7 +82,7 @@ def test_rounds_on_a_line_are_extrapolated_to_where_they_stand_still():
 
 
 def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_beyond_yield(monkeypatch):
-    """Of this corner 7 where 12 are needed without."""
+    """Of this corner 7 where 13 are needed without."""
     joint = lb.OrdunaLourenco(0.6)
     model = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0.0, 1.0, 0.0))
     problem = own_units(model, bracket(model))
@@ -90,7 +90,7 @@ def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_be
     x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     assert closing.frozen_mechanism(flow, -x0) is not None  # tension: no gap were least
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
-    state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 1, 60)], power=power)
+    state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 2, 40)], power=power)
     nearest, needed = NearestStresses(problem, problem.compliance), []
     for ahead in (closing.ahead, lambda now, *_: now[0]):
         monkeypatch.setattr(closing, "ahead", ahead)
@@ -101,11 +101,11 @@ def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_be
 
 
 def test_pivots_close_rounds_near_a_solution(monkeypatch):
-    """Eight rounds in place of 33: of groin vaults that are treated as large."""
+    """Six rounds in place of 16: of groin vaults that are treated as large."""
     monkeypatch.setattr(ways, "LARGE", 10)
 
     def rounds():
-        frictions = map(lb.OrdunaLourenco, (0.5, 0.54, 0.56))
+        frictions = map(lb.OrdunaLourenco, (0.54, 0.56))
         found = [lb.nonassociated(lb.structures.EXAMPLES["groin_vault"](one)).how for one in frictions]
         assert all("of the fixed point" in how for how in found)
         return sum(int(re.search(r"(\d+) rounds? of", how)[1]) for how in found)
@@ -183,14 +183,14 @@ def test_the_last_path_of_a_large_model_is_followed_where_the_one_before_ends(mo
 
 @pytest.mark.parametrize("rounds", [True, False])
 def test_rounds_close_a_path_of_a_large_model_on_its_way(rounds, monkeypatch):
-    """The path of this vault closes in 253 factorisations with them, and in 354 without."""
+    """The path of this vault closes in 202 factorisations with them, and in 490 without."""
     vault = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.6))
     model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
     x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
-    one = Means(Barrier(3.0, 2.0, 1e-8), 1, 300)
+    one = Means(Barrier(3.0, 2.0, 1e-8), 0, 300)
     way = closing.Closing(flow, 1e-8) if rounds else None
     _, (info,) = follow(flow, x0, problem.compliance, means=[one], power=power, closing=way)
     assert info.closed is rounds
@@ -283,15 +283,18 @@ def parts(state):
 
 
 def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
-    """Of vaults that crush some paths leave 1e-8 to 3e-7; which ones, depends on the kernel of BLAS."""
+    """Of vaults that crush, stopped one factorisation before their path is closed on its way."""
 
     def closes(friction):
         joint = lb.OrdunaLourenco(friction, compressive_strength=0.3e6)
         size = {"radius": 1.5, "thickness": 0.4, "length": 1.8, "courses": 7, "stones": 3}
         vault = lb.structures.barrel_vault(joint, **size, direction=(1.0, 1.0, 0.0))
-        return lb.nonassociated(vault, means=MEANS[:1], confirm=False, throw=False).converged
+        path = MEANS[0]._replace(patience=None)
+        whole = lb.nonassociated(vault, means=[path], confirm=False, throw=False)
+        short = path._replace(budget=whole.history[-2].inner - 1)
+        return lb.nonassociated(vault, means=[short], confirm=False, throw=False).converged
 
-    vaults = (0.59, 0.6)
+    vaults = (0.58, 0.585)
     with_pivots = sum(map(closes, vaults))
     monkeypatch.setattr(ways, "pivoted", lambda flow, state: state)
     assert sum(map(closes, vaults)) < with_pivots

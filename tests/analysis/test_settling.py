@@ -95,7 +95,7 @@ def test_a_path_stopped_on_the_way_is_no_answer_unless_it_is_exact_nearby(moved_
 
 def test_a_path_that_falls_beyond_the_tolerance_is_followed_to_its_end():
     """Nothing changes any more once it is exact for a model nearby."""
-    found = followed(corner_moved(8e-6))
+    found = followed(corner_moved(1.5e-5))
     assert found.converged
     assert found.backward_error.value <= 1e-4
 

@@ -166,7 +166,7 @@ def _started(curve: Path) -> tuple[Point | None, int]:
     if start is not None:
         return start, used
     # its slacks are as large as the first ones
-    size = INSIDE**2 * float(curve.elastic.mean()) / curve.power
+    size = INSIDE**2 * float((curve.elastic * curve.measures.stress**2).mean()) / curve.measures.power
     fading = replace(curve, barrier=Barrier(size, 0.0, 0.0))
     start, more = _centred(fading)
     if start is None:

@@ -22,6 +22,7 @@ from limitblocks.analysis.nonassociated.increment import (
 )
 from limitblocks.analysis.nonassociated.path import DEGENERATE
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
+from limitblocks.analysis.nonassociated.path_measures import by_units
 from limitblocks.analysis.nonassociated.path_record import RETURNS
 from limitblocks.analysis.nonassociated.path_start import path_from
 from limitblocks.analysis.nonassociated.settings import Settings
@@ -121,7 +122,7 @@ def pushed(
     """
     soft, blocks = replace(flow, softening=SOFTENING), len(flow.problem.blocks)
     barrier = Barrier(settings.barrier, floor=0.0)
-    path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share)
+    path = path_from(soft, x0, weights, barrier, 0, scale / blocks, share, by_units)
     first = rho = float(path.elastic[0] / weights[0]) / blocks / settings.first
     strength = float(np.linalg.norm(flow.problem.g) / np.linalg.norm(flow.problem.live))
     endless = CLIMBED * max(scale, strength)

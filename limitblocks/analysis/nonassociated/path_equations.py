@@ -7,7 +7,8 @@ At theta = 1 it is a small step of rigid blocks on joints of compliance W from t
 Eqs (54)-(59). The weights w of rows and cones are random where a seed is given: they break the symmetry of
 structures whose paths would branch (Chow, Mallet-Paret & Yorke 1978, Math. of Computation 32). Every point
 satisfies the products exactly: a move changes v = s / sigma - sigma y and takes s and y back from it, so that
-a row that starts or stops to yield is no boundary of the step. Where rho has reached its floor, x0 moves on
+a row that starts or stops to yield is no boundary of the step. What is large on the way is told by the
+compliance, not by the units of the numbers. Where rho has reached its floor, x0 moves on
 with x, else the stresses of rigid parts lose their equations; r carries the jump that this would make and
 fades with theta.
 """
@@ -20,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_measures import Measures
 from limitblocks.arrays import Array
 from limitblocks.mechanics.loads.load import number
 from limitblocks.problem import Cones, Flow, State
@@ -28,10 +30,10 @@ from limitblocks.problem.barrier import central, curvature, spread
 LEAST_THETA = 0.05  # part of theta that a move leaves
 MOST_THETA = 3.0  # and its largest growth
 WIDE = float(np.log(5.0))  # how far a product may be from its target, logarithm of the quotient
-FLOW = 0.05  # of theta: how far off the flow may be
+FLOW = 0.05  # of theta: how far off the flow may be, in strains of its measure
 # Where the compliance stays, on the way to the point asked for: the flow may be off by a share of the strains
-# of unit stresses, but products are closer to their targets, or some points have no successor. By this
-# alone 234 load paths take .8 of the time, and 245 of 278 converge where 234 did.
+# of stresses of their measure, but products are closer to their targets, or some points have no successor.
+# By this alone 234 load paths take .8 of the time, and 245 of 278 converge where 234 did.
 LAX, CLOSER = 1e-4, float(np.log(1.5))
 ROUNDING = 4.0 * float(np.finfo(float).eps)  # of the stresses: what the compliance makes of it is no error
 
@@ -93,8 +95,8 @@ class Point:
 class Path:
     """What fixes a path: flow, barrier, weights w (R,), rho0 W, and x0 with the residual r it carries.
 
-    `power` is the unit of the barrier's size, dimensionless. Increments may count tau = 1 / rho from `behind`
-    before x0: live . u = 1 - behind rho.
+    The power of its measures is the unit of the barrier's size. Increments may count tau = 1 / rho from
+    `behind` before x0: live . u = 1 - behind rho.
     """
 
     flow: Flow
@@ -104,7 +106,7 @@ class Path:
     elastic: Array
     x0: Array
     carried: Array
-    power: float = 1.0
+    measures: Measures
     behind: float = 0.0
 
     @property
@@ -122,7 +124,7 @@ class Path:
 
     def target(self, theta: float) -> Array:
         """Products s o y of the path at theta, shape (R,)."""
-        return self.barrier.size * self.power * theta * self.weights
+        return self.barrier.size * self.measures.power * theta * self.weights
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,9 +168,10 @@ def distance(path: Path, z: Point, left: Equations, lax: bool = False) -> float:
     A `lax` one may be farther off where the compliance stays: theta says nothing of the flow there.
     """
     rounding = ROUNDING * path.rho(z.theta) * path.elastic * np.abs(z.x)
-    flow = FLOW * z.theta * (1.0 - path.behind) + rounding
+    flow = FLOW * z.theta * (1.0 - path.behind) * path.measures.strain + rounding
     lax = lax and not path.barrier.power
-    off = float((np.abs(left.flow) / (flow + LAX * path.elastic if lax else flow)).max())
+    flow += LAX * path.elastic * path.measures.stress if lax else 0.0
+    off = float((np.abs(left.flow) / flow).max())
     far = spread(path.cones, z.s + left.slack, z.y, path.target(z.theta))
     return max(off, far / (CLOSER if lax else WIDE))
 
@@ -180,7 +183,9 @@ def moved(path: Path, z: Point, t: float, d: Point) -> Point:
         t = min(t, change * z.theta / d.theta)
     ahead = z.moved(t, d)
     # balances the sizes of slacks and multipliers, which decides what counts as large
-    sigma = float(np.sqrt(np.sqrt(z.s @ z.s) / np.sqrt(z.y @ z.y)))
+    unit = path.measures.slack
+    s, y = z.s / unit, z.y * unit
+    sigma = float(np.sqrt(np.sqrt(s @ s) / np.sqrt(y @ y))) * unit
     s, y = central(path.cones, ahead.s / sigma - sigma * ahead.y, path.target(ahead.theta))
     return Point(ahead.x, ahead.u, ahead.load_factor, sigma * s, y / sigma, ahead.theta)
 

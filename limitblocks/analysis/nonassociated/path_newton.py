@@ -80,8 +80,10 @@ class Newton:
         """
         n, tried = len(self.elastic), list[tuple[Array, Array]]()
         y, left = d[self._ends[-1] :], right - self._taken(d)
+        measures = self.path.measures
+        stress, slack = measures.stress[:, None], measures.slack[:, None]
         for _ in range(MOST):
-            if (_largest(left[:n]) <= ACCURATE * _largest(y)).all():
+            if (_largest(stress * left[:n]) <= ACCURATE * _largest(slack * y)).all():
                 return
             step, _ = self._eliminated(left)
             takes = self._taken(step)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from hashlib import blake2b
 
 import numpy as np
 
@@ -15,15 +17,19 @@ from limitblocks.analysis.nonassociated.path_equations import (
     residuals,
 )
 from limitblocks.analysis.nonassociated.path_layout import Layout
+from limitblocks.analysis.nonassociated.path_measures import Measures, by_compliance
 from limitblocks.analysis.nonassociated.path_newton import Newton
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, positions
 from limitblocks.errors import SolveError
 from limitblocks.evidence.elimination import Factors
-from limitblocks.problem import Flow
+from limitblocks.problem import Flow, LimitProblem
 from limitblocks.problem.barrier import quotient
 
-SPREAD = 0.7  # of the logarithms of the weights
-INSIDE = 0.1  # least distance of the first slacks from the boundary
+# Of the logarithms of the weights: from interface to interface, and from row to row of one. Where rows of an
+# interface have one weight its path ends at a centre of several solutions, and no step succeeds at last.
+SPREAD, AMONG_ROWS = 0.6, 0.1
+GOLDEN = (np.sqrt(5.0) - 1.0) / 2.0  # whose multiples spread evenly
+INSIDE = 0.1  # least distance of the first slacks from the boundary, of their measure
 ITERATIONS = 60
 FALLS = 0.1  # barrier after a step: of 93 models .03 misses one, .3 takes 1.1 times the factorisations
 HELD = 1e-9  # of the largest stiffness: springs on what nothing else holds
@@ -37,6 +43,7 @@ def path_from(
     seed: int,
     power: float = 1.0,
     share: Array | float = 1.0,
+    measured: Callable[[LimitProblem, Array, float], Measures] = by_compliance,
 ) -> Path:
     """Return the path from stresses x0; rho0 makes it start with a load factor of `power` on elastic joints.
 
@@ -56,6 +63,8 @@ def path_from(
         Unit of the barrier's size and of the first load factor, dimensionless.
     share : Array, shape (R,)
         Of the barrier, in each row: of rows that stand for several more than one.
+    measured : callable
+        What gives the measures of the path, of its problem, rho0 W and power.
     """
     p, layout = flow.problem, Layout(flow)
     C = layout.compatibility
@@ -64,10 +73,21 @@ def path_from(
     rho0 = float(lu.solve(np.append(np.zeros(p.C.shape[1]), 1.0))[-1]) / power
     logarithms = np.zeros(p.cones.degree)
     if seed:
-        logarithms = np.random.default_rng(seed).uniform(-SPREAD, SPREAD, p.cones.degree)
+        logarithms = _drawn(p, seed)
     logarithms[~layout.sliding] += np.log(barrier.opening)
     products = share * np.exp(logarithms)[p.cones.member] * p.cones.identity
-    return Path(flow, layout, barrier, products, rho0 * weights, x0, np.zeros_like(x0), power)
+    elastic = rho0 * weights
+    own = measured(p, elastic, power)
+    return Path(flow, layout, barrier, products, elastic, x0, np.zeros_like(x0), own)
+
+
+def _drawn(problem: LimitProblem, seed: int) -> Array:
+    """Logarithms of weights of rows and cones, by the names of interfaces, whichever block comes first."""
+    names = (f"{seed} {sorted(name.split('|'))}".encode() for name in problem.interfaces)
+    digests = b"".join(blake2b(name, digest_size=8).digest() for name in names)
+    own = (np.frombuffer(digests, "<u8") / 2.0**64)[problem.member_interface]
+    place = positions(problem.member_interface)
+    return np.asarray(SPREAD * (2.0 * own - 1.0) + AMONG_ROWS * (2.0 * ((own + GOLDEN * place) % 1.0) - 1.0))
 
 
 def _elastic(layout: Layout, stiffness: Array) -> Factors:
@@ -87,7 +107,8 @@ def centred(path: Path, theta: float = 1.0, until: float | None = None) -> tuple
     """
     p, cones, last = path.flow.problem, path.cones, theta if until is None else until
     rows = p.F @ path.x0 + p.g
-    s = rows + np.maximum(0.0, INSIDE - cones.margin(rows))[cones.member] * cones.identity
+    unit = path.measures.slack
+    s = rows + unit * np.maximum(0.0, INSIDE - cones.margin(rows / unit))[cones.member] * cones.identity
     z = Point(path.x0, np.zeros(p.C.shape[1]), 0.0, s, quotient(cones, s, path.target(theta)), theta)
     for k in range(ITERATIONS):
         left = residuals(path, z)
