@@ -17,7 +17,6 @@ from limitblocks.evidence.multipliers import near_yield
 from limitblocks.evidence.nearest_mechanism import nearest_mechanism
 from limitblocks.problem import Flow, State, Turning
 
-NOISE = 1e-12  # of the largest rate of an interface: a flow below it is rounding
 TURN = 1e-3  # flow that turns less readily than this is lost in rounding
 SLIGHT = 0.1  # of what acts on the lesser block: a joint that carries more keeps its force
 
@@ -89,7 +88,7 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
     p = flow.problem
     each = given.by_member(y)
     rates = np.sqrt((each * each).sum(axis=1))
-    flows = (rates > NOISE * np.abs(p.C @ u).max(initial=0.0)) & ~given.still(u)[given.places[0]]
+    flows = (rates > 0.0) & ~given.still(u)[given.places[0]]
     choice = _Choice(u, np.where(flows[p.cones.member], y, 0.0), each * flows[:, None], flows)
     x = _cheapest(given, choice)
     at = _flowing(given, x, choice)

@@ -122,19 +122,12 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
 
 
 def test_a_pier_that_rocks_back_stays_on_its_corner():
-    """It turned about the inner edge of the strip left of its joint: steps were cut to 1.5e-4 m at .717 m.
+    """It turned about the inner edge of the strip left of its joint, and the curve ended at .27 m as a snap.
 
     Its corner, said to open, went into the base by the second order of each step.
     """
-    told = []
-
-    def count(point):
-        told.append(point)
-        assert len(told) < 15
-
-    portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=2.0, pier_width=0.6, pier_blocks=2)
-    curve = capacity_curve(portal, largest=0.8, progress=count)
-    assert curve.ended == "the displacement 0.8 m is reached"
+    portal = lb.structures.portal(lb.OrdunaLourenco(0.6), span=1.6, pier_width=0.6, pier_blocks=2)
+    assert capacity_curve(portal).ended.startswith("load factor zero")
 
 
 @pytest.mark.parametrize(("fall", "known"), [(1e-12, False), (-1e-12, False), (1e-6, True), (-1e-6, False)])

@@ -58,7 +58,8 @@ def path_from(
     barrier : Barrier
         How compliance and barrier fade.
     seed : int
-        Of the weights of the products, all one for seed 0: another seed is another path.
+        Of the weights of the products, all one for seed 0, else drawn by the names of the interfaces: another
+        seed is another path.
     power : float
         Unit of the barrier's size and of the first load factor, dimensionless.
     share : Array, shape (R,)
