@@ -82,7 +82,7 @@ def test_rounds_on_a_line_are_extrapolated_to_where_they_stand_still():
 
 
 def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_beyond_yield(monkeypatch):
-    """Of this corner 7 where 13 are needed without."""
+    """Of this corner 7 where 15 are needed without."""
     joint = lb.OrdunaLourenco(0.6)
     model = lb.structures.corner(joint, length=2.4, return_length=2.4, courses=4, direction=(0.0, 1.0, 0.0))
     problem = own_units(model, bracket(model))
@@ -90,7 +90,7 @@ def test_extrapolated_rounds_need_three_quarters_at_most_and_mechanisms_exist_be
     x0 = start_stresses(model, Flow(problem), problem.compliance, None)
     assert closing.frozen_mechanism(flow, -x0) is not None  # tension: no gap were least
     power = load_scale(problem, bracket(model).associated) / len(problem.blocks)
-    state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 2, 40)], power=power)
+    state, _ = follow(flow, x0, problem.compliance, means=[Means(Barrier(), 2, 35)], power=power)
     nearest, needed = NearestStresses(problem, problem.compliance), []
     for ahead in (closing.ahead, lambda now, *_: now[0]):
         monkeypatch.setattr(closing, "ahead", ahead)
@@ -183,9 +183,9 @@ def test_the_last_path_of_a_large_model_is_followed_where_the_one_before_ends(mo
 
 @pytest.mark.parametrize("rounds", [True, False])
 def test_rounds_close_a_path_of_a_large_model_on_its_way(rounds, monkeypatch):
-    """The path of this vault closes in 202 factorisations with them, and in 490 without."""
-    vault = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.6))
-    model = replace(vault, live=lb.mass_proportional((0.0, 1.0, 0.0)))
+    """The path of this vault closes in 274 factorisations with them, and in 738 without."""
+    vault = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.7))
+    model = replace(vault, live=lb.mass_proportional((1.0, 1.0, 0.0)))
     problem = own_units(model, bracket(model))
     flow = Flow(problem)
     x0 = start_stresses(model, Flow(problem), problem.compliance, None)
@@ -261,21 +261,21 @@ def test_rounds_that_are_interrupted_give_the_end_of_the_path(monkeypatch):
 
 
 def test_a_large_model_ends_where_its_backward_error_is_small_enough(monkeypatch):
-    """A millionth of the way back from a solution to the end of the path is exact for a model within 1e-5."""
+    """A ten-thousandth of the way back from a solution to the end of the path is exact for a model nearby."""
     whole, ends = closing.closed, []
 
     def rough(flow, nearest, state, tolerance):
         found, rounds = whole(flow, nearest, state, tolerance)
-        mixed = [b + 1e-6 * (a - b) for a, b in zip(parts(state), parts(found), strict=True)]
+        mixed = [b + 1e-4 * (a - b) for a, b in zip(parts(state), parts(found), strict=True)]
         ends.append(lb.problem.State(*mixed))
         return ends[-1], rounds
 
     monkeypatch.setattr(ways, "LARGE", 10)
     monkeypatch.setattr(closing, "closed", rough)
-    found = lb.nonassociated(corner(), backward_error=1e-5)
+    found = lb.nonassociated(corner(), backward_error=1e-3)
     assert len(ends) == 1
     assert found.status is lb.results.Status.NEARBY
-    assert found.backward_error.value <= 1e-5
+    assert found.backward_error.value <= 1e-3
 
 
 def parts(state):

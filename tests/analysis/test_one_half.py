@@ -80,34 +80,31 @@ def test_a_half_that_is_wrong_is_refused_and_the_whole_solved(monkeypatch):
     assert "half" not in found.how
 
 
-def large_barrier(name, joint, push=None, budget=1000, **changes):
-    """Whether the path with a large barrier closes in one half, and in how many factorisations."""
-    model = lb.structures.EXAMPLES[name](joint)
-    model = replace(model, live=lb.mass_proportional(push)) if push else model
-    flow, enclosing = flow_of(model, 0.0, "centroid")
-    half = flow_in_plane(model, flow, flow.problem.compliance, None, half=True)
+HALVES = [
+    ("dome, oculus", lb.OrdunaLourenco(0.6), (1, 0, 0)), ("dome, oculus", lb.OrdunaLourenco(0.6), (0, 1, 0)),
+    ("dome", lb.PointContact(0.6), (0, 1, 0)), ("pavilion_vault", lb.OrdunaLourenco(0.6), (1, 0, 0)),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("opening", "seed", "sooner"), [(0.3, 0, True), (1.0, 0, False), (0.3, 1, False), (0.3, 2, False)]
+)
+def test_a_large_barrier_closes_sooner_with_a_share_of_it_where_joints_open_and_no_weights(
+    opening, seed, sooner
+):
+    """Four halves in 286 factorisations; with the whole of it there 421, with random weights 353 to 374."""
     barrier, own, *_ = LARGE_MEANS[1]
     assert (barrier.opening, own) == (0.3, 0)
-    one = Means(replace(barrier, opening=changes.get("opening", 0.3)), changes.get("seed", own), budget)
-    power = load_scale(half.flow.problem, enclosing.associated) / len(half.flow.problem.blocks)
-    _, (info,) = follow(half.flow, half.x0, half.weights, means=[one], power=power)
-    return info.closed, info.factorisations
-
-
-@pytest.mark.parametrize(("opening", "closes"), [(0.3, True), (1.0, False)])
-def test_a_large_barrier_closes_sooner_with_a_share_of_it_where_joints_open(opening, closes):
-    """In 176 factorisations; with the whole of it there 485."""
-    assert large_barrier("groin_vault", lb.OrdunaLourenco(0.6), budget=200, opening=opening)[0] is closes
-
-
-@pytest.mark.parametrize(("seed", "sooner"), [(0, True), (1, False), (2, False)])
-def test_a_large_barrier_closes_sooner_without_weights(seed, sooner):
-    """Three halves take 378 factorisations in all; with random weights 510 and more."""
-    oculus, square = ("dome, oculus", lb.PointContact(0.6)), ("pavilion_vault", lb.OrdunaLourenco(0.6))
-    along, out = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)
-    ends = [large_barrier(*half, seed=seed) for half in ((*oculus, along), (*oculus, out), (*square, along))]
-    assert all(closed for closed, _ in ends)
-    assert (sum(taken for _, taken in ends) < 440) is sooner
+    one, taken = Means(replace(barrier, opening=opening), seed, 1000), []
+    for name, joint, push in HALVES:
+        model = replace(lb.structures.EXAMPLES[name](joint), live=lb.mass_proportional(push))
+        flow, enclosing = flow_of(model, 0.0, "centroid")
+        half = flow_in_plane(model, flow, flow.problem.compliance, None, half=True)
+        power = load_scale(half.flow.problem, enclosing.associated) / len(half.flow.problem.blocks)
+        _, (info,) = follow(half.flow, half.x0, half.weights, means=[one], power=power)
+        assert info.closed
+        taken.append(info.factorisations)
+    assert (sum(taken) < 320) is sooner
 
 
 @pytest.mark.parametrize(("seed", "one_answer"), [(REDUCED_MEANS[1].seed, True), (MEANS[1].seed, False)])

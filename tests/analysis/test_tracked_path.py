@@ -60,7 +60,7 @@ def pushed(name, joint, direction):
 
 
 def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypatch):
-    begin = start(pushed("dome", lb.PointContact(0.7), (1, 1, 0)))
+    begin = start(pushed("pavilion_vault", lb.PointContact(0.7), (1, 0, 0)))
     barrier = Barrier(0.1, 2.0)
     _, path = track(*begin, barrier=barrier, seed=1, budget=250)
     assert path.closed
@@ -144,7 +144,7 @@ def test_rounds_of_the_fixed_point_close_what_small_barriers_leave_open(monkeypa
 
 def test_pivots_close_what_rounds_leave_open(monkeypatch):
     """One round in place of two."""
-    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.5), (1, 1, 0))
+    model = pushed("buttressed_wall", lb.OrdunaLourenco(0.6), (1, 1, 0))
     means = (Means(Barrier(), 1, 40), Means(Barrier(), 1, 1))
     assert lb.nonassociated(model, means=means).how.endswith("1 round of the fixed point")
     monkeypatch.setattr(closing, "pivoted", partial(polish, patience=2))
@@ -194,9 +194,12 @@ def test_each_means_closes_what_the_one_before_it_leaves_open(name, direction, m
 
 @pytest.mark.parametrize(("floor", "closes"), [(MEANS[2].barrier.floor, True), (Barrier().floor, False)])
 def test_little_compliance_is_left_at_the_end_of_a_large_barrier(floor, closes):
-    """The floor of the small barrier leaves this dome open within the same number of factorisations."""
-    model, last = pushed("dome", lb.OrdunaLourenco(0.7), (1, 1, 0)), MEANS[2]
-    means = [last._replace(barrier=replace(last.barrier, floor=floor), budget=700)]
+    """The floor of the small barrier leaves this wall of two leaves open after as many factorisations."""
+    joint, last = lb.OrdunaLourenco(0.7, compressive_strength=0.3e6), MEANS[2]
+    model, means = (
+        pushed("two_leaf_wall", joint, (1, 1, 0)),
+        [last._replace(barrier=replace(last.barrier, floor=floor))],
+    )
     assert lb.nonassociated(model, means=means, confirm=False, throw=False).converged == closes
 
 

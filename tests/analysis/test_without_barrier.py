@@ -131,7 +131,7 @@ def test_a_rest_without_solution_leaves_the_solution_there_is(monkeypatch):
 def test_a_barrier_that_fades_in_part_bears_the_less(monkeypatch):
     class Short(Stretch):
         def __init__(self, path, start, until):
-            super().__init__(path, start, until, 12)
+            super().__init__(path, start, until, 9)
 
     model = between(5.0, BESIDE[0])
     lb.bounds(model)

@@ -87,7 +87,7 @@ def test_small_residuals_far_from_any_exact_model_are_remarked(share, told):
 @pytest.mark.parametrize(("tolerance", "told"), [(0.5, True), (1e-8, False)])
 def test_answers_far_from_any_exact_model_are_remarked(tolerance, told):
     """The first state of a path that is within a loose tolerance is no solution of a model nearby."""
-    wall = lb.structures.ferris_tin_loi_wall(1, lb.OrdunaLourenco(0.65))
+    wall = lb.structures.ferris_tin_loi_wall(2, lb.OrdunaLourenco(0.65))
     means = [lb.settings.Means(lb.settings.Barrier(), 0, 30 if told else 300)]
     found = lb.nonassociated(wall, means=means, tolerance=tolerance)
     assert found.converged

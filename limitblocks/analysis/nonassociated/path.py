@@ -4,7 +4,7 @@ The central path of the non-associated problem folds: the barrier has to grow ag
 falling, so that steps which lower it fail. Arclength follows the curve instead (Allgower & Georg 1990,
 Numerical Continuation Methods, Chapters 2 and 6), by a predictor along the tangent and Newton's method in the
 plane normal to it. The way along the tangent comes from the sign of det J, which changes where theta turns
-back; the angle to the last tangent goes wrong at long steps. One factorisation serves corrector and tangent.
+back; the angle to the last tangent goes wrong at long steps. A factorisation serves corrector and tangent.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import numpy as np
 
 from limitblocks.analysis.nonassociated.path_equations import (
     Base,
+    Equations,
     Path,
     Point,
     covector,
@@ -67,6 +68,7 @@ class Walk:
     first = FIRST
     closing: Callable[[State], State] | None = None
     begin: Point | None = None  # a first point that is known
+    left: tuple[Equations, float] | None = None  # what a correction left, and how far off that is
     compliant: tuple[Path, Base] | None = None  # the last base on the way down with rho of COMPLIANT or more
     end = ""  # what the end was
     said = ""  # what else to say of the way here
@@ -120,8 +122,7 @@ class Walk:
 
     def _advance(self) -> None:
         """Correct the point, or accept it and predict the next one."""
-        left = residuals(self.path, self.z)
-        off = distance(self.path, self.z, left, self._lax)
+        left, off = self.left or self._measured()
         if np.isnan(off) or (off > 1.0 and self.correctors == CORRECTORS):
             self._retreat()
             return
@@ -134,22 +135,31 @@ class Walk:
             return
         turn = replace(turn, theta=1.0)
         onto = covector(self.path.cones, self.z, turn)
-        square, along = onto.of(turn), onto.of(step)
+        square = onto.of(turn)
         if not (np.isfinite(square) and square > 0.0):
             self._retreat()
             return
-        correction = step.moved(-along / square, turn)
+        correction = step.moved(-onto.of(step) / square, turn)
         if off > 1.0:
             self.correctors += 1
             self.z = moved(self.path, self.z, 1.0, correction)
-            return
+            self.left = self._measured()
+            if not self.left[1] <= 1.0:
+                return
+            # near enough: the factors of its last correction give the direction
+            correction, onto = step.scaled(0.0), covector(self.path.cones, self.z, turn)
         sign = newton.sign
-        unit = self._heading(sign, turn) / float(np.sqrt(square))
+        unit = self._heading(sign, turn) / float(np.sqrt(onto.of(turn)))
         base = Base(self.z, correction, turn.scaled(unit), onto.scaled(unit))
         if not sign or self._returns(base):
             self._retreat()
         else:
             self._accept(sign, base)
+
+    def _measured(self) -> tuple[Equations, float]:
+        """What is left of the equations at the point, and how far off the path it is."""
+        left = residuals(self.path, self.z)
+        return left, distance(self.path, self.z, left, self._lax)
 
     @property
     def _lax(self) -> bool:
@@ -194,6 +204,7 @@ class Walk:
 
     def _predict(self) -> None:
         assert self.base is not None
+        self.left = None
         z, correction, tangent, _ = self.base
         z = moved(self.path, z, 1.0, correction)
         self.z = moved(self.path, z, self.length, tangent)
