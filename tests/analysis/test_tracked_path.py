@@ -60,8 +60,8 @@ def pushed(name, joint, direction):
 
 
 def test_a_path_is_followed_through_its_folds_by_the_determinant_alone(monkeypatch):
-    begin = start(pushed("pavilion_vault", lb.PointContact(0.7), (1, 0, 0)))
-    barrier = Barrier(0.1, 2.0)
+    begin = start(pushed("pavilion_vault", lb.PointContact(0.7), (1, 1, 0)))
+    barrier = Barrier(0.02, 2.0)
     _, path = track(*begin, barrier=barrier, seed=1, budget=250)
     assert path.closed
     assert path.folds >= 2
