@@ -15,6 +15,7 @@ from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixe
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
+from limitblocks.analysis.nonassociated.path_record import off_load_path
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.evidence.residuals import mcp_residuals
 from limitblocks.problem import Flow, State, Turning
@@ -111,7 +112,7 @@ def test_every_answer_is_confirmed(kind, turning):
     assert found.fixed_point_change <= 1e-7
     assert f"fixed point within {found.fixed_point_change:.1e}" in str(found)
     assert found.to_dict()["fixed_point_change"] == found.fixed_point_change
-    assert not found.remarks
+    assert found.remarks == off_load_path(found.how)  # and no other
 
 
 def test_confirmation_of_one_of_many_solutions():

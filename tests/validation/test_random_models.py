@@ -44,6 +44,20 @@ def test_random_model(seed):
     assert verdict.outcome == "right", verdict.said
 
 
+@pytest.mark.parametrize(
+    ("seed", "how"),
+    [(450192, "increments"), (470273, "increments"), (450385, "fixed point"), (470451, "fixed point")],
+)
+def test_what_paths_leave_open_is_closed_by_increments_or_the_outer_loop(seed, how):
+    """Weights over up to 14 decades."""
+    case = random_models.case(seed)
+    verdict = judge.judged_nonassociated(case, judge.truth_of(case, RECORD))
+    assert verdict.outcome == "right", verdict.said
+    found = lb.nonassociated(case.model)
+    assert found.how.startswith(how)
+    assert any("frozen friction" in remark for remark in found.remarks) is (how == "fixed point")
+
+
 def apart(*stones):
     """Cubes (side, weight, friction) on one floor, far from each other."""
     x, boxes = 0.0, {}

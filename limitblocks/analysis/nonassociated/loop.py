@@ -15,7 +15,7 @@ from limitblocks.analysis.nonassociated.in_the_plane import (
     found_in_plane_or_whole,
 )
 from limitblocks.analysis.nonassociated.means import MEANS, Means, checked_means
-from limitblocks.analysis.nonassociated.outer_loop import outer_loop
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED, recorder
 from limitblocks.analysis.nonassociated.start import (
     Start,
@@ -129,7 +129,7 @@ def nonassociated(
 
         def solve(at: Flow, x0: Array, half: Half) -> tuple[State, str]:
             if way is Method.FIXED_POINT:
-                return outer_loop(at, x0, tolerance, lambda *round: record(_round(at, *round)))
+                return outer_loop(at, x0, tolerance, lambda *round: record(told(at, *round)))
             scale = load_scale(at.problem, enclosing.associated)
             near = partial(_near, at, tolerance, limit)
             given = Given(at, x0, scale, tolerance, record)
@@ -177,10 +177,3 @@ def end_of_first_path(
 
 def _not_looked_for() -> None:
     """No half of a whole problem."""
-
-
-def _round(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
-    """What a round of the outer loop tells the user."""
-    load_factor = float(state.load_factor / flow.problem.units.live)
-    residuals = mcp_residuals(flow, state).to_dict()
-    return Iteration(load_factor, "fixed point", rotation, residuals, number, 0)

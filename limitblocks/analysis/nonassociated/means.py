@@ -41,7 +41,9 @@ LOW = 1e-10
 
 # The small barrier is the load path. Where it winds the compliance fades before the barrier (power 2), which
 # cuts most folds; then the barrier is ten times as large, which leads to another solution, mostly at a higher
-# load factor; then, in space, rounds of the fixed point, which close one of 16 first paths left open.
+# load factor; then, in space, rounds of the fixed point, which close one of 16 first paths left open; then
+# increments of the load path, and the outer loop of frozen friction from the permanent loads: of 17 random
+# models of 1,000, weights decades apart, that all else left open these close eight and three.
 # Of 79 first paths of 140 factorisations or more, patience gives up 51 of the 57 that do not close in 300,
 # and two of the 22 that do, which the next path takes to the same load factor.
 # In a plane increments come before: for a wall of Argiento et al. (.26) they give .266, larger barriers .293.

@@ -28,10 +28,12 @@ import cvxpy as cp
 import numpy as np
 
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point
+from limitblocks.analysis.nonassociated.path_record import FROZEN
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import Program, in_cone, solved, solvers
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import mcp_residuals
+from limitblocks.evidence.results import Iteration
 from limitblocks.problem import Flow, State
 from limitblocks.shown import many
 
@@ -163,9 +165,9 @@ def outer_loop(
         x = rounds.relaxation * frozen.x + (1.0 - rounds.relaxation) * x
     if closed:
         _, state, k = min(closed, key=lambda one: one[0])
-        return state, f"fixed point, {many(k, 'round')}"
+        return state, f"{FROZEN}, {many(k, 'round')}"
     best = min(met, key=lambda state: mcp_residuals(flow, state).worst.value)
-    return best, f"fixed point, not closed in {many(len(met) - 1, 'round')}"
+    return best, f"{FROZEN}, not closed in {many(len(met) - 1, 'round')}"
 
 
 def _closed(
@@ -175,3 +177,10 @@ def _closed(
     near = fixed_point(nearest, frozen, flow, max(tolerance, rounds.near), rounds.closing)
     state = polish(flow, frozen if near is None else near)
     return state if mcp_residuals(flow, state).worst.value <= tolerance else None
+
+
+def told(flow: Flow, state: State, rotation: float, number: int) -> Iteration:
+    """What a round of the outer loop tells the user."""
+    load_factor = float(state.load_factor / flow.problem.units.live)
+    residuals = mcp_residuals(flow, state).to_dict()
+    return Iteration(load_factor, FROZEN, rotation, residuals, number, 0)

@@ -15,6 +15,7 @@ from limitblocks.evidence.results import ITERATIONS, Iteration
 CLOSED, INTERRUPTED = "closed", "interrupted"
 UNSETTLED = "its load factor still changing"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
+FROZEN = "fixed point"
 DISPLACED = "path in displacements, rounded corners of yield"
 RETURNS = "springs back"
 EARLY, FADED = "compliance faded first", "barrier faded first"
@@ -73,6 +74,12 @@ def off_load_path(how: str) -> tuple[str, ...]:
         return (
             *symmetric,
             "rounds of the fixed point led to this solution from a path that did not end: it need not be "
+            "that of the load path; load_factor_range shows others",
+        )
+    if how.startswith(FROZEN):
+        return (
+            *symmetric,
+            "limit analyses with frozen friction, one after the other, led to this solution: it need not be "
             "that of the load path; load_factor_range shows others",
         )
     return symmetric

@@ -22,8 +22,9 @@ from limitblocks.analysis.nonassociated.means import (
     TURNED_SOFTENING,
     Means,
 )
+from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import DISPLACED, INTERRUPTED, UNSETTLED
+from limitblocks.analysis.nonassociated.path_record import DISPLACED, FROZEN, INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.settling import exact_nearby
 from limitblocks.analysis.nonassociated.tracking import track
@@ -59,6 +60,12 @@ class Given:
     scale: float  # load factor that barriers are measured by, dimensionless
     tolerance: float
     record: Record
+
+    @property
+    def start(self) -> State:
+        """The permanent loads alone."""
+        problem = self.flow.problem
+        return State(0.0, self.x0, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))
 
     def tracked(self, one: Means, softening: float = SOFTENING, closing: Closing | None = None) -> Way:
         """Return the end of one path, and which path it was."""
@@ -111,7 +118,7 @@ class Given:
     def increments(self) -> Way:
         """Return the end of the load path, pushed by increments; the last one where the user stops it."""
         problem, how = self.flow.problem, "increments of the load path"
-        met = [State(0.0, self.x0, np.zeros(problem.C.shape[1]), np.zeros(len(problem.g)))]
+        met = [self.start]
 
         def tell(one: Pushed) -> None:
             met.append(one.state)
@@ -122,6 +129,14 @@ class Given:
             return pushed(*start, self.tolerance, STEPS, self.scale, tell)[1], how
         except KeyboardInterrupt:
             return met[-1], f"{how}, {INTERRUPTED}"
+
+    def frozen(self) -> Way:
+        """Return what one analysis after the other leads to, each with the friction of the last."""
+        flow = self.flow
+        try:
+            return outer_loop(flow, self.x0, self.tolerance, lambda *one: self.record(told(flow, *one)))
+        except KeyboardInterrupt:
+            return self.start, f"{FROZEN}, {INTERRUPTED}"
 
 
 def first_to_solve(
@@ -221,9 +236,13 @@ def _ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
     if _in_space(given.flow):
         yield from larger
         yield given.closed_in_rounds(*first)
-    else:  # in a plane they cost little
-        yield given.increments()
+        if means is REDUCED_MEANS:  # the whole comes next
+            return
+    # in a plane they cost little
+    yield given.increments()
     yield from larger
+    if given.flow.constant:
+        yield given.frozen()
 
 
 def _from_centroid(given: Given, means: Sequence[Means]) -> Iterator[Way]:
