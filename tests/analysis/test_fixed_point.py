@@ -9,12 +9,14 @@ from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished, frozen_flow, start
+from limitblocks.analysis.nonassociated import finished, frozen_flow, start, ways
 from limitblocks.analysis.nonassociated.closing import closed
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
 from limitblocks.analysis.nonassociated.in_the_plane import plane_of
+from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.outer_loop import Rounds, outer_loop
+from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.nonassociated.path_record import off_load_path
 from limitblocks.analysis.nonassociated.start import bracket
 from limitblocks.evidence.residuals import mcp_residuals
@@ -295,3 +297,19 @@ def test_only_symmetric_stresses_have_a_plane(friction, push, seed):
     assert plane_of(model, problem, x) is None
     there = plane_of(model, problem, symmetric)
     np.testing.assert_allclose(there.stresses @ there.stresses_of(symmetric), symmetric, atol=1e-12)
+
+
+def test_an_outer_loop_that_follows_paths_and_is_interrupted_says_so(monkeypatch):
+    """The progress of its first round is where the user stops it; no path is followed before."""
+
+    def press(iteration):
+        if iteration.kind == "fixed point":
+            raise KeyboardInterrupt
+
+    model = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.7))
+    nothing = Means(Barrier(), 1, 1)
+    for way in ("increments", "closed_in_rounds"):
+        monkeypatch.setattr(ways.Given, way, lambda given, *_: (given.start, "nothing"))
+    with pytest.raises(lb.NotConverged, match="interrupted") as caught:
+        lb.nonassociated(model, means=(nothing, nothing), progress=press)
+    assert caught.value.result.status is lb.results.Status.INTERRUPTED

@@ -158,3 +158,18 @@ def test_a_path_in_one_half_is_followed_where_the_whole_one_is_given_up():
     found = lb.nonassociated(model, confirm=False)
     assert found.how.startswith("tracked path, small barrier, power 1, seed 1")
     assert found.how.endswith("in one half")
+
+
+def test_of_what_one_half_leaves_open_the_whole_is_tried_by_increments_and_the_outer_loop(monkeypatch):
+    """In one half neither is: the further paths of the whole come first."""
+    model, stopped, tried = symmetric_facade(), SECOND[0], []
+
+    def nothing(given):
+        tried.append(len(given.flow.problem.live))
+        return given.start, "nothing"
+
+    monkeypatch.setattr(ways.Given, "increments", nothing)
+    monkeypatch.setattr(ways.Given, "frozen", nothing)
+    monkeypatch.setattr(ways.Given, "closed_in_rounds", lambda given, *_: (given.start, "nothing"))
+    assert not lb.nonassociated(model, means=(stopped, stopped), throw=False).converged
+    assert tried == 2 * [len(model.problem.live)]

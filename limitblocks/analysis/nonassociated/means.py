@@ -36,7 +36,7 @@ def checked_means(given: Sequence[Means]) -> tuple[Means, ...]:
 
 # Floor of the compliance with a larger barrier: what is left of it is an error of the flow at the end. Of the
 # 12 rows of both lists of scripts/convergence that come to this path it closes all, with the floor of the
-# small barrier, 1e-6, ten. Facades and houses of LARGE_MEANS are as well off with 1e-6.
+# small barrier, 1e-6, ten.
 LOW = 1e-10
 
 # The small barrier is the load path. Where it winds the compliance fades before the barrier (power 2), which
@@ -55,8 +55,8 @@ MEANS = (
     Means(Barrier(0.3, 2.0, LOW), 2, 800),
 )
 # In a plane or one half points cost little. Of 35 halves of the gallery's models of 16 to 84 blocks the path
-# with power 2 closes 35 with equal weights and 34 with those of seeds 1 and 2, at about the same cost; and a
-# square vault is the same along both sides.
+# with power 2 closes 35 with equal weights, 34 with those of seed 1 and 35 with those of seed 2, at about the
+# same cost; with equal ones a square vault is the same along both sides.
 REDUCED_MEANS = (
     MEANS[0]._replace(patience=None),
     MEANS[1]._replace(patience=None, seed=0),

@@ -162,7 +162,7 @@ def first_to_solve(
     elif means is LARGE_PLANAR_MEANS:
         ways = _large_planar_ways(given)
     else:
-        ways = _ways(given, means)
+        ways = _ways(given, means, half is no_half)
     if first and not large:
         ways = islice(ways, 1)
     elif not first and len(means) > 1:
@@ -217,8 +217,8 @@ def _then(ways: Iterator[Way], half: Half, given: Given) -> Iterator[Way]:
     yield from ways
 
 
-def _ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
-    """Polished ends of one way after the other, and which way it was."""
+def _ways(given: Given, means: Sequence[Means], reduced: bool) -> Iterator[Way]:
+    """Polished ends of one way after the other, and which way it was; reduced: to a plane or one half."""
 
     def tracked(one: Means) -> Way:
         return given.polished(*given.tracked(one))
@@ -236,13 +236,11 @@ def _ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
     if _in_space(given.flow):
         yield from larger
         yield given.closed_in_rounds(*first)
-        if means is REDUCED_MEANS:  # the whole comes next
+        if reduced:  # the whole comes next
             return
-    # in a plane they cost little
-    yield given.increments()
+    yield given.increments()  # in a plane they cost little
     yield from larger
-    if given.flow.constant:
-        yield given.frozen()
+    yield given.frozen()
 
 
 def _from_centroid(given: Given, means: Sequence[Means]) -> Iterator[Way]:
