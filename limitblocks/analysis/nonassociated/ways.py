@@ -259,7 +259,7 @@ def _large_ways(given: Given, means: Sequence[Means]) -> Iterator[Way]:
 
     That of the first comes without rounds as well: one half costs less, and follows the load path. So does
     the path in displacements: a facade of 223 blocks pushed along ends at .182, by rounds of the first .125.
-    Beyond 300 blocks rounds come before it: of a house of 505 pushed along it takes a minute, in vain.
+    Beyond 300 blocks rounds come before it: they close a facade of 508 pushed along in 2.6 times its bounds.
     """
     closing = Closing(given.flow, given.tolerance)
     for one in means:
