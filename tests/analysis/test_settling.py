@@ -117,7 +117,7 @@ def test_after_an_unsettled_path_only_what_is_exact_nearby_is_an_answer(
 ):
     """Rounds and pivots lead to a state within the tolerance and follow no load factor."""
 
-    def given_ways(given, means):
+    def given_ways(given, means, reduced):
         state, how = given.tracked(means[0])
         if before:
             yield state, f"{how}, {UNSETTLED}"
