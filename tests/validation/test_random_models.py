@@ -56,6 +56,15 @@ def test_what_paths_leave_open_is_closed_by_increments_or_the_outer_loop(seed):
     assert any("frozen friction" in remark for remark in found.remarks) is frozen
 
 
+@pytest.mark.parametrize("seed", [770083, 990173])
+def test_paths_start_from_what_proves_that_dead_loads_stand_where_nothing_else_is_found(seed):
+    """Weights over 14 decades, hardly any room within yield: neither a path nor a program ends."""
+    case = random_models.case(seed)
+    verdict = judge.judged_nonassociated(case, judge.truth_of(case, RECORD))
+    assert verdict.outcome == "right", verdict.said
+    assert any("stresses were found that arise" in remark for remark in lb.nonassociated(case.model).remarks)
+
+
 def apart(*stones):
     """Cubes (side, weight, friction) on one floor, far from each other."""
     x, boxes = 0.0, {}

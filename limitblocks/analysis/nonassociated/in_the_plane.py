@@ -28,9 +28,9 @@ from limitblocks.problem import Flow, LimitProblem, State
 from limitblocks.problem.plane import Choice, Planar
 
 PRESTRESSED = (
-    "no stresses were found that arise under the dead loads without dilatancy: the path starts from those of "
-    "least elastic energy, for which something may have to press the blocks together; stability says whether "
-    "they stand without"
+    "no stresses were found that arise under the dead loads without dilatancy: the path starts from others "
+    "that carry them, of least elastic energy where these are found, for which something may have to press "
+    "the blocks together; stability says whether they stand without"
 )
 
 

@@ -15,7 +15,7 @@ from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.stability import dead_load_state
 from limitblocks.arrays import Array
-from limitblocks.errors import ModelError, SolveError, SolverFailure, UnlimitedLoad
+from limitblocks.errors import ModelError, SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
 from limitblocks.evidence.results import Nonassociated
@@ -173,12 +173,11 @@ def start_stresses(model: Model, flow: Flow, weights: Array, start: Start | None
     """
     if start is not None:
         return _given(model, flow.problem, start)
-    if carried(model.problem) is None:  # a least-norm state of what falls may look like one
-        dead_load_state(model.problem)
+    proven = carried(model.problem)
+    if proven is None:  # a least-norm state of what falls may look like one
+        proven = dead_load_state(model.problem)
     x = permanent_state(flow, weights)
-    if x is None:
-        raise SolveError("no state of the permanent loads was found, though they stand")
-    return x
+    return proven * model.problem.stress_units / flow.problem.stress_units if x is None else x
 
 
 def _of_resultants(problem: LimitProblem, resultants: Array) -> Array:
