@@ -8,7 +8,7 @@ import pytest
 from paths import start
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated import closing, ways
+from limitblocks.analysis.nonassociated import closing, each_way, ways
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses
 from limitblocks.analysis.nonassociated.means import (
     LARGE_MEANS,
@@ -150,7 +150,7 @@ def test_the_first_path_is_followed_alone_where_rounds_do_not_begin(monkeypatch)
     monkeypatch.setattr(ways, "LARGE_MEANS", (first._replace(budget=5), *others))
     flow, x0, _ = start(corner())
     scale = load_scale(flow.problem, bracket(corner()).associated)
-    given = ways.Given(flow, x0, scale, 1e-8, lambda _: None)
+    given = each_way.Given(flow, x0, scale, 1e-8, lambda _: None)
     state, how = ways.first_to_solve(given, MEANS, first=True)
     assert "small barrier" in how
     assert defect(flow, state) > 1.0
@@ -211,7 +211,7 @@ def test_a_large_wall_in_its_plane_has_a_larger_barrier_and_rounds_before_increm
     monkeypatch.setattr(
         ways, "LARGE_PLANAR_MEANS", (first._replace(budget=1), larger._replace(budget=budget))
     )
-    monkeypatch.setattr(ways.Given, "increments", never)
+    monkeypatch.setattr(each_way.Given, "increments", never)
     model = lb.structures.wall(lb.PointContact(0.6), length=2.4, courses=6)
     found = lb.nonassociated(model)
     assert found.how.startswith("tracked path, barrier 3 ")
@@ -296,5 +296,5 @@ def test_pivots_close_the_end_of_a_path_that_ran_out_of_budget(monkeypatch):
 
     vaults = (0.58, 0.585)
     with_pivots = sum(map(closes, vaults))
-    monkeypatch.setattr(ways, "pivoted", lambda flow, state: state)
+    monkeypatch.setattr(each_way, "pivoted", lambda flow, state: state)
     assert sum(map(closes, vaults)) < with_pivots

@@ -9,7 +9,7 @@ from stones import jammed, model_of
 
 import limitblocks as lb
 from limitblocks.analysis.in_plane import in_plane
-from limitblocks.analysis.nonassociated import finished, frozen_flow, start, ways
+from limitblocks.analysis.nonassociated import each_way, finished, frozen_flow, start
 from limitblocks.analysis.nonassociated.closing import closed
 from limitblocks.analysis.nonassociated.fixed_point import NearestStresses, fixed_point, nearest_program
 from limitblocks.analysis.nonassociated.frozen_flow import fixed_point_change, frozen
@@ -309,7 +309,7 @@ def test_an_outer_loop_that_follows_paths_and_is_interrupted_says_so(monkeypatch
     model = lb.structures.EXAMPLES["groin_vault"](lb.OrdunaLourenco(0.7))
     nothing = Means(Barrier(), 1, 1)
     for way in ("increments", "closed_in_rounds"):
-        monkeypatch.setattr(ways.Given, way, lambda given, *_: (given.start, "nothing"))
+        monkeypatch.setattr(each_way.Given, way, lambda given, *_: (given.start, "nothing"))
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.nonassociated(model, means=(nothing, nothing), progress=press)
     assert caught.value.result.status is lb.results.Status.INTERRUPTED

@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks import structures
+from limitblocks.analysis.nonassociated import each_way, loading, loop
 from limitblocks.analysis.nonassociated import increment as increments
-from limitblocks.analysis.nonassociated import loading, loop, ways
 from limitblocks.analysis.nonassociated.increment import Increment, Tried
 from limitblocks.analysis.nonassociated.permanent import permanent_state
 from limitblocks.analysis.nonassociated.stretch import Visit
@@ -302,10 +302,10 @@ def test_a_polish_that_leads_elsewhere_is_no_end_of_increments(monkeypatch):
     """Nonassociated took it for one that the load path leads to."""
     monkeypatch.setattr(loading, "polish", lambda _, at: replace(at, load_factor=2.0 * at.load_factor))
     problem = structures.wall(lb.PointContact(0.65), length=1.2, courses=4).problem
-    given = ways.Given(
+    given = each_way.Given(
         Flow(problem), permanent_state(Flow(problem), problem.compliance), 1.0, 1e-8, (met := []).append
     )
-    monkeypatch.setattr(ways, "STEPS", lb.settings.Settings(budget=60))
+    monkeypatch.setattr(each_way, "STEPS", lb.settings.Settings(budget=60))
     state, how = given.increments()
     assert how == "increments of the load path"
     assert state.load_factor / problem.units.live == pytest.approx(met[-1].load_factor)

@@ -8,7 +8,7 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import ways
+from limitblocks.analysis.nonassociated import each_way
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
 from limitblocks.analysis.scales import unmoved
@@ -197,7 +197,9 @@ def test_further_means_are_tried_in_turn(reference, monkeypatch):
     model, _ = reference
     means = (Means(Barrier(), 0, 1), Means(Barrier(1.0, 2.0), 1, 300))
     assert lb.nonassociated(model, means=means).how.startswith("increments of the load path")
-    monkeypatch.setattr(ways.Given, "increments", lambda at: (unmoved(at.flow.problem, 0.0, at.x0), "none"))
+    monkeypatch.setattr(
+        each_way.Given, "increments", lambda at: (unmoved(at.flow.problem, 0.0, at.x0), "none")
+    )
     found = lb.nonassociated(model, means=means)
     assert found.converged
     assert "barrier 1 (large barrier), power 2, seed 1" in found.how

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated import ways
+from limitblocks.analysis.nonassociated import each_way, ways
 from limitblocks.analysis.nonassociated.in_the_plane import flow_in_plane
 from limitblocks.analysis.nonassociated.means import LARGE_MEANS, MEANS, REDUCED_MEANS, Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
@@ -146,7 +146,7 @@ def test_a_polish_that_is_interrupted_gives_the_end_of_the_path(monkeypatch):
     lift, model = Planar.lifted, symmetric_facade()
     lb.bounds(model)  # known from now on
     monkeypatch.setattr(Planar, "lifted", lambda *half: replace(lift(*half), x=(1 + 1e-6) * lift(*half).x))
-    monkeypatch.setattr(ways, "pivoted", pressed)
+    monkeypatch.setattr(each_way, "pivoted", pressed)
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.nonassociated(model, means=SECOND)
     assert caught.value.result.how.endswith("in one half, interrupted")
@@ -168,8 +168,8 @@ def test_of_what_one_half_leaves_open_the_whole_is_tried_by_increments_and_the_o
         tried.append(len(given.flow.problem.live))
         return given.start, "nothing"
 
-    monkeypatch.setattr(ways.Given, "increments", nothing)
-    monkeypatch.setattr(ways.Given, "frozen", nothing)
-    monkeypatch.setattr(ways.Given, "closed_in_rounds", lambda given, *_: (given.start, "nothing"))
+    monkeypatch.setattr(each_way.Given, "increments", nothing)
+    monkeypatch.setattr(each_way.Given, "frozen", nothing)
+    monkeypatch.setattr(each_way.Given, "closed_in_rounds", lambda given, *_: (given.start, "nothing"))
     assert not lb.nonassociated(model, means=(stopped, stopped), throw=False).converged
     assert tried == 2 * [len(model.problem.live)]

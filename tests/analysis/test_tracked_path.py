@@ -9,7 +9,7 @@ from paths import start
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import closing, finished, tracking, ways
+from limitblocks.analysis.nonassociated import closing, each_way, finished, tracking
 from limitblocks.analysis.nonassociated import increment as increments
 from limitblocks.analysis.nonassociated import path as walking
 from limitblocks.analysis.nonassociated.increment import NO_BARRIER, faded, increment
@@ -109,7 +109,7 @@ def test_what_is_left_of_the_barrier_can_fade_later(lintel):
 
 def test_means_of_the_small_barrier_come_before_increments(monkeypatch):
     model = structures.ferris_tin_loi_wall(1, lb.PointContact(0.65))
-    monkeypatch.setattr(ways.Given, "increments", None)  # not asked for
+    monkeypatch.setattr(each_way.Given, "increments", None)  # not asked for
     means = (Means(Barrier(), 0, 1), Means(Barrier(0.02, 2.0), 1, 300))
     assert "small barrier" not in lb.nonassociated(model, means=means).how
 
@@ -120,8 +120,8 @@ def test_an_end_below_a_tenth_of_the_tolerance_is_not_polished(monkeypatch):
     end = replace(end, u=end.u * (1.0 + 3e-10))  # of the work of the live load
     left = defect(flow, end)
     assert left > 1e-10
-    monkeypatch.setattr(ways, "polished", None)  # not asked for
-    wide, narrow = (ways.Given(flow, end.x, 1.0, share * left, print) for share in (11.0, 9.0))
+    monkeypatch.setattr(each_way, "polished", None)  # not asked for
+    wide, narrow = (each_way.Given(flow, end.x, 1.0, share * left, print) for share in (11.0, 9.0))
     assert wide.polished(end, "path") == (end, "path")
     with pytest.raises(TypeError):
         narrow.polished(end, "path")

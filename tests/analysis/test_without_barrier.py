@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import limitblocks as lb
-from limitblocks.analysis.nonassociated import ways
+from limitblocks.analysis.nonassociated import each_way
 from limitblocks.analysis.nonassociated import without_barrier as fading
 from limitblocks.analysis.nonassociated.means import Means
 from limitblocks.analysis.nonassociated.path_equations import Barrier
@@ -161,7 +161,7 @@ def test_barriers_that_are_not_those_of_loading_do_not_fade_first(barrier, monke
     def never(_):
         raise AssertionError("no load path")
 
-    monkeypatch.setattr(ways, "without_barrier", never)
+    monkeypatch.setattr(each_way, "without_barrier", never)
     model = between(2.0, BESIDE[2])
     assert lb.nonassociated(model, means=[Means(barrier, 1, 300)]).converged
     with pytest.raises(AssertionError, match="no load path"):

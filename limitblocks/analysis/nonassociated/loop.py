@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from limitblocks.analysis.nonassociated.determinate import state_without_solution
+from limitblocks.analysis.nonassociated.each_way import Given
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import (
     by_self_stress,
@@ -26,7 +27,7 @@ from limitblocks.analysis.nonassociated.start import (
     solving_state,
     start_stresses,
 )
-from limitblocks.analysis.nonassociated.ways import Given, Half, first_to_solve, no_half
+from limitblocks.analysis.nonassociated.ways import Half, first_to_solve, no_half
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.arrays import Array
 from limitblocks.choices import Method, method_of
