@@ -138,7 +138,7 @@ def test_where_the_load_is_limited_an_open_end_keeps_its_load_factor():
 def test_a_column_under_more_of_its_own_weight_is_refused_without_a_search(monkeypatch, analysis):
     """Normal forces alone carry it, so that no mechanism of any flow rule does positive work."""
     monkeypatch.setattr(loop, "first_to_solve", None)
-    monkeypatch.setattr("limitblocks.analysis.nonassociated.load_path._loaded", None)
+    monkeypatch.setattr("limitblocks.analysis.nonassociated.load_path.loaded", None)
     model = replace(structures.ferris_tin_loi_wall(1, lb.PointContact(0.6)), live=lb.mass_proportional(DOWN))
     with pytest.raises(lb.errors.UnlimitedLoad, match="normal forces alone balance it"):
         analysis(model)

@@ -3,43 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Literal, NamedTuple
+from typing import Literal
 
 import numpy as np
 
 from limitblocks.analysis.nonassociated.finished import end, finished
 from limitblocks.analysis.nonassociated.in_the_plane import (
-    InPlane,
-    admissible,
     by_self_stress,
     flow_in_plane,
-    way_in_plane,
 )
-from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed, pushed
+from limitblocks.analysis.nonassociated.loaded import AT_ONCE, Loaded, at_once, lifted, loaded
+from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed
 from limitblocks.analysis.nonassociated.loop import end_of_first_path
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, recorder
+from limitblocks.analysis.nonassociated.path_record import recorder
 from limitblocks.analysis.nonassociated.path_steps import Told, told
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import (
-    Bracket,
     Start,
     flow_of,
     load_scale,
     refuse_jammed,
     refuse_unlimited,
-    solving_state,
     start_stresses,
 )
+from limitblocks.analysis.nonassociated.stiffness import Stiffness, compliance_of, displacement_units
 from limitblocks.analysis.one_thread import one_thread
-from limitblocks.arrays import Array, real
+from limitblocks.arrays import Array
 from limitblocks.errors import ModelError, UnlimitedLoad, refuse_kind
 from limitblocks.evidence.load_path_result import LoadPath, compared
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.evidence.results import Iteration
-from limitblocks.joints.base import Joint, joint_of
+from limitblocks.joints.base import Joint
 from limitblocks.mechanics.loads.load import number
 from limitblocks.model import Model
-from limitblocks.problem import Flow, LimitProblem, State, Turning
+from limitblocks.problem import Flow, Turning
 from limitblocks.problem.plane import Choice
 
 ROUNDED = (
@@ -52,9 +49,7 @@ PASSED_OVER = (
     "follow it"
 )
 NOT_COMPARED = "the tracked path of nonassociated was stopped by the user: nothing to compare this end with"
-AT_ONCE = "the bounds: any live load moves the structure"
 
-Stiffness = tuple[float, float]
 Snaps = Literal["across", "along"]
 
 
@@ -120,20 +115,20 @@ def load_path(
     problem = flow.problem
     refuse_jammed(enclosing)
     refuse_unlimited(flow, enclosing.associated)
-    compliance = _compliance(model, problem, stiffness)
+    compliance = compliance_of(model, problem, stiffness)
     softness = float(np.mean(compliance) / np.mean(problem.compliance))
     weights = compliance / softness  # the size of the steps must not depend on the size of the stiffness
     history, record = recorder(progress)
 
-    def load(at: Flow, x0: Array, own: Array) -> _Loaded:
+    def load(at: Flow, x0: Array, own: Array) -> Loaded:
         scale = load_scale(at.problem, enclosing.associated)
         share = 1.0 if at is flow or planar is None else planar.share
-        return _loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
+        return loaded(at, x0, own, tolerance, settings or Settings(), scale, record, share)
 
     planar = flow_in_plane(model, flow, weights, start, Choice.EVERY)
-    found = _at_once(model, flow, enclosing, weights, tolerance) if start is None else None
+    found = at_once(model, flow, enclosing, weights, tolerance) if start is None else None
     if found is None and planar:
-        found = _lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
+        found = lifted(planar, load(planar.flow, planar.x0, planar.weights), tolerance)
     found = found or load(flow, start_stresses(model, flow, weights, start), weights)
     if found.why == CLIMBS:
         raise UnlimitedLoad(CLIMBS)
@@ -151,7 +146,7 @@ def load_path(
         why=found.why,
         said=said,
     )
-    told_by = Told(softness * _unit(model, problem), snaps)
+    told_by = Told(softness * displacement_units(model, problem), snaps)
     steps, folds, trace = told(model, flow, found.x0, found.pushes, found.last, told_by)
     remarks = (*_of_snaps(found.pushes, problem.units.live), *(found.why,) * bool(found.why))
     if found.how == AT_ONCE:
@@ -177,106 +172,3 @@ def _of_snaps(pushes: tuple[Pushed, ...], unit: float) -> Iterator[str]:
     if falls:
         before, after = max(falls, key=lambda fall: fall[0] - fall[1])
         yield PASSED_OVER.format(before / unit, after / unit)
-
-
-class _Loaded(NamedTuple):
-    """Stresses at the start, increments, the last state, how they were found, why there is no collapse."""
-
-    x0: Array
-    pushes: tuple[Pushed, ...]
-    last: State
-    how: str
-    why: str
-
-
-def _loaded(
-    flow: Flow,
-    x0: Array,
-    weights: Array,
-    tolerance: float,
-    settings: Settings,
-    scale: float,
-    record: Callable[[Iteration], None],
-    share: Array | float,
-) -> _Loaded:
-    """Push from x0 to collapse, or to where the user stops it."""
-    met: list[Pushed] = []
-
-    def push(one: Pushed) -> None:
-        while met and met[-1].start is one.start:  # taken back and pushed once more, farther
-            met.pop()
-        met.append(one)
-        record(one.told(flow.problem.units.live))
-
-    how = "increments of the load path"
-    try:
-        pushes, last, why = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
-    except KeyboardInterrupt:
-        if not met:
-            raise
-        pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
-    return _Loaded(x0, pushes, last, how, why)
-
-
-def _at_once(
-    model: Model, flow: Flow, enclosing: Bracket, weights: Array, tolerance: float
-) -> _Loaded | None:
-    """The mechanism of the bounds, without increments, where any live load moves the structure."""
-    last = solving_state(model, flow, enclosing, None, tolerance) if enclosing.nothing else None
-    if last is None:
-        return None
-    x0 = start_stresses(model, flow, weights, None)
-    return _Loaded(x0, (), last, AT_ONCE, "")
-
-
-def _lifted(planar: InPlane, found: _Loaded, tolerance: float) -> _Loaded | None:
-    """A load path of the plane as one of the whole problem; None where that does not accept it."""
-    interrupted = found.how.endswith(INTERRUPTED)
-    last = planar.plane.lifted(found.last) if interrupted else planar.accepted(found.last, tolerance)
-    pushes = tuple(planar.pushed(one) for one in found.pushes)
-    if last is None or not admissible(pushes):
-        return None
-    return _Loaded(planar.plane.stresses @ found.x0, pushes, last, way_in_plane(found.how), found.why)
-
-
-def _compliance(
-    model: Model, problem: LimitProblem, stiffness: Stiffness | Mapping[Joint, Stiffness] | None
-) -> Array:
-    """Dimensionless compliance of each generalised stress."""
-    if stiffness is None:
-        free = model.free_blocks
-        weight = np.mean([b.weight for b in free]) or np.mean(model.problem.units.block_force)
-        unit = weight / np.mean([np.cbrt(b.volume) for b in free]) ** 3
-        stiffness = (float(unit), float(unit))
-    table = (
-        stiffness if isinstance(stiffness, Mapping) else {joint_of(i): stiffness for i in model.interfaces}
-    )
-    pairs = []
-    for interface in model.interfaces:
-        pair = table.get(joint_of(interface))
-        if pair is None or np.shape(pair) != (2,) or not all(0.0 < real(k) < np.inf for k in pair):
-            raise ModelError(
-                f"stiffness of {interface.joint!r} is {pair!r}, "
-                "expected (normal, shear) in N/m3, both positive"
-            )
-        pairs.append(pair)
-    force, length = _means(model.problem)
-    unit = force / length**3
-    normal, shear = np.array(pairs).T / unit
-    per_resultant = np.stack([shear, shear, normal, normal, normal, shear], axis=1).ravel()
-    B = abs(problem.resultants).tocoo()
-    rows, columns = B.coords
-    own = np.full(B.shape[1], -1)
-    order = np.argsort(rows, kind="stable")[::-1]
-    own[columns[order]] = rows[order]  # the first resultant that a stress feeds tells normal from shear
-    return np.asarray(problem.compliance / per_resultant[own])
-
-
-def _means(problem: LimitProblem) -> tuple[float, float]:
-    """Mean units of force and length of the interfaces, in which compliances are near one."""
-    return float(problem.units.interface_force.mean()), float(problem.units.interface_length.mean())
-
-
-def _unit(model: Model, problem: LimitProblem) -> Array:
-    """Displacements of the free blocks (6 n,), m and rad, over dimensionless ones, for softness one."""
-    return np.asarray(np.prod(_means(model.problem)) / problem.units.loads)
