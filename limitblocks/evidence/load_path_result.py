@@ -32,7 +32,7 @@ class PathStep(Shown):
         Equilibrium and yield violation, over what acts on the blocks.
     kind : str
         "permanent loads", "step" (the end of an increment), "before snap", "unstable" (between the two ends
-        of a snap), "after snap" or "polish" (collapse).
+        of a snap), "after snap" or "polish" (collapse, at the displacements where the increments end).
     """
 
     load_factor: float

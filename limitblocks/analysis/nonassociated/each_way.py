@@ -13,7 +13,13 @@ from limitblocks.analysis.nonassociated.loading import Pushed, pushed
 from limitblocks.analysis.nonassociated.means import SOFTENING, Means
 from limitblocks.analysis.nonassociated.outer_loop import outer_loop, told
 from limitblocks.analysis.nonassociated.path_equations import Barrier
-from limitblocks.analysis.nonassociated.path_record import DISPLACED, FROZEN, INTERRUPTED, UNSETTLED
+from limitblocks.analysis.nonassociated.path_record import (
+    DISPLACED,
+    FROZEN,
+    INCREMENTS,
+    INTERRUPTED,
+    UNSETTLED,
+)
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.tracking import track
 from limitblocks.analysis.nonassociated.without_barrier import without_barrier
@@ -95,7 +101,7 @@ class Given:
 
     def increments(self) -> Way:
         """Return the end of the load path, pushed by increments; the last one where the user stops it."""
-        problem, how = self.flow.problem, "increments of the load path"
+        problem, how = self.flow.problem, INCREMENTS
         met = [self.start]
 
         def tell(one: Pushed) -> None:

@@ -74,6 +74,7 @@ def load_path(
     follow, each from the stresses that the one before left, with slip and opening that do not go back. Each
     is followed by arclength: where the displacement has to fall before it can grow again the structure snaps.
     At collapse the stresses stop changing, the compliance plays no part any more, and Eqs (54)-(59) hold.
+    Where increments end before, one push without end leads on from the last; `remarks` say so.
     What is unique: the way, for the compliance and the increments given. What is not: the permanent-load
     state without the compliance, and the collapse load itself.
 
@@ -105,7 +106,8 @@ def load_path(
         If the flow is associated everywhere, or normal forces alone balance the live load, and it can grow
         without limit; or if the increments climb without limit.
     NotConverged
-        If the path ends above the tolerance, or the user interrupts it; carries the last state.
+        If the path ends above the tolerance, the push without end farther than 10 % from the increments, or
+        the user interrupts it; carries the last state.
     """
     if snaps not in ("across", "along"):
         raise ModelError(f"snaps is {snaps!r}, expected 'across' or 'along'")
@@ -134,6 +136,7 @@ def load_path(
         raise UnlimitedLoad(CLIMBS)
     record(end(flow, found.last))
     said = by_self_stress(model, flow, weights) if start is None and found.how != AT_ONCE else ()
+    said = (*said, *(found.why,) * found.beyond)
     collapse = finished(
         model,
         found.last,

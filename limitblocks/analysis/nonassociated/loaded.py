@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import NamedTuple
 
+from limitblocks.analysis.nonassociated.each_way import Given
+from limitblocks.analysis.nonassociated.endless import endless
 from limitblocks.analysis.nonassociated.in_the_plane import InPlane, admissible, way_in_plane
-from limitblocks.analysis.nonassociated.loading import Pushed, pushed
-from limitblocks.analysis.nonassociated.path_record import INTERRUPTED
+from limitblocks.analysis.nonassociated.loading import CLIMBS, Pushed, pushed
+from limitblocks.analysis.nonassociated.path_record import INCREMENTS, INTERRUPTED
 from limitblocks.analysis.nonassociated.settings import Settings
 from limitblocks.analysis.nonassociated.start import Bracket, solving_state, start_stresses
 from limitblocks.arrays import Array
@@ -16,16 +19,22 @@ from limitblocks.model import Model
 from limitblocks.problem import Flow, State
 
 AT_ONCE = "the bounds: any live load moves the structure"
+BEYOND = "{}; they end at load factor {:.6g}, and one push without end, {}, led from there to this collapse"
 
 
 class Loaded(NamedTuple):
-    """Stresses at the start, increments, the last state, how they were found, why there is no collapse."""
+    """Stresses at the start, increments, the last state, how they were found, why increments ended before."""
 
     x0: Array
     pushes: tuple[Pushed, ...]
     last: State
     how: str
     why: str
+
+    @property
+    def beyond(self) -> bool:
+        """Whether a push without end led from the last increment to the collapse."""
+        return self.how.startswith(f"{INCREMENTS}, then ")
 
 
 def loaded(
@@ -47,14 +56,19 @@ def loaded(
         met.append(one)
         record(one.told(flow.problem.units.live))
 
-    how = "increments of the load path"
     try:
         pushes, last, why = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
+        if pushes and why not in ("", CLIMBS):
+            own = replace(flow, problem=replace(flow.problem, compliance=weights))
+            found = endless(Given(own, last.x, scale, tolerance, record), last)
+            if found is not None:
+                end, way = last.load_factor / flow.problem.units.live, f"{INCREMENTS}, then {found[1]}"
+                return Loaded(x0, pushes, found[0], way, BEYOND.format(why, end, found[1]))
     except KeyboardInterrupt:
         if not met:
             raise
-        pushes, last, how, why = tuple(met), met[-1].state, f"{how}, {INTERRUPTED}", ""
-    return Loaded(x0, pushes, last, how, why)
+        return Loaded(x0, tuple(met), met[-1].state, f"{INCREMENTS}, {INTERRUPTED}", "")
+    return Loaded(x0, pushes, last, INCREMENTS, why)
 
 
 def at_once(model: Model, flow: Flow, enclosing: Bracket, weights: Array, tolerance: float) -> Loaded | None:

@@ -15,7 +15,7 @@ from limitblocks.evidence.results import ITERATIONS, Iteration
 CLOSED, INTERRUPTED = "closed", "interrupted"
 UNSETTLED = "its load factor still changing"
 LARGE, ROUNDS, IN_HALF = "large barrier", "of the fixed point", "in one half"
-FROZEN = "fixed point"
+FROZEN, INCREMENTS = "fixed point", "increments of the load path"
 DISPLACED = "path in displacements, rounded corners of yield"
 RETURNS = "springs back"
 EARLY, FADED = "compliance faded first", "barrier faded first"
@@ -45,18 +45,20 @@ def off_load_path(how: str) -> tuple[str, ...]:
         "one half of the structure led to this solution: that the blocks leave symmetry on the way, as an "
         "asymmetric mechanism may, was not looked for",
     ) * (IN_HALF in how)
-    if LARGE in how:
-        return (
-            *symmetric,
-            "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
-            "load_factor_range shows others",
-        )
     if BORNE in how:
         (share,) = (part.removesuffix(BORNE) for part in how.split(", ") if part.endswith(BORNE))
         return (
             *symmetric,
             f"the barrier of the path presses joints together that may bear nothing, and {share}% of this "
             "load factor, by an estimate, is friction at them; load_path goes without",
+        )
+    if how.startswith(INCREMENTS):
+        return symmetric
+    if LARGE in how:
+        return (
+            *symmetric,
+            "a large barrier led to this solution: it is not that of the load path, and is mostly higher; "
+            "load_factor_range shows others",
         )
     if EARLY in how:
         return (

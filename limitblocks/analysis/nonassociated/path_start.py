@@ -98,6 +98,10 @@ def _elastic(layout: Layout, stiffness: Array) -> Factors:
             return layout.factors(stiffness + held * np.eye(stiffness.shape[2]))
         except RuntimeError:  # SuperLU: singular
             continue
+        except np.linalg.LinAlgError:
+            raise SolveError(
+                "the loads have sizes that numbers of 64 bits do not hold side by side: no elastic step"
+            ) from None
     raise SolveError("the live load moves blocks that no joint holds: every solution has the load factor 0")
 
 

@@ -24,7 +24,7 @@ class Settings:
     left : float
         What is left of the barrier at the end of an increment that is far from collapse, as `barrier`.
     budget : int
-        Factorisations of all increments together.
+        Factorisations of all increments together; a push without end from the last has its own.
     """
 
     first: float = 0.05

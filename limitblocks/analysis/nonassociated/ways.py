@@ -53,7 +53,7 @@ def first_to_solve(
     """
     flow, met = given.flow, list[Way]()
     if means is MEANS:
-        means = own_means(len(flow.problem.blocks), _in_space(flow), flow.dissipative, half is no_half)
+        means = means_of(flow, half is no_half)
     large = means in (LARGE_MEANS, LARGEST_MEANS)
     if large:
         ways = _large_ways(given, means[:1] if first else means)
@@ -89,6 +89,11 @@ def _solved(given: Given, met: Sequence[Way]) -> bool:
 def _unsettled(met: Sequence[Way]) -> bool:
     """Whether the load factor of a path still changed at its end."""
     return any(UNSETTLED in how for _, how in met)
+
+
+def means_of(flow: Flow, reduced: bool = False) -> Sequence[Means]:
+    """The paths to follow for a flow rule where none are given; reduced: to a plane or one half."""
+    return own_means(len(flow.problem.blocks), _in_space(flow), flow.dissipative, reduced)
 
 
 def own_means(blocks: int, in_space: bool, dissipative: bool, reduced: bool) -> Sequence[Means]:
