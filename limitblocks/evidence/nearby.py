@@ -116,11 +116,13 @@ def _cheapest(given: Given, choice: _Choice) -> Array:
     members, stresses = given.places
     moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
     choices = np.array([given.state.x, moved, np.zeros_like(moved)])
+    choices[np.abs(choices) <= ROUNDING * given.acting] = 0.0  # such rows have no strength that could change
     costs = []
     for x in choices:
         at = _flowing(given, x, choice)
         by = given.largest(x - given.state.x)
-        slight = (by <= ROUNDING) | (given.force <= SLIGHT)
+        moves = given.largest(np.where(x == given.state.x, 0.0, given.state.x))
+        slight = (by <= ROUNDING) | (moves <= SLIGHT)
         cost = np.maximum(at.angle, np.where(slight, by, np.inf))
         np.maximum.at(cost, members, np.abs(at.change))
         costs.append(cost)
