@@ -104,3 +104,19 @@ def test_where_the_first_path_is_not_closed_they_come_next():
     unfinished, whole = (lb.settings.Means(lb.settings.Barrier(), 0, budget) for budget in (1, 300))
     found = lb.nonassociated(corner(2, 1.6), turning=Turning.PRESSURE, means=[unfinished, whole])
     assert found.how.startswith("from the solution that twists about the centroid, tracked path")
+
+
+def test_a_check_finds_the_residuals_that_the_answer_states():
+    """Forces of 1e-12 leave it to the epsilon of Table 5, and so to the units, what a joint turns about."""
+    model = structures.buttressed_wall(
+        lb.OrdunaLourenco(0.32701182338616275, slip="inner", sides=10),
+        length=3.2,
+        courses=6,
+        buttress_length=0.8,
+        direction=(-1.0, 0.0, 0.0),
+    )
+    found = lb.nonassociated(model, turning="centre of pressure")
+    check = lb.check_mcp(model, found)
+    assert check.passed
+    for stated in found.residuals.entries:
+        assert check.residuals[stated.name] == pytest.approx(stated.value, abs=1e-12), stated.name
