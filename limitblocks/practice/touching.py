@@ -10,6 +10,7 @@ import shapely
 
 from limitblocks.arrays import Array, read_only
 from limitblocks.geometry import Interface
+from limitblocks.geometry.polygon import clean
 from limitblocks.model import Model
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
 from limitblocks.practice.rejoined import joined
@@ -46,6 +47,8 @@ def narrowed(own: Contact, size: float) -> Interface:
     off = polygon - on
     far = np.linalg.norm(off, axis=1, keepdims=True)
     strip = on + off * np.minimum(STRIP * np.abs(polygon).max() / np.maximum(far, 1e-300), 1.0)
+    # corners that an overlay left next to each other come nearer yet
+    strip, _ = clean(strip, np.zeros(len(strip), dtype=int), np.array([CLOSED * size]))
     middle, turn, first = about_centroid(strip, own.interface.axes[:2])
     strip = np.roll(strip - middle, -first, axis=0)
     axes = own.interface.axes
