@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from typing import Any
 
@@ -31,7 +32,7 @@ from limitblocks.practice.touching import pressed_in
 
 FIRST = 1e-3  # of the size of the structure: the first step
 GROWTH = 10.0  # of a step over the one before where the load factor rises
-MOST = 50  # points a step asked for: a curve that snaps on and on has no end
+MOST = 50  # points a step asked for: a curve that snaps on and on has no end, nor has one that creeps so long
 ZERO = 1e-8  # of the first load factor: it counts as none
 SECANT, HALVING = 0.98, 0.5  # of a step beyond the zero: the most of the next one, the least and those after
 JUMP = 1e-6  # of the size of the structure: a step in which the load factor goes through zero
@@ -104,8 +105,12 @@ def _curve(
     end = min(largest, whole := assembly.size)
     point = CapacityPoint(0.0, scale, 0.0, model, first, ())
     before: CapacityPoint | None = None
+    behind: deque[CapacityPoint] = deque(maxlen=MOST)
     for _ in range(MOST * steps):
         yield point
+        if len(behind) == MOST and _creeps(behind[0], point, EVENT * assembly.size, SMALL * scale):
+            return f"{MOST} points lead from {behind[0].displacement:.6g} to {point.displacement:.6g} m only"
+        behind.append(point)
         still = before is not None and abs(point.displacement - before.displacement) <= CLOSED * assembly.size
         if point.load_factor <= (NEARLY if still else ZERO) * scale:
             return None  # below it where it jumps through zero
@@ -128,6 +133,12 @@ def _curve(
             return found if isinstance(found, str) else stopped(point.displacement)
         before, (assembly, control, point) = point, found
     return f"{MOST * steps} points do not lead to an end"
+
+
+def _creeps(start: CapacityPoint, end: CapacityPoint, way: float, fall: float) -> bool:
+    """Whether the curve goes less than a `way`, m, and its load factor falls by less than that."""
+    moved, fell = end.displacement - start.displacement, end.load_factor - start.load_factor
+    return abs(moved) < way and abs(fell) < fall
 
 
 def _ahead(

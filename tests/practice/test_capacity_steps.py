@@ -121,6 +121,25 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
     assert (curve.zero, curve.ended) == (None, "4 points do not lead to an end")
 
 
+@pytest.mark.parametrize(("way", "fall", "points"), [(1e-6, 0.0, 51), (0.05, 0.0, 200), (1e-6, 1e-3, 200)])
+def test_a_curve_that_creeps_is_ended(way, fall, points, monkeypatch):
+    """Contacts of an arch with cohesion opened and closed at 1,000 points within 7 mm, for minutes."""
+
+    def ahead(assembly, control, point, *_):
+        there = replace(point, displacement=point.displacement + way, load_factor=point.load_factor - fall)
+        return assembly, control, there
+
+    monkeypatch.setattr(capacity, "_ahead", ahead)
+    stones = [
+        lb.Block.box("base", (90, 1, 0.2), (44, 0, -0.1)),
+        lb.Block.box("block", (1, 1, 0.3), (0, 0, 0.15), 20e3),
+    ]
+    curve = capacity_curve(model_of(stones, ["base"], lb.PointContact(0.4)), steps=4)
+    assert len(curve.points) == points
+    creeps = curve.ended == "50 points lead from 0 to 5e-05 m only"
+    assert creeps is (points == 51)
+
+
 def test_a_pier_that_rocks_back_stays_on_its_corner():
     """It turned about the inner edge of the strip left of its joint, and the curve ended at .27 m as a snap.
 
