@@ -16,7 +16,7 @@ from limitblocks.analysis.in_si import in_model_order, resultants_of
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.programs import ROUNDS, solved, solvers
 from limitblocks.analysis.scales import Scaled, balanced, scaled, unmoved
-from limitblocks.analysis.unstressed import arising, joint_compliance, not_held
+from limitblocks.analysis.unstressed import joint_compliance, may_arise, not_held
 from limitblocks.arrays import Array, read_only
 from limitblocks.errors import ModelError, NoEquilibrium, SolverFailure
 from limitblocks.evidence.crushing import ALONE, beyond_stress_block
@@ -64,10 +64,10 @@ def stability(model: Model) -> Stability:
         return _answer(model, Standing.FALLS, standing_margin(model), fall=fall)
     margin = min(MOST, _margin(problem, x))
     flow, weights = Flow(problem), joint_compliance(problem)
-    own = arising(flow, weights)
-    entries = arising_residuals(flow, weights, own) if own else ()
-    if own and Residuals(entries).worst.value <= ARISEN:
-        return _answer(model, Standing.STANDS, margin, x, own.x, entries)
+    for own in may_arise(flow, weights):
+        entries = arising_residuals(flow, weights, own)
+        if Residuals(entries).worst.value <= ARISEN:
+            return _answer(model, Standing.STANDS, margin, x, own.x, entries)
     fall = _slides_through(problem, weights)
     return _answer(model, Standing.SELF_STRESS, margin, x, fall=fall)
 

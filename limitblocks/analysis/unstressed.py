@@ -12,12 +12,14 @@ The question is that of Kao et al. (2022), Coupled rigid-block analysis, Compute
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 from scipy import sparse
 from scipy.sparse import linalg
 
+from limitblocks.analysis.nonassociated.least_norm import least_state
 from limitblocks.analysis.nonassociated.path import BUDGET
 from limitblocks.analysis.nonassociated.path_equations import Barrier, Path
 from limitblocks.analysis.nonassociated.path_layout import Layout
@@ -28,6 +30,7 @@ from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem, State
 
 FIRST = 1.0  # barrier where a path begins, of the work of the dead loads
+LOW = 1e-5  # the same where steps of Newton's method lower it
 LEFT = 1e-10  # at the end
 LONG = 0.6  # first predictor
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
@@ -55,6 +58,26 @@ def joint_compliance(problem: LimitProblem, weights: Array | None = None, u: Arr
     of_block = np.bincount(p.parts, weights=work.reshape(-1, 6).sum(axis=1))[p.parts]
     of_interface = of_block[p.ends.max(axis=1)][p.stress_interface]
     return np.asarray(W / np.where(of_interface > 0.0, of_interface, 1.0))
+
+
+def may_arise(flow: Flow, weights: Array) -> Iterator[State]:
+    """Give what joints of compliance `weights` bear that never yield, and what those bear that do.
+
+    By a path from a large barrier, by Newton's method from a small one, and with dilatancy, where that does
+    no work. Residuals have to say which of them arise.
+    """
+    p = flow.problem
+    u = elastic_displacements(p, weights)
+    yield State(0.0, p.C @ u / weights, u, np.zeros(len(p.g)))
+    ways: tuple[Callable[[], State | None], ...] = (
+        lambda: arising(flow, weights),
+        lambda: arising(flow, weights, LOW, along_path=False),
+        lambda: least_state(p, weights),
+    )
+    for way in ways:
+        found = way()
+        if found is not None:
+            yield found
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:
