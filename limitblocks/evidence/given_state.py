@@ -73,6 +73,12 @@ class Given:
         return force
 
     @cached_property
+    def across(self) -> Flags:
+        """Which stresses press or bend: what opens a joint, not what slides or twists it, (s,)."""
+        normal = np.tile([0.0, 0.0, 1.0, 1.0, 1.0, 0.0], len(self.flow.problem.interfaces))
+        return np.asarray(abs(self.flow.problem.resultants).T @ normal > 0.0)
+
+    @cached_property
     def acting(self) -> Array:
         """What acts on the lesser block of the interface of each stress, (s,)."""
         return Measure(self.flow.problem, self.state).interface[self.flow.problem.stress_interface]

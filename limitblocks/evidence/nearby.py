@@ -110,23 +110,25 @@ def _changed(given: Given, u: Array, y: Array) -> Nearby:
 def _cheapest(given: Given, choice: _Choice) -> Array:
     """Stresses (s,), place by place as they are, moved to where what flows yields, or none at all.
 
-    Each costs the largest change of limits, flow and loads of the place that it asks for; loads change only
-    where the place carries little, or by rounding of what acts on the lesser block.
+    Or shear alone, as cohesion lets an open joint carry. Each costs the largest change of limits, flow and
+    loads of the place that it asks for; loads change only where the place, or what it loses beside shear,
+    carries little, or by rounding of what acts on the lesser block.
     """
     members, stresses = given.places
-    moved = moved_forces(given.flow.problem, given.state.x, choice.y, given.places)
-    choices = np.array([given.state.x, moved, np.zeros_like(moved)])
-    choices[np.abs(choices) <= ROUNDING * given.acting] = 0.0  # such rows have no strength that could change
+    own, little = given.state.x, given.force <= SLIGHT
+    moved = moved_forces(given.flow.problem, own, choice.y, given.places)
+    shear = np.where(given.across, 0.0, own)
+    sheared = (given.largest(own - shear) <= SLIGHT) & (given.largest(shear) > 0.0)
+    choices = ((own, little), (moved, little), (np.zeros_like(own), little), (shear, sheared))
     costs = []
-    for x in choices:
+    for x, slight in choices:
         at = _flowing(given, x, choice)
-        by = given.largest(x - given.state.x)
-        moves = given.largest(np.where(x == given.state.x, 0.0, given.state.x))
-        slight = (by <= ROUNDING) | (moves <= SLIGHT)
-        cost = np.maximum(at.angle, np.where(slight, by, np.inf))
+        by = given.largest(x - own)
+        cost = np.maximum(at.angle, np.where(slight | (by <= ROUNDING), by, np.inf))
         np.maximum.at(cost, members, np.abs(at.change))
         costs.append(cost)
-    return np.asarray(choices[np.argmin(costs, axis=0)[stresses], np.arange(len(moved))])
+    best = np.argmin(costs, axis=0)[stresses]
+    return np.asarray(np.array([x for x, _ in choices])[best, np.arange(len(own))])
 
 
 def _flowing(given: Given, x: Array, choice: _Choice) -> _Flowing:
