@@ -12,7 +12,7 @@ The question is that of Kao et al. (2022), Coupled rigid-block analysis, Compute
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -30,7 +30,6 @@ from limitblocks.arrays import Array
 from limitblocks.problem import Flow, LimitProblem, State
 
 FIRST = 1.0  # barrier where a path begins, of the work of the dead loads
-LOW = 1e-5  # the same where steps of Newton's method lower it
 LEFT = 1e-10  # at the end
 LONG = 0.6  # first predictor
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
@@ -61,23 +60,16 @@ def joint_compliance(problem: LimitProblem, weights: Array | None = None, u: Arr
 
 
 def may_arise(flow: Flow, weights: Array) -> Iterator[State]:
-    """Give what joints of compliance `weights` bear that never yield, and what those bear that do.
+    """Give what a path leads to on joints of compliance `weights`, and the state of least norm.
 
-    By a path from a large barrier, by Newton's method from a small one, and with dilatancy, where that does
-    no work. Residuals have to say which of them arise.
+    That has dilatancy, which does no work where it arises: residuals have to say.
     """
-    p = flow.problem
-    u = elastic_displacements(p, weights)
-    yield State(0.0, p.C @ u / weights, u, np.zeros(len(p.g)))
-    ways: tuple[Callable[[], State | None], ...] = (
-        lambda: arising(flow, weights),
-        lambda: arising(flow, weights, LOW, along_path=False),
-        lambda: least_state(p, weights),
-    )
-    for way in ways:
-        found = way()
-        if found is not None:
-            yield found
+    found = arising(flow, weights)
+    if found is not None:
+        yield found
+    found = least_state(flow.problem, weights)  # where the path finds no start, as on many arches
+    if found is not None:
+        yield found
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:

@@ -93,3 +93,27 @@ def test_joints_that_nowhere_yield_bear_what_statics_says_without_a_path(monkeyp
     levers = np.array([OVERHANG, OVERHANG, OVERHANG / 2.0])
     np.testing.assert_allclose(np.linalg.norm(found[:, 3:5], axis=1), light * levers, rtol=1e-9)
     np.testing.assert_allclose(found[:, [0, 1, 5]], 0.0, atol=1e-9 * above[0])
+
+
+@pytest.mark.parametrize(
+    "arch",
+    [
+        lb.structures.arch_bridge(lb.OrdunaLourenco(0.75), span=6.8, rise=1.0, thickness=0.69, voussoirs=19),
+        lb.structures.arch(
+            lb.OrdunaLourenco(0.8),
+            radius=1.18,
+            thickness=0.242,
+            voussoirs=22,
+            fill=lb.structures.Fill(5.38),
+        ),
+        lb.structures.arch(
+            lb.OrdunaLourenco(1.0, slip="outer", sides=4), radius=4.88, thickness=0.62, voussoirs=39
+        ),
+    ],
+    ids=["bridge", "arch with fill", "arch"],
+)
+def test_arches_whose_path_from_a_large_barrier_finds_no_start_stand_by_themselves(arch):
+    found = lb.stability(arch)
+    assert found.kind is lb.results.Standing.STANDS
+    assert found.residuals.worst.value <= 1e-8
+    assert lb.nonassociated(arch).load_factor > 0.0

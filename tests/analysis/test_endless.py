@@ -8,7 +8,8 @@ import pytest
 
 import limitblocks as lb
 from limitblocks import structures
-from limitblocks.analysis.nonassociated import each_way, endless
+from limitblocks.analysis.nonassociated import each_way, endless, loaded
+from limitblocks.analysis.nonassociated.loading import CLIMBS
 from limitblocks.analysis.nonassociated.path_record import INTERRUPTED, UNSETTLED
 from limitblocks.analysis.nonassociated.start import state_of
 from limitblocks.problem import Flow
@@ -135,3 +136,13 @@ def test_a_push_without_end_that_the_user_stops_leaves_the_increments():
     with pytest.raises(lb.NotConverged, match="interrupted") as caught:
         lb.load_path(model, settings=lb.settings.Settings(budget=500), progress=press)
     assert caught.value.result.how == "increments of the load path, interrupted"
+
+
+def test_loads_that_climb_without_limit_are_pushed_no_farther(monkeypatch):
+    flow, state = solution()
+    one = SimpleNamespace(start=state.x)
+    monkeypatch.setattr(loaded, "pushed", lambda *_: ((one,), state, CLIMBS))
+    monkeypatch.setattr(loaded, "endless", None)  # not asked for
+    weights = flow.problem.compliance
+    found = loaded.loaded(flow, state.x, weights, 1e-8, lb.settings.Settings(), 1.0, print, 1.0)
+    assert (found.why, found.beyond) == (CLIMBS, False)

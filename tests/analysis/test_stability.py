@@ -144,32 +144,6 @@ def test_arches_stand_down_to_their_least_thickness():
         assert bool(found.blocks) is not stands
 
 
-@pytest.mark.parametrize(
-    "arch",
-    [
-        lb.structures.arch_bridge(
-            lb.OrdunaLourenco(0.75), span=6.8, rise=1.0, thickness=0.69, voussoirs=19
-        ),  # no joint yields
-        lb.structures.arch(
-            lb.OrdunaLourenco(0.8),
-            radius=1.18,
-            thickness=0.242,
-            voussoirs=22,
-            fill=lb.structures.Fill(5.38),
-        ),  # from a small barrier
-        lb.structures.arch(
-            lb.OrdunaLourenco(1.0, slip="outer", sides=4), radius=4.88, thickness=0.62, voussoirs=39
-        ),  # as with dilatancy, which does no work
-    ],
-    ids=["rigid", "Newton", "least norm"],
-)
-def test_arches_whose_path_from_a_large_barrier_finds_no_start_stand_by_themselves(arch):
-    found = lb.stability(arch)
-    assert found.kind is lb.results.Standing.STANDS
-    assert found.residuals.worst.value <= 1e-8
-    assert lb.nonassociated(arch).load_factor > 0.0
-
-
 @pytest.mark.parametrize("name", lb.structures.EXAMPLES)
 def test_structures_of_the_library_stand_by_themselves(name):
     """But for the arch with vertical joints: its middle is a block between parallel walls."""

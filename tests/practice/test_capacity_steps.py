@@ -123,7 +123,7 @@ def test_a_curve_without_an_end_is_ended(monkeypatch):
 
 @pytest.mark.parametrize(("way", "fall", "points"), [(1e-6, 0.0, 51), (0.05, 0.0, 200), (1e-6, 1e-3, 200)])
 def test_a_curve_that_creeps_is_ended(way, fall, points, monkeypatch):
-    """Contacts of an arch with cohesion opened and closed at 1,000 points within 7 mm, for minutes."""
+    """Contacts of an arch with cohesion opened and closed again and again: 40 points within 7 micrometres."""
 
     def ahead(assembly, control, point, *_):
         there = replace(point, displacement=point.displacement + way, load_factor=point.load_factor - fall)
