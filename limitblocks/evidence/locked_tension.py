@@ -7,6 +7,7 @@ from collections import Counter
 import numpy as np
 
 from limitblocks.errors import few
+from limitblocks.evidence.determined import determined
 from limitblocks.evidence.relative_rates import MOVING, largest_rate, relative_rates
 from limitblocks.joints import Tie
 from limitblocks.model import Model
@@ -19,7 +20,8 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     """Return a remark for ties, strips and fill that carry a force across which their ends only move.
 
     Without dilatancy a strip over a joint that slides presses the joint together by any tension from zero to
-    its strength, and friction grows with it: none of the equations says which.
+    its strength, and friction grows with it: none of the equations says which. A tie whose force statics
+    determine, as one between two walls that hinge, is none of these.
     """
     problem = flow.problem
     tied = np.array([isinstance(one.joint, Tie) for one in model.interfaces])
@@ -32,6 +34,9 @@ def locked_tension(model: Model, flow: Flow, state: State) -> tuple[str, ...]:
     N = (problem.resultants @ state.x)[2::6]
     across = np.hypot(dq[:, 0], dq[:, 1])
     locked = tied & (N > CARRIED) & (across > least) & (np.abs(dq[:, 2]) <= MOVING * across)
+    if locked.any():
+        forces = problem.resultants[6 * np.flatnonzero(locked) + 2]
+        locked[locked] = ~determined(problem, state.y, forces)
     if not locked.any():
         return ()
     counts = Counter(problem.interfaces[k] for k in np.flatnonzero(locked))

@@ -29,7 +29,7 @@ def find_mechanism(flow: Flow, stresses: Array, rates: Array | None = None) -> t
     rows = problem.F @ stresses + problem.g
     if not np.isfinite(rows).all() or (rates is not None and not np.isfinite(rates).all()):
         return np.full(n, np.nan) if rates is None else rates, np.full(R, np.nan)
-    columns = _flow_columns(problem, rows)
+    columns = flow_columns(problem, rows)
     strains = (flow.matrix(stresses).T @ columns).tocsr()
     worst = sparse.csr_array(np.ones((problem.C.shape[0], 1)))
     free = problem.C if rates is None else sparse.csr_array((problem.C.shape[0], 0))
@@ -54,21 +54,21 @@ def find_mechanism(flow: Flow, stresses: Array, rates: Array | None = None) -> t
     return u, columns @ solution.x[k:-1]
 
 
-def _flow_columns(problem: LimitProblem, rows: Array) -> sparse.csr_array:
-    """Generators of the multipliers that complementarity allows near yield: y = columns @ (>= 0).
+def flow_columns(problem: LimitProblem, rows: Array, near: float = ACTIVE) -> sparse.csr_array:
+    """Generators of the multipliers that complementarity allows `near` yield: y = columns @ (>= 0).
 
     On a cone's boundary the ray orthogonal to the state, (1, -z/||z||); at its apex rays all around.
     """
-    linear = np.flatnonzero(rows[: problem.cones.linear] < ACTIVE)
+    linear = np.flatnonzero(rows[: problem.cones.linear] < near)
     parts: list[tuple[Any, Array]] = [(linear[:, None], np.ones((len(linear), 1, 1)))]
     for places in problem.cones.groups:
         cone = rows[places]
         z = np.linalg.norm(cone[:, 1:], axis=1)
-        near, apex = cone[:, 0] - z < ACTIVE, z < ACTIVE
-        edge = near & ~apex
+        yields, apex = cone[:, 0] - z < near, z < near
+        edge = yields & ~apex
         ray = np.concatenate([np.ones((edge.sum(), 1)), -cone[edge, 1:] / z[edge, None]], axis=1)
         parts.append((places[edge], ray[:, None]))
-        at_apex, around = places[near & apex], rays(cone.shape[1], APEX_DIRECTIONS)
+        at_apex, around = places[yields & apex], rays(cone.shape[1], APEX_DIRECTIONS)
         parts.append((at_apex, np.broadcast_to(around, (len(at_apex), *around.shape))))
     return sparse_columns(parts, len(rows))
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, real
 from limitblocks.errors import ModelError
 from limitblocks.evidence.relative_rates import largest_rate
 from limitblocks.geometry import Block
@@ -41,9 +41,9 @@ class Advanced:
 
 def farthest(largest: object, what: str) -> float:
     """Return the displacement at which a way ends, which may be infinite; ModelError where it is none."""
-    if not isinstance(largest, int | float | np.integer | np.floating) or not largest > 0.0:
+    if not (given := real(largest)) > 0.0:
         raise ModelError(f"largest is {largest!r}, expected a {what} > 0 in m")
-    return float(largest)
+    return given
 
 
 def refuse_left_behind(what: str, model: Model, words: Sequence[str]) -> None:
@@ -122,9 +122,11 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
 
     The contacts that the displacements do not open are brought together again. None if it is stuck.
     """
-    held, sliding = _motion(assembly, displacements)
+    held, sliding, yielding = _motion(assembly, displacements)
     was, least = [own.ways[:, 2] for own in assembly.contacts], 10.0 * CLOSED * assembly.size
-    rigid = np.concatenate([np.full(len(own.on_i), own.rigid) for own in assembly.contacts])
+    rigid = np.concatenate(
+        [np.full(len(own.on_i), own.rigid and k not in yielding) for k, own in enumerate(assembly.contacts)]
+    )
     share, before, trials = 1.0, np.concatenate(was), 0
     while share >= SHORTEST:
         goal, left = closed_up(moved(assembly, share * displacements), held, sliding, displacements)
@@ -138,6 +140,8 @@ def moved_until_contact(assembly: Assembly, displacements: Array) -> tuple[Assem
             meets &= ~closes
         if left <= CLOSED * assembly.size and not meets.any() and not meet(goal):
             now = [own.ways[:, 2] for own in goal.contacts]
+            contacts = [own.yielded if k in yielding else own for k, own in enumerate(goal.contacts)]
+            goal = replace(goal, contacts=tuple(contacts))
             goal, lost = _parted(goal, sliding, least)
             there, said = slid(goal, sliding)
             return there, _changes(assembly, was, now, least) + lost + said
@@ -160,24 +164,28 @@ def _parted(assembly: Assembly, sliding: list[bool], least: float) -> tuple[Asse
     return Assembly(joined(assembly, contacts), tuple(contacts)), tuple(said)
 
 
-def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool]]:
-    """Which corners of each contact are closed and stay so, and which contacts slide."""
+def _motion(assembly: Assembly, rates: Array) -> tuple[list[Truths], list[bool], set[int]]:
+    """Which corners of each contact are closed and stay so, which contacts slide, and ties that yield."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     least = STILL * largest_rate(assembly.model, rates)
-    held, sliding = [], []
-    for own in assembly.contacts:
+    held, sliding, yielding = [], [], set()
+    for number, own in enumerate(assembly.contacts):
         speeds = [
             rates[k, :3] + np.cross(rates[k, 3:], points - centres[k])
             for k, points in zip(own.ends, (own.on_i, own.on_j), strict=True)
         ]
         relative = (speeds[1] - speeds[0]) @ own.interface.axes.T
+        if own.tied:
+            relative[:, 2] *= -1.0  # its gap is what it is slack
         shut = own.ways[:, 2] <= 10.0 * CLOSED * assembly.size
         # a strip along closed corners turns about its other edge: what is pressed there opens nowhere
         slowest = relative[shut, 2].min(initial=np.inf) if own.pressed else 0.0
         closed = shut & (relative[:, 2] <= max(slowest, 0.0) + least)
-        held.append(closed & own.rigid)
+        if own.tied and (closed & (relative[:, 2] < -least)).any():
+            yielding.add(number)
+        held.append(closed & own.rigid & (number not in yielding))
         sliding.append(bool((np.linalg.norm(relative[closed, :2], axis=1) > least).any()) and not own.tied)
-    return held, sliding
+    return held, sliding, yielding
 
 
 def carried(assembly: Assembly, goal: Assembly, control: Control) -> Control:
@@ -200,9 +208,8 @@ def _changes(assembly: Assembly, was: list[Array], now: list[Array], least: floa
     """Sentences on the contacts that opened or closed."""
     said = []
     for own, before, after in zip(assembly.contacts, was, now, strict=True):
-        if own.tied:
-            continue
+        closes, opens = ("is taut again", "goes slack") if own.tied else ("closes", "opens")
         shut, opened = (before > least) & (after <= least), (before <= least) & (after > least)
-        said += [f"{own.interface.name} closes"] if shut.any() else []
-        said += [f"{own.interface.name} opens"] if opened.any() else []
+        said += [f"{own.interface.name} {closes}"] if shut.any() else []
+        said += [f"{own.interface.name} {opens}"] if opened.any() else []
     return tuple(said)

@@ -40,6 +40,9 @@ class Contact:
     on_i, on_j : Array, shape (k, 3)
         Its corners as material points of block i and of block j, global axes, m; they coincide where it is
         closed. A tie has its two anchors, a dowel the point where it crosses the joint, k times.
+    taut : float
+        Distance of the anchors of a tie at which it is taut, m: as it was first, and more once it has
+        yielded. What a strip has, which is between points that coincide, is along the normal of its joint.
     axes_i, axes_j : Array, shape (3, 3)
         Its axes as they turn with block i and with block j.
     rims_i, rims_j : Array, shape (k, s, 2)
@@ -58,6 +61,7 @@ class Contact:
     rims_i: Array
     rims_j: Array
     pressed: bool = False
+    taut: float = 0.0
 
     @cached_property
     def half_way(self) -> Array:
@@ -83,7 +87,12 @@ class Contact:
 
     @cached_property
     def axes(self) -> Array:
-        """Axes of each corner, shape (k, 3, 3): two half way between both blocks, then normal to the face."""
+        """Axes of each corner, shape (k, 3, 3): two half way between both blocks, then normal to the face.
+
+        The last of a tie points from block j to block i: its gap is what it is slack.
+        """
+        if self.tied:
+            return np.concatenate([self.half_way[:2], -self.line[None]])[None]
         normal = np.where(self.on_face_i[:, None], self.axes_i[2], self.axes_j[2])
         sides = np.broadcast_to(self.half_way[:2], (len(normal), 2, 3))
         return np.concatenate([sides, normal[:, None]], axis=1)
@@ -93,10 +102,28 @@ class Contact:
         """Corners that rest on a face, global axes, m, shape (k, 3)."""
         return np.where(self.on_face_i[:, None], self.on_j, self.on_i)
 
+    @property
+    def seats(self) -> tuple[Array, Array]:
+        """Material points of blocks i and j that a gap is between, shapes (k, 3): of a tie its anchors."""
+        return (self.on_i, self.on_j) if self.tied else (self.rest, self.rest)
+
+    @cached_property
+    def line(self) -> Array:
+        """Direction of a tie from block i to block j, shape (3,); a strip is normal to its joint."""
+        joint: Any = self.interface.joint
+        way = self.on_j[0] - self.on_i[0] if joint.length else self.half_way[2]
+        return np.asarray(way / np.linalg.norm(way))
+
     @cached_property
     def ways(self) -> Array:
         """Way from the corners on i to those on j along their axes, m, shape (k, 3); the gap comes last."""
-        return np.asarray(np.einsum("kab,kb->ka", self.axes, self.on_j - self.on_i))
+        slack = np.array([0.0, 0.0, self.taut])
+        return np.asarray(np.einsum("kab,kb->ka", self.axes, self.on_j - self.on_i) + slack)
+
+    @property
+    def yielded(self) -> Contact:
+        """The tie as long as it is now."""
+        return replace(self, taut=self.taut - float(self.ways[0, 2]))
 
     @property
     def tied(self) -> bool:
@@ -105,8 +132,8 @@ class Contact:
 
     @property
     def rigid(self) -> bool:
-        """True where the blocks themselves touch: not of a tie or a dowel, which keep no gap closed."""
-        return not isinstance(self.interface.joint, Tie | Dowel)
+        """True where a gap never turns negative: not of a dowel, which keeps none."""
+        return not isinstance(self.interface.joint, Dowel)
 
     @property
     def bond(self) -> tuple[str, ...]:
@@ -142,14 +169,15 @@ def assembly_of(model: Model) -> Assembly:
 
 def contact(own: Interface, blocks: Sequence[Block], place: dict[str, int]) -> Contact:
     """Return an interface as both of its blocks see it where it is closed."""
-    half = own.joint.length / 2.0 * own.axes[2] if isinstance(own.joint, Tie) else None
+    taut = own.joint.length if isinstance(own.joint, Tie) else None
+    half = None if taut is None else taut / 2.0 * own.axes[2]
     spread = 0.0 if isinstance(own.joint, Dowel) else 1.0
     corners = own.centroid + spread * own.polygon @ own.axes[:2]
     on_i = corners if half is None else (own.centroid - half)[None]
     on_j = corners if half is None else (own.centroid + half)[None]
     ends, rims = (place[own.block_i], place[own.block_j]), np.zeros((len(on_i), 1, 2))
     found = Contact(own, ends, on_i, on_j, own.axes, own.axes, rims, rims)
-    return found if half is not None else seated(found, blocks)
+    return seated(found, blocks) if taut is None else replace(found, taut=taut)
 
 
 def seated(own: Contact, blocks: Sequence[Block], size: float = 0.0) -> Contact:
@@ -230,8 +258,7 @@ def placed(own: Contact, blocks: Sequence[Block]) -> Interface:
     axes = own.half_way
     joint = own.interface.joint
     if isinstance(joint, Tie):
-        n = own.on_j[0] - own.on_i[0] if joint.length else axes[2]
-        n = n / np.linalg.norm(n)
+        n = own.line
         s1 = axes[0] - (axes[0] @ n) * n
         s1 = s1 / np.linalg.norm(s1)
         axes = np.stack([s1, np.cross(n, s1), n])

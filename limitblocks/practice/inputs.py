@@ -10,15 +10,19 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
+from limitblocks.evidence.mechanisms import reach_of_mechanisms
 from limitblocks.joints import Tie
 from limitblocks.mechanics.loads import Fill
 from limitblocks.model import Model
 from limitblocks.practice.capacity_result import CapacityCurve
-from limitblocks.practice.spectra import Place, Spectrum
+from limitblocks.practice.spectra import G, Place, Spectrum
 from limitblocks.practice.verification_result import Quantity
+from limitblocks.problem import Flow, State, turning_of
 
 LC1 = 1.35  # confidence factor of the lowest level of knowledge, Table C8.5.IV
 PLANE = 1e-3  # of the largest velocity: less than this across the plane is none
+ALIKE = 1e-3  # of the live work, or of a0*: less of a difference is none
+GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 ROOM = 1e-3  # of the associated load factor: without sliding an answer lies below it by rounding
 
 GIVEN = "given"
@@ -141,4 +145,31 @@ def other_answers(collapse: Any) -> tuple[str, ...]:
         f"alpha0 = {alpha:.4g} is one answer, others may solve as well, up to {associated:.4g} (associated): "
         "load_factor_range (limitblocks range) shows how low those lie that loading reaches; verify with the "
         "least of them",
+    )
+
+
+def other_mechanisms(
+    model: Model, collapse: Any, alpha: float, a0: float, confidence: float
+) -> tuple[str, ...]:
+    """Return that other mechanisms have the same alpha0, and how low their a0* may be.
+
+    By Cauchy and Schwarz' inequality their e* is at most 1.
+    """
+    least = alpha * G / confidence
+    if least >= (1.0 - ALIKE) * a0:
+        return ()
+    problem = model.problem
+    free = [block.name not in model.supports for block in model.blocks]
+    rates = collapse.displacement_rates[free].ravel()
+    si = State(alpha, collapse.generalised_stresses, rates, collapse.flow_multipliers)
+    flow = Flow(problem, collapse.dilatancy, turning_of(collapse.turning))
+    shares = np.repeat(np.arange(len(problem.blocks)) * GOLDEN % 1.0, 6)  # numbers without a pattern
+    reach = reach_of_mechanisms(flow, problem.dimensionless(si), shares * problem.live)
+    if reach is not None and reach[1] - reach[0] <= ALIKE:
+        return ()
+    known = "the mechanism is one of many" if reach else "the mechanism may be one of many (not found)"
+    return (
+        f"{known} with this alpha0, in which the blocks move in other proportions: their e* is up to 1, their"
+        f" a0* down to {least:.4g} m/s2, and the ratios of the linear checks in proportion; that is safe, or"
+        " verify each joint that moves by itself",
     )

@@ -9,7 +9,7 @@ import numpy as np
 
 from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
-from limitblocks.mechanics.loads.forces import AddedMass, MassProportional, left_still
+from limitblocks.mechanics.loads.forces import AddedMass, JointPressure, MassProportional, left_still
 from limitblocks.mechanics.loads.load import along
 from limitblocks.model import Model
 
@@ -47,9 +47,14 @@ def moving_masses(model: Model, rates: Array) -> tuple[tuple[MovingMass, ...], f
     ------
     ModelError
         If the live load is not made of weights and added masses along one horizontal direction, or takes
-        another share of the weights than all, or lacks a mass of the dead load or a part of one.
+        another share of the weights than all, or lacks a mass of the dead load or a part of one; if the dead
+        load has the weights other than once, or water in joints, which open.
     """
     place = {block.name: k for k, block in enumerate(model.blocks)}
+    if any(isinstance(term, JointPressure) for _, term in model.dead.terms):
+        raise ModelError(
+            "the dead load has water in joints, which open: a verification needs them without it"
+        )
     found = []
     for name, block, weight, at, direction in _masses(model):
         k = place[block]
@@ -87,8 +92,20 @@ def _masses(model: Model) -> Iterator[tuple[str, str, float, Array, Array]]:
             for block in model.free_blocks:
                 yield block.name, block.name, factor * block.weight, block.centroid, own
     pushed = [factor for factor, term in model.live.terms if isinstance(term, MassProportional)]
-    if abs(sum(pushed) - 1.0) > 1e-9 or min(pushed) <= 0.0:
+    if abs(sum(pushed) - 1.0) > 1e-9:
         raise ModelError(
             f"the live load has the weights times {sum(pushed):g}; expected 1: its load factor is the"
             " acceleration over g"
+        )
+    if min(pushed) <= 0.0:
+        raise ModelError(
+            f"the live load has the weights times {min(pushed):g} among its terms; expected their sum as one"
+        )
+    down = sum(
+        -factor * term.direction[2] for factor, term in model.dead.terms if isinstance(term, MassProportional)
+    )
+    if abs(down - 1.0) > 1e-9:
+        raise ModelError(
+            f"the dead load has the weights times {down:g}, the live load once; expected 1: the weights of"
+            " [C8.7.1.1] are the same in both, without partial factors"
         )

@@ -30,12 +30,13 @@ def closed_up(
 ) -> tuple[Assembly, float]:
     """Return the nearest structure in which the corners `held` have no gap, and the largest that is left, m.
 
-    `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide. The way back
-    along the displacements `along`, shape (n, 6), is barred unless a support led the motion; what then cannot
-    but open opens: rates tell of the first order of a motion alone.
+    `held` has an array (k,) a contact. Where a contact does not slide its held corners coincide; a tie keeps
+    its length alone. The way back along the displacements `along`, shape (n, 6), is barred unless a support
+    led the motion; what then cannot but open opens: rates tell of the first order of a motion alone.
     """
     normal = np.concatenate(held)
-    stuck = np.repeat(~np.array(sliding, dtype=bool), [len(own) for own in held])
+    fixed = [not (slides or own.tied) for own, slides in zip(assembly.contacts, sliding, strict=True)]
+    stuck = np.repeat(fixed, [len(own) for own in held])
     size = np.array([block.size for block in assembly.model.blocks])
     scale = np.repeat(np.stack([np.ones_like(size), 1.0 / size], axis=1), 3, axis=1)
     supports = [block.name in assembly.model.supports for block in assembly.model.blocks]
@@ -72,7 +73,7 @@ def rows_of(assembly: Assembly) -> sparse.csr_array:
     """Return the rates of the ways of all contacts in the rates of the blocks, shape (3 k, 6 n)."""
     centres = np.stack([block.centroid for block in assembly.model.blocks])
     parts = [
-        (sign, own.ends[side], own.rest, own.axes)
+        (sign, own.ends[side], own.seats[side], own.axes)
         for own in assembly.contacts
         for side, sign in ((0, -1.0), (1, 1.0))
     ]

@@ -8,7 +8,7 @@ from scipy import sparse
 from limitblocks.arrays import Array
 from limitblocks.errors import SolveError
 from limitblocks.evidence.mechanism import PRECISE, linear_program
-from limitblocks.joints import Dowel, Guide, Tie
+from limitblocks.joints import Dowel, Guide
 from limitblocks.practice.advance import Advanced, advanced, carried, moved_until_contact
 from limitblocks.practice.capacity_result import Control
 from limitblocks.practice.displaced import CLOSED, Assembly, Contact
@@ -53,15 +53,17 @@ def falls(assembly: Assembly) -> bool:
     """Whether no load factor holds the structure by forces where its contacts are closed.
 
     By Farkas' lemma there is then a motion in which the live load does no work, the dead loads do, and no
-    corner penetrates and no contact slides that was pressed. It knows no bonds: what a tie, a dowel or a
+    corner penetrates and no contact slides that was pressed. It knows no bonds: what a taut tie, a dowel or a
     glued joint may hold is never said to fall.
     """
-    return not any(_holds(own) for own in assembly.contacts) and steepest(assembly)[1] > FALLS
+    least = 10.0 * CLOSED * assembly.size
+    return not any(_holds(own, least) for own in assembly.contacts) and steepest(assembly)[1] > FALLS
 
 
-def _holds(own: Contact) -> bool:
-    """Whether a contact carries more than compression and its friction."""
-    return bool(own.bond) or isinstance(own.interface.joint, Tie | Dowel | Guide)
+def _holds(own: Contact, least: float) -> bool:
+    """Whether a contact carries more than compression and its friction; a tie, unless it is slack."""
+    taut = own.tied and own.ways[0, 2] <= least
+    return bool(own.bond) or taut or isinstance(own.interface.joint, Dowel | Guide)
 
 
 def snapped(assembly: Assembly) -> tuple[Assembly, tuple[str, ...]]:

@@ -24,10 +24,11 @@ STRIP = 1e-2  # of the size of a joint: what is left of one on its closed corner
 def touching(assembly: Assembly, narrow: Set[int] = frozenset()) -> tuple[Model, list[int]]:
     """Return the model of what touches, and the contacts that its interfaces are of.
 
-    Those that have opened all over carry nothing. Of those numbered `narrow` the closed corners are left.
+    Those that have opened all over carry nothing, nor do ties that are slack. Of those numbered `narrow` the
+    closed corners are left.
     """
     least = 10.0 * CLOSED * assembly.size
-    kept = [k for k, own in enumerate(assembly.contacts) if own.tied or own.ways[:, 2].min() <= least]
+    kept = [k for k, own in enumerate(assembly.contacts) if own.ways[:, 2].min() <= least]
     found = joined(assembly, [assembly.contacts[k] for k in kept])
     if not narrow:
         return found, kept

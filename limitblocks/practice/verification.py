@@ -26,6 +26,7 @@ from limitblocks.practice.inputs import (
     flow_words,
     given,
     other_answers,
+    other_mechanisms,
     refuse_unproven,
     remarks,
     unproven,
@@ -103,6 +104,8 @@ def verification(
     refuse_unproven(model, result)
     _refuse(demand, collapse_demand, damage_demand, curve, floor)
     q, confidence = _factors(q, confidence, damping)
+    for state, ratio in zip(("SLV", "SLC"), damping, strict=True):
+        number(ratio, f"damping at {state}", "", above=0.0, most=MOST_DAMPING)
     place = Place(floor, number(elastic_period, "T_0", "s", least=0.0, most=MOST))
     masses, scale = moving_masses(model, collapse.displacement_rates)
     alpha = float(result.load_factor)  # type: ignore[attr-defined] # bounds have none
@@ -123,9 +126,8 @@ def verification(
         limit_states = [("SLV", demand, damping[0], set_off)]  # the text has what sets it off of SLV alone
         if collapse_demand:
             limit_states.append(("SLC", collapse_demand, damping[1], 0.0))
-        for state, spectrum, given_xi, least in limit_states:
+        for state, spectrum, xi, least in limit_states:
             found += steps("demand", given(spectrum, state)) if state != "SLV" else []
-            xi = number(given_xi, f"damping at {state}", "", above=0.0, most=MOST_DAMPING)
             more, check = displacement_check(state, curve, scales, spectrum, place, xi, least)
             found += steps(state, more)
             checks.append(check)
@@ -133,6 +135,7 @@ def verification(
         *of_ground(demand.a_g),
         *unproven(collapse, curve),
         *other_answers(collapse),
+        *other_mechanisms(model, collapse, alpha, a0, confidence),
         *collapse.remarks,  # type: ignore[attr-defined] # of every state
         *remarks(model, collapse.displacement_rates, confidence),
     )

@@ -117,6 +117,27 @@ def test_tension_that_a_slide_locks_in_a_strip_is_named(joint):
         assert f"a force of up to {F:.4g} N is locked in strip base|block 1" in found.remarks[-1]
 
 
+def test_a_tie_whose_force_statics_determine_locks_nothing():
+    """Two walls that hinge, tied at one height: the tie carries what the thin one lacks."""
+    size, thick, z = (0.4, 1, 3.0), (0.9, 1, 3.0), 2.6
+    blocks = [
+        lb.Block.box("ground", (8, 1, 0.4), at=(1.5, 0, -0.2)),
+        lb.Block.box("thin", size, at=(3, 0, 1.5), unit_weight=20e3),
+        lb.Block.box("thick", thick, at=(0, 0, 1.5), unit_weight=20e3),
+    ]
+    push = lb.mass_proportional((1, 0, 0))
+    model = lb.Model(
+        blocks, ["ground"], lb.find_interfaces(blocks, lb.PointContact(0.8)), lb.self_weight(), push
+    )
+    tied = reinforced(model, tie("thick", (0.45, 0, z), "thin", (2.8, 0, z), area=1e-3, strength=1e9))
+    result = lb.nonassociated(tied)
+    W1, W2 = (block.weight for block in model.free_blocks)
+    alpha = (W1 * 0.2 + W2 * 0.45) / ((W1 + W2) * 1.5)
+    assert result.load_factor == pytest.approx(alpha, rel=1e-8)
+    assert result.stress_resultants[-1, 2] == pytest.approx(W1 * (1.5 * alpha - 0.2) / z, rel=1e-8)
+    assert not [said for said in (*result.remarks, *lb.check_mcp(tied, result).remarks) if "locked" in said]
+
+
 def test_two_ties_of_the_same_blocks_are_counted_under_their_one_name():
     """They have the name of their blocks, which stood there twice."""
     model = lb.structures.block(lb.OrdunaLourenco(0.6), width=1.0, height=0.5)

@@ -199,6 +199,10 @@ def pressure(
         raise ModelError(
             "pressure: a unit weight is given without a level, expected the Z of its surface in m"
         )
+    if level is not None and not unit_weight:
+        raise ModelError(
+            f"pressure: a level, {level!r} m, is given without a unit weight, expected one in N/m3"
+        )
     return of(
         Pressure(
             _names(blocks),
