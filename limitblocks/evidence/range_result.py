@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from limitblocks.errors import few
 from limitblocks.evidence.range_answer import SHOWN, Origin, RangeAnswer
 from limitblocks.problem import Turning
@@ -46,9 +48,10 @@ class Extreme:
     answer : RangeAnswer, optional
         The best solution that the program or the search before it found, certified.
     bound : float
-        What no solution within the limits below is beyond, as the program claims.
+        What no solution within the limits below is beyond, as the program claims; infinite if none is known.
     proven : bool
-        Whether both agree within 1e-4 of the bracket.
+        Whether both agree within 1e-4 of the bracket; with an infinite bound, whether every load factor above
+        the answer is a solution.
     stress_limit : float
         Largest distance to yield admitted, over the sum of the dead loads; infinite where none was needed.
     multiplier_limit : float
@@ -66,13 +69,15 @@ class Extreme:
 
     @property
     def load_factor(self) -> float:
-        """Load factor of the answer; NaN without one."""
+        """Load factor of the answer, infinite where that of no solution is the greatest; NaN without one."""
+        if self.proven and np.isinf(self.bound):
+            return self.bound
         return self.answer.load_factor if self.answer else float("nan")
 
     @property
     def gap(self) -> float:
         """Distance between answer and bound."""
-        return abs(self.load_factor - self.bound)
+        return 0.0 if self.load_factor == self.bound else abs(self.load_factor - self.bound)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the extreme as plain numbers, lists and text."""
@@ -80,7 +85,8 @@ class Extreme:
 
     def __str__(self) -> str:
         word = "proven" if self.proven else f"bound {self.bound:.6g}"
-        return f"{self.load_factor:.6g} ({word})"
+        found = "without limit" if np.isinf(self.load_factor) else f"{self.load_factor:.6g}"
+        return f"{found} ({word})"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -98,7 +104,8 @@ class LoadFactorRange(Result):
     answers : tuple of RangeAnswer
         All distinct ones, each within the tolerance, by load factor.
     intervals : tuple of (float, float)
-        Load factors that are all solutions: solutions of one mechanism form a convex set.
+        Load factors that are all solutions: solutions of one mechanism form a convex set. The last ends at
+        infinity where the load factor is unlimited.
     unlimited : bool
         Whether every load factor above an answer is one, too: stresses that balance the live load alone can
         be added to it.

@@ -30,7 +30,9 @@ from limitblocks.model import Model
 from limitblocks.shown import KEYS
 
 #: What null stands for where it is not NaN.
-_NULL = {"associated": inf, "upper": inf, "lower": -inf, "stress_limit": inf, "multiplier_limit": inf}
+_NULL = {"lower": -inf} | dict.fromkeys(
+    ("associated", "upper", "bound", "intervals", "stress_limit", "multiplier_limit"), inf
+)
 #: And in arrays that may have it.
 _NULLS = {"load_factors": inf} | dict.fromkeys(
     ("friction", "cohesion", "compressive_strength", "tensile_strength", "frictions"), nan

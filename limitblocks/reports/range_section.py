@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from limitblocks.evidence.range_answer import Origin
-from limitblocks.evidence.range_result import LoadFactorRange
+from limitblocks.evidence.range_result import Extreme, LoadFactorRange
 from limitblocks.model import Model
 from limitblocks.reports.as_read import AS_READ
 from limitblocks.reports.document import Table
@@ -41,10 +41,7 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         values=(
             ("Reached", _between(reached, below), "paths from permanent-load states"),
             ("Certified", _between(lowest, highest), "reachable or not"),
-            *(
-                (f"{word} of all", str(end), told or f"mixed-integer program, gap {end.gap:.1e}")
-                for word, end in ends
-            ),
+            *((f"{word} of all", str(end), told or _source(end)) for word, end in ends),
             ("Solutions without gap", _spans(result.intervals), told or "every value solves, by convexity"),
             *(limits(shown.solution) if shown else ()),
             ("Wedging", str(result.wedging), told),
@@ -58,6 +55,13 @@ def range_section(_model: Model, result: LoadFactorRange) -> Section:
         + (() if result.complete else ("the search was stopped early, by the time limit or by hand",)),
         parts=(Table.of("Certified load factors", HEADS, rows, right=(0,)),),
     )
+
+
+def _source(end: Extreme) -> str:
+    """What says so: the program, or for a load factor without limit a ray of stresses."""
+    if end.load_factor == float("inf"):
+        return "stresses that balance the live load alone can be added to an answer without end"
+    return f"mixed-integer program, gap {end.gap:.1e}"
 
 
 def _between(least: float, greatest: float) -> str:

@@ -89,6 +89,7 @@ class Collected:
                     self.beyond = Certified(
                         far, f"any greater load factor solves too; {new.how}", Origin.SEARCHED
                     )
+                    self.intervals = merged([*self.intervals, (z.load_factor, np.inf)], near)
 
     def _stretch(self, new: Certified) -> None:
         value = new.state.load_factor

@@ -17,7 +17,10 @@ at the points of interface k:
 
 from __future__ import annotations
 
+import os
+import sys
 import time
+from functools import cache
 from typing import NamedTuple
 
 import cvxpy as cp
@@ -56,6 +59,7 @@ def exact_extreme(flow: Flow, limits: tuple[float, float], sense: float, time_li
     See :func:`refuse` for what it cannot take.
     """
     begun, p = time.monotonic(), flow.problem
+    _without_banner()
     static = statics(p, limits)
     inside = [*static.constraints, static.rows >= 0]
     largest = np.array([_greatest(static.rows[r], inside) for r in range(len(p.g))])
@@ -77,6 +81,22 @@ def exact_extreme(flow: Flow, limits: tuple[float, float], sense: float, time_li
     bound = sense * _solve(program, time_limit)
     state = None if z.value is None else _piece(flow, static, np.asarray(z.value, dtype=float), sense)
     return Found(state, bound, STRESSES if capped else np.inf, Y, time.monotonic() - begun)
+
+
+@cache
+def _without_banner() -> None:
+    """Make the first HiGHS of the process while nothing it prints is seen: options come after its banner."""
+    import highspy
+
+    sys.stdout.flush()
+    seen, unseen = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(unseen, 1)
+        highspy.Highs()  # type: ignore[no-untyped-call]
+    finally:
+        os.dup2(seen, 1)
+        os.close(seen)
+        os.close(unseen)
 
 
 def refuse(flow: Flow) -> None:

@@ -132,7 +132,15 @@ def drawn(task: Task, count: int, seed: int, deadline: float) -> tuple[int, int]
 
 
 def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
-    """Return the least (sense 1) or the greatest (-1) load factor of all solutions, and collect it."""
+    """Return the least (sense 1) or the greatest (-1) load factor of all solutions, and collect it.
+
+    Where nothing limits the associated load the greatest is looked for up to a limit only: what is found
+    there proves nothing, and without a ray no bound is known.
+    """
+    beyond, endless = task.collected.beyond, sense < 0.0 and task.collected.endless
+    if endless and beyond is not None:
+        far = answer(task.model, task.flow, task.enclosing, task.permanent, beyond)
+        return Extreme(far, np.inf, True, np.inf, np.inf, 0.0)
     live = task.flow.problem.units.live
     low, high = task.enclosing.frictionless * live, task.enclosing.associated * live
     room = 1e-6 * task.scale  # the bracket is known to a tolerance
@@ -142,5 +150,6 @@ def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
     task.collected.add(state, "mixed-integer program", Origin.SEARCHED, keep=False)
     one = task.collected.least if sense > 0.0 else task.collected.greatest
     best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
+    bound = np.inf if endless else max(bound, low) if sense > 0.0 else bound  # where time ran out first
     near = one is not None and abs(one.state.load_factor - bound) <= AGREES * task.scale
     return Extreme(best, float(bound / live), near, stresses, multipliers, seconds)
