@@ -40,22 +40,66 @@ def surface_fault(points: Array, edges: Mesh, normals: Array, size: float) -> st
 def triangles(points: Array, edges: Mesh, normals: Array) -> tuple[Indices, Indices]:
     """Return triangles of the faces: vertices (t, 3), counter-clockwise from outside, and their face (t,).
 
-    Fans for faces without reflex corners, ear clipping for the others; no vertices are added.
+    Fans for faces without reflex corners, ear clipping for the others; no vertices are added. Where a
+    triangle would have no area, as next to a corner on a straight side, :func:`_broadest` divides the face:
+    what makes solids takes triangles without area for something to mend.
     """
     from manifold3d import triangulate
 
     bent = _bent(points, edges, normals)
-    inner = ~np.isin(edges.face, bent)
     apex = edges.start[edges.first][edges.face]
-    inner &= (edges.start != apex) & (edges.end != apex)
-    fans = np.column_stack([apex, edges.start, edges.end])[inner]
-    ears = [np.empty((0, 3), dtype=np.int64)]
-    owner = [edges.face[inner]]
-    for k in bent:
+    inner = (edges.start != apex) & (edges.end != apex)
+    fans, owner = np.column_stack([apex, edges.start, edges.end])[inner], edges.face[inner]
+    others = np.union1d(bent, owner[_breadth(points[fans]) <= _NOTHING])
+    kept = ~np.isin(owner, others)
+    divided, owners = [fans[kept]], [owner[kept]]
+    for k in others:
         loop = _loop(edges, k)
-        ears.append(loop[triangulate([_flat(points[loop], normals[k])])])
-        owner.append(np.full(len(ears[-1]), k))
-    return np.concatenate([fans, *ears]), np.concatenate(owner)
+        corners, flat = points[loop], _flat(points[loop], normals[k])
+        trios = np.asarray(triangulate([flat]))
+        if _breadth(corners[trios]).min() <= _NOTHING:
+            trios = _broadest(corners, flat)
+        divided.append(loop[trios])
+        owners.append(np.full(len(trios), k))
+    return np.concatenate(divided), np.concatenate(owners)
+
+
+def _breadth(corners: Array) -> Array:
+    """Heights of triangles (t, 3, 3) over their longest sides, over these, shape (t,)."""
+    sides = corners - np.roll(corners, 1, axis=1)
+    longest = np.linalg.norm(sides, axis=2).max(axis=1)
+    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return np.asarray(areas / np.maximum(longest**2, np.finfo(float).tiny))
+
+
+def _broadest(corners: Array, flat: Array) -> Indices:
+    """Triangles (n - 2, 3) of a simple polygon (n, 3), in its plane (n, 2), the narrowest as broad as can be.
+
+    Klincsek (1980), Minimal triangulations of polygonal domains, Annals of Discrete Mathematics 9: that of
+    the corners i to j is a triangle i k j and those of i to k and of k to j.
+    """
+    n, whole = len(flat), shapely.buffer(shapely.polygons(flat), _NOTHING * np.ptp(flat))
+    ends = np.column_stack(np.triu_indices(n, 1))
+    inside = np.zeros((n, n), dtype=bool)
+    inside[*ends.T] = shapely.covers(whole, shapely.linestrings(flat[ends]))
+    best, middle = np.full((n, n), np.inf), np.zeros((n, n), dtype=np.int64)
+    for span in range(2, n):
+        for first in range(n - span):
+            last, between = first + span, np.arange(first + 1, first + span)
+            trios = np.column_stack([np.full(span - 1, first), between, np.full(span - 1, last)])
+            breadth = np.minimum(best[first, between], best[between, last])
+            breadth = np.minimum(breadth, _breadth(corners[trios]))
+            k = int(breadth.argmax())
+            best[first, last] = breadth[k] if inside[first, last] else -1.0
+            middle[first, last] = between[k]
+    found, left = [], [(0, n - 1)]
+    while left:
+        first, last = left.pop()
+        if last - first > 1:
+            k = int(middle[first, last])
+            found.append((first, k, last))
+            left += [(first, k), (k, last)]
+    return np.array(found, dtype=np.int64)
 
 
 def _bent(points: Array, edges: Mesh, normals: Array) -> Indices:
