@@ -202,7 +202,8 @@ def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, 
             if measured is None:
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
-            (v,) = solved(Stresses(measured).within(loads, most), solver).values
+            room = _own_loads(problem) / measured.force
+            (v,) = solved(Stresses(measured).within(loads, most, room), solver).values
             x, found = v[1:], np.isfinite(v).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
             yield x, Residuals(static_residuals(problem, load_factor, x)).worst

@@ -106,6 +106,18 @@ def test_block_between_vertical_walls_stands_only_where_it_is_wedged(joint):
             assert found.arising is None
 
 
+@pytest.mark.parametrize("mu", [0.01, 0.02, 0.04, 0.06, 0.08, 0.3])
+def test_margin_of_a_block_that_is_wedged_is_one(mu):
+    """Nothing limits N: at each of eight points mu N - W / 8 may be as much as W."""
+    blocks = [
+        lb.Block.box("left", (1, 1, 2), (-1, 0, 0)),
+        lb.Block.box("right", (1, 1, 2), (1, 0, 0)),
+        lb.Block.box("stone", (1, 1, 2), (0, 0, 0), GAMMA),
+    ]
+    structure = model(blocks, ["left", "right"], lb.PointContact(mu))
+    assert lb.stability(structure).margin == pytest.approx(1.0, rel=1e-9)
+
+
 @pytest.mark.parametrize("joint", JOINTS)
 @pytest.mark.parametrize("mu", [0.0, 0.1, 0.6, 2.0])
 @pytest.mark.parametrize("degrees", [5, 20, 50])
