@@ -122,8 +122,8 @@ class Contact:
 
     @property
     def yielded(self) -> Contact:
-        """The tie as long as it is now."""
-        return replace(self, taut=self.taut - float(self.ways[0, 2]))
+        """The tie as long as it is now; a large step may have shortened one that yields at its start."""
+        return replace(self, taut=self.taut - min(float(self.ways[0, 2]), 0.0))
 
     @property
     def tied(self) -> bool:

@@ -1,11 +1,14 @@
 """Capacity curves of ties that go slack, are taut again, yield, or keep their length: closed forms."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
 import limitblocks as lb
 from limitblocks.practice import capacity_curve, reinforced, tie
+from limitblocks.practice.displaced import assembly_of
 
 UNIT_WEIGHT = 20e3
 FRICTION = lb.PointContact(0.9)
@@ -98,3 +101,17 @@ def test_a_tie_that_does_not_yield_keeps_its_length(steps):
     zero = thin[1] * np.sin(brentq(load_factor, 0.1, 0.24))
     curve = capacity_curve(tied, control=("thin", (toes[0, 0], 0.5, thin[1])), steps=steps)
     assert curve.zero == pytest.approx(zero, rel=1e-6)
+
+
+@pytest.mark.parametrize("way", [-0.1, 0.2])
+def test_what_a_tie_has_yielded_stays(way):
+    """It is taut at the greatest distance that its anchors have had, however it ends a step."""
+    wall = model_of(
+        lb.Block.box("ground", (4, 1, 0.4), at=(0, 0, -0.2)), box("wall", (0.5, 1, 3), (0, 0, 1.5))
+    )
+    tied = reinforced(wall, tie("wall", (0, 0, 2), "ground", (-2, 0, 2), area=1e-4, strength=1e7))
+    own = assembly_of(tied).contacts[-1]
+    longer = replace(own, on_j=own.on_j + way * own.line)
+    assert own.taut == pytest.approx(2.0)
+    assert longer.ways[0, 2] == pytest.approx(-way)
+    assert longer.yielded.taut == pytest.approx(max(2.0, 2.0 + way))
