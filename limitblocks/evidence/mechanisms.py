@@ -1,4 +1,4 @@
-"""How far the mechanisms of one stress state reach: it may have many. numpy and scipy only."""
+"""Whether the mechanism of a stress state is the only one. numpy and scipy only."""
 
 from __future__ import annotations
 
@@ -6,43 +6,45 @@ import numpy as np
 from scipy import sparse
 
 from limitblocks.arrays import Array
-from limitblocks.evidence.mechanism import PRECISE, flow_columns, linear_program
+from limitblocks.evidence.mechanism import flow_columns, linear_program
 from limitblocks.problem import Flow, State
 
 YIELDS = 1e-6  # of the force of an interface: rows closer than this to yield may flow
-LEFT = 1e-10  # of the largest strain rate: what a linear program leaves of the flow rule
+WITHOUT_PRESOLVE = {"presolve": False}  # which calls programs of nearly dependent rows infeasible
 
 
-def reach_of_mechanisms(flow: Flow, state: State, functional: Array) -> tuple[float, float] | None:
-    """Least and greatest value of a functional (6 n,) of the rates of all mechanisms of a stress state.
+def change_of_mechanism(flow: Flow, state: State, functional: Array) -> float | None:
+    """Return by how much a functional (6 n,) of the rates differs in another mechanism of the same stresses.
 
-    Linear programs over the rates u and multipliers y in K* of rows that yield: C u + G^T y = 0 and
-    live . u = 1, Eqs (54)-(55), up to what the mechanism of the state itself leaves of them; its own
-    multipliers are among those that may be, so that it is never lost. An end is infinite where nothing limits
-    it; None if a program ends without an answer.
+    Linear programs over changes of the rates, and of multipliers of the rows that yield or flow:
+    C du + G^T dy = 0 and live . du = 0, Eqs (54)-(55), y + dy in K*. To stay is one of them. What flows may
+    double or stop, and what yields flow as much as the most: another mechanism changes more only in
+    proportion. None if a program ends without an answer.
     """
     p, n = flow.problem, flow.problem.C.shape[1]
-    columns = flow_columns(p, p.F @ state.x + p.g, YIELDS)
     own = sparse.coo_array((state.y, (np.arange(len(state.y)), p.cones.member))).tocsr()
-    G = flow.matrix(state.x)
-    strains = G.T @ sparse.hstack([columns, own])
-    left = np.abs(p.C @ state.u + G.T @ state.y).max() + LEFT * np.abs(p.C @ state.u).max()
-    A = sparse.hstack([p.C, strains]).tocsr()
-    live = sparse.csr_array(np.append(p.live, np.zeros(strains.shape[1]))[None])
-    goal = np.append(functional, np.zeros(strains.shape[1]))
-    ends = []
+    free = flow_columns(p, p.F @ state.x + p.g, YIELDS)
+    strains = sparse.csr_array(flow.matrix(state.x).T @ sparse.hstack([own, free]))
+    k, largest = own.shape[1], float(np.abs(p.C @ state.u).max())
+    size = abs(strains).max(axis=0).toarray().ravel()[k:]
+    unit = np.append(np.ones(k), largest / np.maximum(size, np.finfo(float).tiny))
+    A = sparse.block_array(
+        [[p.C, strains @ sparse.diags_array(unit)], [sparse.csr_array(p.live[None]), None]], format="csr"
+    )
+    bounds = [(None, None)] * n + [(-1.0, 1.0)] * k + [(0.0, 1.0)] * free.shape[1]
+    goal, changes = np.append(functional, np.zeros(strains.shape[1])), []
     for sign in (1.0, -1.0):
         found = linear_program(
             sign * goal,
-            A_ub=sparse.vstack([A, -A]).tocsr(),
-            b_ub=np.full(2 * A.shape[0], left),
-            A_eq=live,
-            b_eq=[float(p.live @ state.u)],
-            bounds=[(None, None)] * n + [(0.0, None)] * strains.shape[1],
-            method="highs",
-            options=PRECISE,
+            A_eq=A,
+            b_eq=np.zeros(A.shape[0]),
+            bounds=bounds,
+            method="highs-ipm",
+            options=WITHOUT_PRESOLVE,
         )
-        if found.status not in (0, 3):  # an optimum, or unlimited
+        if found.status == 3:
+            return np.inf
+        if found.status != 0:
             return None
-        ends.append(sign * found.fun if found.status == 0 else -sign * np.inf)
-    return ends[0], ends[1]
+        changes.append(abs(float(found.fun)))
+    return max(changes)

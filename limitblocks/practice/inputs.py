@@ -10,7 +10,7 @@ from limitblocks.arrays import Array
 from limitblocks.errors import ModelError
 from limitblocks.evidence.check import check_mcp
 from limitblocks.evidence.claim import Claim
-from limitblocks.evidence.mechanisms import reach_of_mechanisms
+from limitblocks.evidence.mechanisms import change_of_mechanism
 from limitblocks.joints import Tie
 from limitblocks.mechanics.loads import Fill
 from limitblocks.model import Model
@@ -164,10 +164,10 @@ def other_mechanisms(
     si = State(alpha, collapse.generalised_stresses, rates, collapse.flow_multipliers)
     flow = Flow(problem, collapse.dilatancy, turning_of(collapse.turning))
     shares = np.repeat(np.arange(len(problem.blocks)) * GOLDEN % 1.0, 6)  # numbers without a pattern
-    reach = reach_of_mechanisms(flow, problem.dimensionless(si), shares * problem.live)
-    if reach is not None and reach[1] - reach[0] <= ALIKE:
+    change = change_of_mechanism(flow, problem.dimensionless(si), shares * problem.live)
+    if change is not None and change <= ALIKE:
         return ()
-    known = "the mechanism is one of many" if reach else "the mechanism may be one of many (not found)"
+    known = "the mechanism is one of many" if change else "the mechanism may be one of many (not found)"
     return (
         f"{known} with this alpha0, in which the blocks move in other proportions: their e* is up to 1, their"
         f" a0* down to {least:.4g} m/s2, and the ratios of the linear checks in proportion; that is safe, or"
