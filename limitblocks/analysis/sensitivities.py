@@ -17,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 from scipy import sparse
 
+from limitblocks.analysis.carried_over import carried_over
 from limitblocks.analysis.one_thread import one_thread
 from limitblocks.analysis.shape import Field, moved
 from limitblocks.analysis.unique import Yielding
@@ -111,11 +112,13 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
     Raises
     ------
     ModelError
-        If the bounds belong to another model, or a moved shape is none.
+        If the bounds belong to another model, a moved shape is none, or the yield set of a joint jumps, as
+        that of ExactTorsion may where a rectangle is skewed: there is no derivative then.
     """
     _, si = _given(model, bounds)
     step = number(step, "step", "", above=0.0)
-    ahead, back = (_lagrangian(moved(model, field, t).problem, si) for t in (step, -step))
+    shapes = [moved(model, field, t) for t in (step, -step)]
+    ahead, back = (_lagrangian(shape.problem, carried_over(model, shape, si)) for shape in shapes)
     return (ahead - back) / (2.0 * step)
 
 

@@ -11,6 +11,7 @@ import limitblocks as lb
 from limitblocks import structures
 from limitblocks.analysis.shape import moved
 from limitblocks.errors import LimitBlocksError, ModelError
+from limitblocks.joints import ExactTorsion
 from limitblocks.practice import passive_fill, reinforced, strip, tie
 from limitblocks.studies import shape_sensitivity
 
@@ -297,6 +298,70 @@ def test_shape_moves_ties_with_their_anchors_and_keeps_their_sections():
     bonded = reinforced(wall, strip(found[0], (-b / 2, 0, 0), width=0.1, capacity=F))
     deeper = shape_sensitivity(bonded, lb.bounds(bonded), lambda r: r * [0, 1, 0])
     assert deeper == pytest.approx(-F * b / (W * h / 2), rel=1e-6)
+
+
+def test_shape_of_ties_that_were_alike_and_are_no_more():
+    """Two rods, one anchor rises: one grows longer than the other, and joints come in another order."""
+    b, h, W, F, away = 0.5, 5.0, 45e3, 4e3, 5.75
+    stones = [
+        lb.Block.box("ground", (3, 1, 0.4), (0, 0, -0.2)),
+        lb.Block.box("wall", (b, 1, h), (0, 0, h / 2), W / (b * h)),
+    ]
+    found = lb.find_interfaces(stones, lb.PointContact(0.6))
+    wall = lb.Model(stones, ["ground"], found, lb.self_weight(), lb.mass_proportional((1, 0, 0)))
+    rods = [
+        tie("wall", (-b / 2, y, 4.5), "ground", (-b / 2 - away, y, 4.5), area=1e-4, strength=1e9, pull_out=F)
+        for y in (-0.3, 0.3)
+    ]
+    tied = reinforced(wall, *rods)
+    one, other = (k for k in tied.interfaces if k not in found)
+    between = replace(tied, interfaces=[one, *found, other])
+    anchor = shape_sensitivity(
+        between, lb.bounds(between), lambda r: ((r[:, :1] < -3) & (r[:, 1:2] > 0)) * np.array([0, 0, 1.0])
+    )
+    assert anchor == pytest.approx(-F * b / away / (W * h / 2), rel=1e-6)
+
+
+STRETCH = np.diag([1.0, 0.0, 0.0])
+SKEW = np.array([[0.0, 0, 0], [1, 0, 0], [0, 0, 0]])  # x grows with y
+TURN = np.array([[0.0, 1, 0], [-1, 0, 0], [0, 0, 0]])
+
+
+def twisted(side, push=(0.6, 0.3), bent=0.0):
+    """A flat stone on a joint of planes that come in the order of a convex hull, pushed, twisted and bent."""
+    stones = [
+        lb.Block.box("ground", (3, 3, 0.2), (0, 0, -0.1)),
+        lb.Block.box("stone", (1.3, 0.8, 0.4), (0, 0, 0.2), 20e3),
+    ]
+    W = stones[1].weight
+    live = lb.loads.moment("stone", (bent * W, 0, W))
+    live += lb.loads.force("stone", (push[0] * W, push[1] * W, 0), (0, 0, 0))
+    found = lb.find_interfaces(stones, ExactTorsion(0.6, side=side))
+    return lb.Model(stones, ["ground"], found, lb.self_weight(), live)
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+@pytest.mark.parametrize("by", [STRETCH, SKEW, TURN], ids=["stretch", "skew", "turn"])
+def test_shape_of_joints_whose_planes_come_in_any_order_and_number(side, by):
+    model = twisted(side)
+    found = shape_sensitivity(model, lb.bounds(model), lambda r: r @ by)
+    assert found == pytest.approx(
+        differences(lambda t: moved(model, lambda r: r @ by, t), 0.0, 1e-4), abs=1e-6
+    )
+
+
+@pytest.mark.parametrize("side", ["inner", "outer"])
+def test_a_yield_set_that_jumps_has_no_derivative_by_shape(side):
+    """Bent and twisted: torsion of a rectangle has planes of its own, those of a skewed one are others."""
+    model = twisted(side, push=(0, 0), bent=1.0)
+    bounds = lb.bounds(model)
+    beside = [lb.bounds(moved(model, lambda r: r @ SKEW, t)).lower for t in (1e-6, -1e-6)]
+    assert beside[0] == pytest.approx(beside[1], rel=1e-4)
+    assert abs(beside[0] / bounds.lower - 1.0) > 0.01
+    with pytest.raises(
+        ModelError, match=r"ground\|stone: the yield set of ExactTorsion.* jumps .* compare bounds"
+    ):
+        shape_sensitivity(model, bounds, lambda r: r @ SKEW)
 
 
 def test_a_moved_tie_is_as_long_as_its_anchors_are_apart_and_fill_pushes_along_the_deck_still():
