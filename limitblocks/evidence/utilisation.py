@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, Indices
+from limitblocks.joints import forces_at_points
+from limitblocks.joints.base import joint_of
 from limitblocks.joints.queries import normal_share
-from limitblocks.joints.rows import hinge_gradients
 from limitblocks.model import Model
-from limitblocks.problem.cones import ratio
 
 NOISE = 1e-9  # of the unit of force of an interface: a strength below it counts as none
 
@@ -19,8 +21,8 @@ def utilisation(model: Model, stresses: Array) -> Array:
     It is 1/t, t the largest multiple of (V1, V2, M1, M2, T) within the yield rows under the same N, or the
     share of the compressive or tensile strength that N uses by itself, if that is more, as
     :meth:`limitblocks.joints.queries.Queries.utilisation` has it. Where the rows act on the forces of points
-    (PointContact), which are not unique, it is the larger of the friction in use over that available, summed
-    over the points, and the way of the centre of pressure from the centroid to the edge.
+    (PointContact), which are not unique, those that carry the largest multiple count, to some 1e-6; a joint
+    of one's own that has constant terms beside such rows is given 1, the most it can be.
 
     Parameters
     ----------
@@ -31,7 +33,7 @@ def utilisation(model: Model, stresses: Array) -> Array:
     """
     problem = model.problem
     x = stresses / problem.stress_units
-    V1, V2, N = (problem.resultants[k::6].tocsr() for k in range(3))
+    N = problem.resultants[2::6].tocsr()
     normal = np.zeros(len(x))
     normal[N.indices] = 1.0
     alone = np.bincount(problem.stress_interface, minlength=len(problem.interfaces)) == 1
@@ -41,17 +43,26 @@ def utilisation(model: Model, stresses: Array) -> Array:
     np.maximum.at(used, problem.member_interface, problem.cones.share(held, rest, NOISE))
     points = np.flatnonzero(np.diff(N.indptr) > 1)  # rows that act on the forces of points
     if len(points):
-        along, across = V1[points], V2[points]  # a guide has the second alone
-        sizes = np.hypot(x[along.indices], x[across.indices])
-        owner = np.repeat(np.arange(len(points)), np.diff(along.indptr))
-        friction = np.bincount(owner, weights=sizes, minlength=len(points))
-        used[points] = ratio(friction, problem.friction[points] * -(N @ x)[points], NOISE)
-        Q = (problem.resultants @ x).reshape(-1, 6)
-        for k in points.tolist():
-            h = hinge_gradients(model.interfaces[k].polygon[None] / problem.units.interface_length[k])[0]
-            used[k] = max(used[k], float(ratio((h[:, 3:] @ Q[k, 3:]).max(), -Q[k, 2], NOISE)))
+        used[points] = _by_points(model, points, (problem.resultants @ x).reshape(-1, 6)[points])
     normals = N @ x * problem.units.resultants[2::6]
     alone = [
         normal_share(one.joint, one, own) for one, own in zip(model.interfaces, normals.tolist(), strict=True)
     ]
     return np.maximum(used, np.minimum(alone, 1.0))
+
+
+def _by_points(model: Model, points: Indices, Q: Array) -> Array:
+    """Utilisation of interfaces `points` whose rows act on the forces of points; dimensionless Q (k, 6)."""
+    used = np.where(np.abs(Q).max(axis=1) > NOISE, 1.0, 0.0)
+    alike = defaultdict(list)
+    for k in np.flatnonzero(-Q[:, 2] > NOISE).tolist():
+        interface = model.interfaces[points[k]]
+        alike[joint_of(interface), len(interface.polygon)].append(k)
+    for (joint, _), own in alike.items():
+        length = model.problem.units.interface_length[points[own]]
+        rows = joint.yield_rows(
+            np.stack([model.interfaces[k].polygon for k in points[own]]) / length[:, None, None]
+        )
+        if not rows.g.any():
+            used[own] = forces_at_points.used(rows, Q[own])
+    return used

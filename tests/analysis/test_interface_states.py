@@ -206,6 +206,37 @@ def test_utilisation_is_what_the_joint_answers(joint, settings):
     assert np.allclose(found.utilisation[loaded], np.minimum(answers, 1.0)[loaded], atol=1e-6)
 
 
+def test_forces_of_points_that_carry_the_most_count():
+    """At collapse the only joint there is is exhausted, wherever its pressure acts."""
+    slab = stone(size=(1.0, 1.0, 0.2), at=(0, 0, 0.1))
+    W = slab.weight
+    model = model_of([GROUND, slab], lb.PointContact(0.5), lb.loads.force("stone", (W, 0, 0), (0, 1.5, 0)))
+    corner = lb.loads.force("stone", (0, 0, -4 * W), (0.5, 0.5, 0))
+    model = dataclasses.replace(model, dead=lb.self_weight() + corner)
+    assert interface_states(model, lb.bounds(model)).utilisation == pytest.approx([1.0], abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    "joint", [lb.PointContact(0.6), lb.PointContact(0.4, 2, "inner"), lb.PointContact(0.0)]
+)
+def test_utilisation_of_points_is_that_of_the_linear_programs_of_the_joint(joint):
+    model = lb.structures.corner(lb.PointContact(0.6), **CORNER)
+    share = np.random.default_rng(0).uniform(0.05, 0.8, (len(model.interfaces), 1))
+    share = share * (1.0 if joint.friction else np.array([0.0, 0, 1, 1, 1, 0])) * [1.0, 1, 0, 1, 1, 1]
+    Q = lb.bounds(model).stress_resultants * (share + np.eye(6)[2])
+    model = dataclasses.replace(
+        model, interfaces=[dataclasses.replace(i, joint=joint) for i in model.interfaces]
+    )
+    problem = model.problem
+    x = np.linalg.lstsq(problem.resultants.toarray(), Q.ravel() / problem.units.resultants, rcond=None)[0]
+    pressed = -Q[:, 2] > 1e3 * LOADED * problem.units.interface_force
+    assert pressed.sum() > 10
+    pairs = zip(model.interfaces, Q, pressed, strict=True)
+    answers = np.minimum([i.joint.utilisation(i, q) for i, q, one in pairs if one], 1.0)
+    assert np.ptp(answers) > 0.5
+    assert utilisation(model, x * problem.stress_units)[pressed] == pytest.approx(answers, rel=1e-5, abs=1e-9)
+
+
 def test_a_joint_that_is_pressed_in_its_middle_says_how_near_it_is_to_crushing():
     """A column of 1 m2 weighs 40 kN over its base, 99 % of fc A; its moments of 0 say nothing."""
     strength = 40e3 / 0.99

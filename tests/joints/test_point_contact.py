@@ -6,6 +6,7 @@ from rectangles import L1, L2, MU, RECTANGLE, SQUARE, N
 
 import limitblocks as lb
 from limitblocks.joints.cutting_planes import farthest
+from limitblocks.joints.forces_at_points import used
 from limitblocks.joints.torsion import rectangle_torsion_constant
 
 TRIANGLE = np.array([(0.0, 0.0), (4.0, 0.0), (0.0, 1.0)])
@@ -240,3 +241,23 @@ def test_compression_has_no_limit_on_any_polygon(sides):
     for height in (0.5, 1.0, 5 / 3):
         interface = lb.joints.interface(polygon * [1, height], None)
         assert lb.PointContact(0.6).strength(interface, (0, 0, -1, 0, 0, 0)) == np.inf
+
+
+def test_points_all_at_once_by_closed_forms():
+    """On a rectangle: |V| / mu N, |e1| / l1, |T| / (mu N d / 2); points between change nothing."""
+    mu, l1, l2 = 0.5, 2.0, 1.0
+    Q = np.array(
+        [
+            (0.06, 0.08, -1, 0, 0, 0),
+            (0, 0, -1, 0, 0.5, 0),
+            (0, 0, -1, 0.5, 0.5, 0),
+            (0, 0, -1, 0, 0, 0.3),
+            (0, 0, -1, 0, 0, 0),
+            (0.6, 0, -1, 0, 0, 0),
+        ]
+    )
+    expected = [0.1 / mu, 0.5 / l1, 0.5 / l2, 0.3 / (mu * np.hypot(l1, l2)), 0.0, 1.0]
+    rectangle = np.array([(l1, l2), (-l1, l2), (-l1, -l2), (l1, -l2)])
+    for points in (1, 3):
+        rows = lb.PointContact(mu, points).yield_rows(np.repeat(rectangle[None], len(Q), axis=0))
+        assert used(rows, Q) == pytest.approx(expected, rel=1e-5, abs=1e-12)
