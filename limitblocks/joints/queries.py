@@ -188,11 +188,11 @@ class Queries:
     def _largest(self, question: Question, Q: Array, d: Array) -> float:
         """Largest t with Q + t d within the yield set; NaN if Q is not."""
         x, dx = question.stresses(Q), question.stresses(d)
-        if np.isnan(x).any():
+        if np.isnan(x).any() or question.margins(x).min() < -OUTSIDE:
             return np.nan
         if np.isnan(dx).any():
             return 0.0  # a stress that the interface has no component for
-        return np.nan if question.margins(x).min() < -OUTSIDE else question.longest(x, dx)
+        return question.longest(x, dx)
 
     def _active(self, question: Question, Q: Array, tolerance: float) -> tuple[str, ...]:
         margins = question.margins(question.stresses(Q))

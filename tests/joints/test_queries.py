@@ -133,6 +133,16 @@ def test_bad_questions_are_named():
         joint.utilisation(interface, [1])
 
 
+def test_given_stresses_that_crush_are_refused_whatever_the_direction():
+    """2e5 N on 1 m2 of 1e5 Pa; without friction there is no shear to ask for."""
+    joint = lb.OrdunaLourenco(0.0, compressive_strength=1e5)
+    face = lb.joints.interface([(0, 0), (1, 0), (1, 1), (0, 1)], joint)
+    for direction in ((1, 0, 0, 0, 0, 0), (0, 0, 0, 1, 0, 0)):
+        with pytest.raises(lb.ModelError, match="outside the yield set already"):
+            joint.strength(face, direction, (0, 0, -2e5, 0, 0, 0))
+    assert joint.strength(face, (1, 0, 0, 0, 0, 0), (0, 0, -5e4, 0, 0, 0)) == 0.0
+
+
 def test_words_name_what_is_not_default():
     assert repr(lb.OrdunaLourenco(0.6)) == "OrdunaLourenco(friction=0.6)"
     assert repr(lb.OrdunaLourenco(0.6, 2e6, slip="paper")) == (
