@@ -112,7 +112,8 @@ def shape_sensitivity(model: Model, bounds: Bounds, field: Field, *, step: float
     Raises
     ------
     ModelError
-        If the bounds belong to another model, a moved shape is none, or the yield set of a joint jumps, as
+        If the bounds belong to another model, the field gives no displacement of each point, a moved shape is
+        none, or the yield set of a joint jumps, as
         that of ExactTorsion may where a rectangle is skewed: there is no derivative then.
     """
     _, si = _given(model, bounds)

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from limitblocks.arrays import Array, read_only
+from limitblocks.arrays import Array, read_only, reals
+from limitblocks.errors import ModelError
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import centroids
 from limitblocks.joints import Backfill, Dowel, Tie
@@ -18,11 +19,27 @@ Field = Callable[[Array], Array]
 
 def moved(model: Model, field: Field, t: float) -> Model:
     """Return the model with the corners of blocks and interfaces moved by t field(r)."""
-    blocks = [
-        replace(block, vertices=block.vertices + t * np.asarray(field(block.vertices)))
-        for block in model.blocks
-    ]
+    blocks = [replace(block, vertices=_shifted(block.vertices, field, t)) for block in model.blocks]
     return replace(model, blocks=blocks, interfaces=[_carried(i, field, t) for i in model.interfaces])
+
+
+def _shifted(points: Array, field: Field, t: float) -> Array:
+    """Points (k, 3) moved by t field(points); ModelError where that is no displacement of each."""
+    if not callable(field):
+        raise ModelError(
+            f"field is {field!r}, expected a function of points (k, 3) that gives their displacements"
+        )
+    given = field(points)
+    try:
+        shift = reals(given)
+    except (TypeError, ValueError):
+        shift = np.zeros(0)
+    if shift.shape != points.shape or not np.isfinite(shift).all():
+        was = f"shape {shift.shape}" if shift.size else repr(given)
+        raise ModelError(
+            f"field gives {was} for points {points.shape}, expected finite numbers of that shape"
+        )
+    return points + t * shift
 
 
 def _carried(interface: Interface, field: Field, t: float) -> Interface:
@@ -32,7 +49,7 @@ def _carried(interface: Interface, field: Field, t: float) -> Interface:
     """
 
     def at(points: Array) -> Array:
-        return points + t * np.asarray(field(points))
+        return _shifted(points, field, t)
 
     joint, old = interface.joint, interface.axes
     if isinstance(joint, Tie) and joint.length:

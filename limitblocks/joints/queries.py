@@ -12,7 +12,7 @@ import numpy as np
 import shapely
 
 from limitblocks.arrays import Array, read_only, reals
-from limitblocks.errors import GeometryError, ModelError
+from limitblocks.errors import GeometryError, ModelError, refuse_kind
 from limitblocks.geometry import Interface
 from limitblocks.geometry.polygon import areas
 from limitblocks.joints.base import YieldRows, friction_words
@@ -109,6 +109,7 @@ class Queries:
         torsion, or if they may grow without limit, where N has no limit; infinite if N by itself cannot be
         carried.
         """
+        refuse_kind(interface, Interface, "interface")
         Q = _six(Q, "Q")
         held = Q * [0, 0, 1, 0, 0, 0]
         try:
@@ -164,8 +165,8 @@ class Queries:
             rigid motions of all points are strain rates.
         """
         Q = _six(Q, "Q")
-        length = float(np.sqrt(areas(interface.polygon)))
         question = self._question(interface, Q if Q.any() else np.array([0, 0, -1.0, 0, 0, 0]))
+        length = float(np.sqrt(areas(interface.polygon)))
         problem = question.problem
         if problem.resultants.nnz > problem.resultants.shape[1]:
             raise ModelError(
@@ -179,6 +180,7 @@ class Queries:
 
     def _question(self, interface: Interface, Q: Array) -> Question:
         """Rows of the interface in units of the root of its area and of the size of the stresses Q."""
+        refuse_kind(interface, Interface, "interface")
         length = float(np.sqrt(areas(interface.polygon)))
         levers = np.repeat([1.0, length], 3)
         force = float(np.abs(Q / levers).max())

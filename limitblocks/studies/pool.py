@@ -18,6 +18,7 @@ from limitblocks.errors import LimitBlocksError, ModelError, NotConverged, Solve
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.ending import Status
 from limitblocks.evidence.results import Nonassociated
+from limitblocks.joints.base import checked_count
 from limitblocks.model import Model
 
 Analysis = Literal["bounds", "nonassociated"]
@@ -100,10 +101,7 @@ def analyse_all(
     """
     if analysis not in ANALYSES:
         raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
-    if workers is not None and workers < 1:
-        raise ModelError(
-            f"workers is {workers!r}, expected a number of processes >= 1, or None for all cores"
-        )
+    checked_workers(workers)
     outcomes: dict[int, Outcome] = {k: made for k, made in enumerate(models) if isinstance(made, Outcome)}
     places = [k for k in range(len(models)) if k not in outcomes]
     tasks = [(models[k], analysis, settings) for k in places]
@@ -116,6 +114,12 @@ def analyse_all(
         if not any(k in outcomes for k in places):
             raise
     return [outcomes.get(k, Outcome(np.nan, None, INTERRUPTED)) for k in range(len(models))]
+
+
+def checked_workers(workers: int | None) -> None:
+    """Raise ModelError unless `workers` is a whole number of at least 1, or None for all cores."""
+    if workers is not None:
+        checked_count("workers", workers, 1)
 
 
 def in_order(

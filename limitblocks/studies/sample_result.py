@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, reals
 from limitblocks.errors import ModelError, SolveError
 from limitblocks.shown import many
 from limitblocks.studies.results import FLOWS, unanswered
@@ -71,12 +71,20 @@ class SampledStudy(Rows):
 
         Raises
         ------
+        ModelError
+            If a share is no number from 0 to 1.
         SolveError
             If no row has a load factor.
         """
+        try:
+            asked = reals(shares)
+        except (TypeError, ValueError):
+            asked = np.array(np.nan)
+        if not ((asked >= 0.0) & (asked <= 1.0)).all():
+            raise ModelError(f"shares is {shares!r}, expected numbers from 0 to 1, such as 0.05 for 5 %")
         known = np.sort(self._known(failed))
         most = known[np.isfinite(known)].max(initial=0.0)
-        place = np.clip(np.asarray(shares) * (len(known) + 1) - 1.0, 0.0, len(known) - 1.0)
+        place = np.clip(asked * (len(known) + 1) - 1.0, 0.0, len(known) - 1.0)
         between = np.interp(place, np.arange(len(known)), np.minimum(known, most))
         # a failure may have any finite load factor, of which the quantile has a share
         end = np.ceil(place) if failed == np.inf and np.isnan(self._known(np.nan)).any() else place

@@ -24,6 +24,7 @@ from limitblocks.studies.pool import (
     Analysis,
     Progress,
     analyse,
+    checked_workers,
     failed,
     in_order,
 )
@@ -89,6 +90,7 @@ def study(
     if analysis not in ANALYSES:
         raise ModelError(f"analysis is {analysis!r}, expected {' or '.join(map(repr, ANALYSES))}")
     checked_count("n", n, 1)
+    checked_workers(workers)
     _fits("the maker", signature(maker), (), parameters)
     _fits(f"study, with {analysis}", signature(ANALYSES[analysis]), (None,), settings)
     names, values = sampled_values(parameters, n, sampler, seed, indices)

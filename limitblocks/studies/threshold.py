@@ -14,7 +14,7 @@ from limitblocks.arrays import real
 from limitblocks.errors import ModelError, SolverFailure, refuse_no_function
 from limitblocks.evidence.residuals import TOLERANCE
 from limitblocks.mechanics.loads.load import number
-from limitblocks.model import Model
+from limitblocks.model import Model, checked_model
 from limitblocks.shown import kept, many
 from limitblocks.studies.rows import Rows
 
@@ -169,7 +169,7 @@ class _Search:
             if self.progress is not None:
                 self.progress(value)
             try:
-                found = remarked_margin(self.maker(value), self.load_factor)
+                found = remarked_margin(checked_model(self.maker(value)), self.load_factor)
                 self.trials[value], self.remarks[value] = found
             except (ModelError, SolverFailure) as error:
                 faults = error.problems if isinstance(error, ModelError) else (str(error),)

@@ -364,6 +364,22 @@ def test_a_yield_set_that_jumps_has_no_derivative_by_shape(side):
         shape_sensitivity(model, bounds, lambda r: r @ SKEW)
 
 
+@pytest.mark.parametrize(
+    ("field", "said"),
+    [
+        (lambda r: r[:, 2:3], r"field gives shape \(8, 1\) for points \(8, 3\), expected finite numbers"),
+        (lambda r: r[:, :2], r"field gives shape \(8, 2\)"),
+        (lambda r: r * np.nan, "expected finite numbers of that shape"),
+        (lambda r: None, "field gives None"),
+        (None, "field is None, expected a function"),
+    ],
+)
+def test_a_field_displaces_each_point(field, said):
+    model = block(lb.PointContact(MU))
+    with pytest.raises(ModelError, match=said):
+        shape_sensitivity(model, lb.bounds(model), field)
+
+
 def test_a_moved_tie_is_as_long_as_its_anchors_are_apart_and_fill_pushes_along_the_deck_still():
     ring = structures.arch(lb.PointContact(0.6), radius=2.0, thickness=0.4, voussoirs=9)
     block = ring.free_blocks[-1]

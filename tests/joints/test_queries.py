@@ -133,6 +133,12 @@ def test_bad_questions_are_named():
         joint.utilisation(interface, [1])
 
 
+@pytest.mark.parametrize("ask", ["strength", "utilisation", "active_modes", "flow_directions"])
+def test_a_polygon_is_no_interface(ask):
+    with pytest.raises(lb.ModelError, match="interface is a list, expected Interface"):
+        getattr(JOINTS[0], ask)([(0, 0), (1, 0), (1, 1), (0, 1)], (0, 0, -1, 0, 0, 1))
+
+
 def test_given_stresses_that_crush_are_refused_whatever_the_direction():
     """2e5 N on 1 m2 of 1e5 Pa; without friction there is no shear to ask for."""
     joint = lb.OrdunaLourenco(0.0, compressive_strength=1e5)

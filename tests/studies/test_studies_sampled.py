@@ -243,6 +243,7 @@ def test_on_a_local_cluster():
         ({"parameters": {"friction": (0.6, 0.2)}}, "parameter 'friction' is .0.6, 0.2."),
         ({"parameters": {"friction": 0.6}}, "parameter 'friction' is 0.6, expected"),
         ({"n": 0}, "n is 0"),
+        ({"workers": "2"}, "workers is '2', expected a whole number of at least 1"),
         ({"sampler": "dice"}, "sampler is 'dice'"),
         ({"analysis": "x"}, "analysis is 'x'"),
         ({"parameters": {"fricton": (0.2, 0.6)}}, "the maker is given fricton .*; it takes friction, width$"),
@@ -254,6 +255,13 @@ def test_misuse(ask, words):
     given = {"parameters": {"friction": (0.2, 0.6)}, "n": 4} | ask
     with pytest.raises(lb.ModelError, match=words):
         lb.study(block, given.pop("parameters"), given.pop("n"), **given)
+
+
+@pytest.mark.parametrize("shares", [[5, 50, 95], [-0.1], [float("nan")], ["0.5"], None])
+def test_shares_of_quantiles_are_from_0_to_1(shares):
+    found = lb.study(block, {"friction": (0.2, 0.6)}, 2)
+    with pytest.raises(lb.ModelError, match=r"shares is .* expected numbers from 0 to 1"):
+        found.quantiles(shares)
 
 
 def test_study_without_indices_has_none():

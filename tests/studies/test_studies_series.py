@@ -267,7 +267,12 @@ def test_errors_of_the_maker_that_are_not_ours_are_raised():
 
 @pytest.mark.parametrize(
     ("arguments", "said"),
-    [({"analysis": "magic"}, "'magic'"), ({"workers": 0}, "workers is 0"), ({"values": []}, "no values")],
+    [
+        ({"analysis": "magic"}, "'magic'"),
+        ({"workers": 0}, "workers is 0"),
+        ({"workers": "2"}, "workers is '2'"),
+        ({"values": []}, "no values"),
+    ],
 )
 def test_wrong_study_is_refused(arguments, said):
     with pytest.raises(lb.ModelError, match=said):

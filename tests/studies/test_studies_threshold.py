@@ -138,3 +138,8 @@ def test_numbers_and_csv(tmp_path):
 def test_wrong_search_is_refused(low, high, more, said):
     with pytest.raises(lb.ModelError, match=said):
         studies.minimum(wall, low, high, **more)
+
+
+def test_a_maker_that_gives_no_model_is_told():
+    with pytest.raises(lb.ModelError, match="value = 1: model is a float, expected a Model"):
+        lb.studies.minimum(lambda value: value, 1, 2)
