@@ -143,7 +143,8 @@ class SampledStudy(Rows):
             {key: None if isinstance(v, float) and not np.isfinite(v) else v for key, v in row.items()}
             for row in self.rows()
         ]
-        return {"analysis": self.analysis, "parameters": list(self.names), "rows": rows}
+        kind = {"analysis": "study", "study": type(self).__name__, "of": self.analysis}
+        return kind | {"parameters": list(self.names), "rows": rows}
 
     def __str__(self) -> str:
         failed = unanswered(self.load_factors, self.errors)

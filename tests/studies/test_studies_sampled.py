@@ -281,3 +281,15 @@ def test_what_an_answer_remarks_is_kept_in_rows_and_file(tmp_path):
     for found in (first, again):  # the second reads what the first wrote
         assert all("times the moment" in row["remarks"] for row in found.rows())
         assert "; 2 with remarks, such as: " in str(found)
+
+
+def test_a_saved_study_is_no_result_of_one_model(tmp_path):
+    file = lb.study(block, {"friction": (0.2, 0.6)}, 2).save(tmp_path / "study.json")
+    written = json.loads(file.read_text())
+    assert (written["study"], written["of"], written["parameters"]) == (
+        "SampledStudy",
+        "bounds",
+        ["friction"],
+    )
+    with pytest.raises(lb.ModelError, match="holds a study, the load factors of many models"):
+        lb.read_result(file)
