@@ -67,10 +67,7 @@ def mended(
     given = points
     notes: list[str] = []
     size = float(np.ptp(points, axis=0).max())
-    points, loops = _welded(name, points, loops, WELD * size, notes)
-    loops = coplanar.divided(points, tidy(loops, notes))
-    if open_sides(loops).size:
-        points, loops = closed(name, points, loops, CRACK * size, notes)
+    points, loops = _closed_up(name, points, loops, size, notes)
     if not loops:
         wrong(name, f"no face has an area; a solid is needed{odd_places(given)}")
     loops = _outward(name, points, loops, notes)
@@ -97,6 +94,29 @@ class TwistedFaces(GeometryError):
     def __init__(self, problem: str, distance: float) -> None:
         super().__init__(problem)
         self.distance = distance
+
+
+def closes(vertices: npt.ArrayLike, faces: Iterable[Sequence[int]]) -> bool:
+    """Return whether polygons are one closed surface once vertices are welded and cracks closed."""
+    try:
+        points, loops = _checked("", vertices, faces)
+        _, loops = _closed_up("", points, loops, float(np.ptp(points, axis=0).max()), [])
+    except GeometryError:
+        return False
+    sides, owner = sides_of(loops)
+    _, edge, uses = edges_of(sides)
+    if not loops or (uses != 2).any():
+        return False
+    return not tied(owner[np.argsort(edge, kind="stable")].reshape(-1, 2), len(loops)).any()
+
+
+def _closed_up(name: str, points: Array, loops: Faces, size: float, notes: list[str]) -> tuple[Array, Faces]:
+    """Return vertices and faces welded, without what has no area or repeats, and with cracks closed."""
+    points, loops = _welded(name, points, loops, WELD * size, notes)
+    loops = coplanar.divided(points, tidy(loops, notes))
+    if open_sides(loops).size:
+        points, loops = closed(name, points, loops, CRACK * size, notes)
+    return points, loops
 
 
 def _checked(name: str, vertices: npt.ArrayLike, faces: Iterable[Sequence[int]]) -> tuple[Array, Faces]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,18 +12,22 @@ import numpy.typing as npt
 from limitblocks.arrays import Array, Indices, tied
 from limitblocks.geometry.coplanar import area_vectors
 from limitblocks.geometry.cracks import clusters, edges_of, renumbered, sides_of
-from limitblocks.geometry.mend import WELD
+from limitblocks.geometry.mend import WELD, closes
 from limitblocks.geometry.neighbours import bounds_of
 from limitblocks.geometry.polyhedron import Faces
 from limitblocks.io.solid import Solid
+
+#: Parts of faces over vertices, and which of them are closed.
+_Split = Callable[[Array, Faces], tuple[list[list[int]], list[bool]]]
 
 
 def solids(name: str, layer: str, vertices: npt.ArrayLike, faces: Sequence[Sequence[int]]) -> list[Solid]:
     """Return the solids that `faces` over `vertices` (n, 3) enclose, all of one name and layer.
 
     Faces belong to one solid that share edges by their indices, else by the places of their vertices. Where
-    touching solids share edges, a solid ends where its surface closes, in the order of the faces. What does
-    not close is left together, for :func:`limitblocks.geometry.mend.mended` to say what is wrong. Cavities
+    touching solids share edges, a solid ends where its surface closes, in the order of the faces. A part that
+    does not close is a solid where mending closes it. What is left over is left together, for
+    :func:`limitblocks.geometry.mend.mended` to say what is wrong. Cavities
     are faces of the solid around them: surfaces that point inward inside one that points outward.
     """
     points = np.asarray(vertices, dtype=np.float64).reshape(-1, 3)
@@ -89,31 +93,44 @@ def _in_range(points: Array, loops: Faces) -> bool:
 
 
 def _groups(name: str, points: Array, loops: Faces) -> list[list[int]]:
-    """Return the faces of each solid."""
+    """Return the faces of each solid; those of which no way makes solids are one."""
+    found: list[list[int]] = []
+    left = list(range(len(loops)))
+    for split, number in _ways(name, points, loops):
+        parts, closed = split(points, renumbered(tuple(loops[k] for k in left), number))
+        rest: list[int] = []
+        for part, whole in zip(parts, closed, strict=True):
+            faces = [left[k] for k in part]
+            sound = whole or (len(parts) > 1 and closes(points, [loops[k] for k in faces]))
+            if sound:
+                found.append(faces)
+            else:
+                rest += faces
+        if not rest:
+            return sorted(found)
+        left = sorted(rest)
+    return sorted([*found, left])
+
+
+def _ways(name: str, points: Array, loops: Faces) -> Iterator[tuple[_Split, Indices]]:
+    """Yield ways to tell solids apart, each with the vertex that stands for every one of `points`."""
     corners = np.concatenate(loops)
     used = np.unique(corners)
+    number = np.arange(len(points))
     if len(used) < len(corners):  # else each face has vertices of its own
-        parts, closed = _parts(loops)
-        if closed.all():
-            return parts
-    number = np.zeros(len(points), dtype=np.int64)
-    distinct, place = np.unique(points[used], axis=0, return_inverse=True)
-    number[used] = place.reshape(-1)
-    exact = renumbered(loops, number)
-    parts, closed = _parts(exact)
-    if closed.all():
-        return parts
+        yield _parts, number
+    distinct, first, place = np.unique(points[used], axis=0, return_index=True, return_inverse=True)
+    exact = number.copy()
+    exact[used] = used[first][place.reshape(-1)]
+    yield _parts, exact
+    yield _by_order, exact
     near = clusters(name, distinct, WELD * float(np.ptp(distinct, axis=0).max()))
-    for welded in (exact, renumbered(loops, near[number])):
-        by_order = _by_order(welded)
-        if by_order:
-            return by_order
-    parts, closed = _parts(renumbered(loops, near[number]))
-    rest = [k for part, whole in zip(parts, closed, strict=True) if not whole for k in part]
-    return [part for part, whole in zip(parts, closed, strict=True) if whole] + ([rest] if rest else [])
+    number[used] = used[first][near][place.reshape(-1)]
+    yield _parts, number
+    yield _by_order, number
 
 
-def _parts(loops: Faces) -> tuple[list[list[int]], npt.NDArray[np.bool_]]:
+def _parts(points: Array, loops: Faces) -> tuple[list[list[int]], list[bool]]:
     """Return the faces that edges tie together, and whether each edge of them belongs to two of them."""
     sides, owner = sides_of(loops)
     _, edge, uses = edges_of(sides)
@@ -125,22 +142,60 @@ def _parts(loops: Faces) -> tuple[list[list[int]], npt.NDArray[np.bool_]]:
     closed[part[owner[uses[edge] != 2]]] = False
     by_part = np.argsort(part, kind="stable")
     members = np.split(by_part, np.cumsum(np.bincount(part, minlength=count))[:-1])
-    return [group.tolist() for group in members], closed
+    return [group.tolist() for group in members], closed.tolist()
 
 
-def _by_order(loops: Faces) -> list[list[int]]:
-    """Return the runs of faces that close one after the other; nothing where the last stays open."""
+def _by_order(points: Array, loops: Faces) -> tuple[list[list[int]], list[bool]]:
+    """Return the runs of faces that close one after the other, and what is between them; see `_Split`.
+
+    A run closes where the sides without a second face are those from before it again.
+    """
     sides, owner = sides_of(loops)
-    _, edge, _ = edges_of(sides)
+    _, edge, uses = edges_of(sides)
+    mark = np.random.default_rng(0).integers(2**63, size=len(uses))[edge]
+    mark[sides[:, 0] == sides[:, 1]] = 0
     starts = np.flatnonzero(np.diff(owner, prepend=-1))
-    groups: list[list[int]] = [[]]
-    rim: set[int] = set()
-    for face, sides in enumerate(np.split(edge, starts[1:])):
-        groups[-1].append(face)
-        rim.symmetric_difference_update(sides.tolist())
-        if not rim:
-            groups.append([])
-    return groups[:-1] if not groups[-1] else []
+    rims = np.bitwise_xor.accumulate(np.bitwise_xor.reduceat(mark, starts))
+    runs: list[list[int]] = []
+    between: list[list[int]] = []  # before each run, and after the last
+    begin, seen = 0, {0: 0}
+    for k, rim in enumerate(rims.tolist(), 1):
+        start = seen.get(rim)
+        if start is not None and not _flat(points, loops[start:k]):
+            between.append(list(range(begin, start)))
+            runs.append(list(range(start, k)))
+            begin, seen = k, {}
+        seen[rim] = k
+    between.append(list(range(begin, len(loops))))
+    between = _put_to(runs, between, loops)
+    return [*runs, *between], [True] * len(runs) + [False] * len(between)
+
+
+def _flat(points: Array, loops: Faces) -> bool:
+    """Return whether faces lie in one plane: two sides of a joint, or faces without area."""
+    corners = points[np.unique(np.concatenate(loops))]
+    arms = corners - corners[0]
+    return bool(np.linalg.matrix_rank(arms, tol=WELD * np.abs(arms).max()) < 3)
+
+
+def _put_to(runs: list[list[int]], between: list[list[int]], loops: Faces) -> list[list[int]]:
+    """Put what is between runs to the one beside it where it is too little for a solid; return the others.
+
+    Faces without area, and those that repeat one of the run, count for nothing.
+    """
+    others = []
+    for k, faces in enumerate(between):
+        beside = []
+        for run in runs[max(k - 1, 0) : k + 1] if faces else ():
+            known = {frozenset(loops[f]) for f in run}
+            new = sum(len(set(loops[f])) > 2 and frozenset(loops[f]) not in known for f in faces)
+            beside.append((new, run))
+        new, run = min(beside, key=lambda one: one[0], default=(4, faces))
+        if new < 4:
+            run.extend(faces)
+        elif faces:
+            others.append(faces)
+    return others
 
 
 def _with_cavities(points: Array, loops: Faces, groups: list[list[int]]) -> list[list[int]]:

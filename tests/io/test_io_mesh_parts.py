@@ -3,8 +3,10 @@
 import base64
 import json
 
+import ezdxf
 import numpy as np
 import pytest
+import trimesh
 
 import limitblocks as lb
 
@@ -128,3 +130,70 @@ def test_a_face_that_crosses_itself_is_told_as_such(tmp_path):
     assert "a face crosses itself, and has no area: (0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, 1)" in str(
         error.value
     )
+
+
+#: Stones one on the other with equal faces, so that every joint has its edges twice.
+STONES = [lb.Block.box(f"{k}", (1.0, 0.5, 0.5), (0.0, 0.0, 0.5 * k + 0.25)) for k in range(5)]
+
+
+def repeated(vertices, faces):
+    return vertices, [*faces, faces[0]]
+
+
+def without_area(vertices, faces):
+    return vertices, [*faces, [faces[0][0], faces[0][0], faces[0][1]]]
+
+
+def cracked(vertices, faces):
+    """A corner of one triangle is 0.05 mm off."""
+    return [*vertices, vertices[faces[0][0]] + [0.0, 0.0, 5e-5]], [[len(vertices), *faces[0][1:]], *faces[1:]]
+
+
+def with_a_vertex_on_a_side(vertices, faces):
+    (a, b, c), new = faces[0], len(vertices)
+    return [*vertices, (vertices[a] + vertices[b]) / 2], [[a, new, c], [new, b, c], *faces[1:]]
+
+
+def opened(vertices, faces):
+    return vertices, faces[1:]
+
+
+def stones_in(path, flaw, which):
+    """A file of triangles, stone after stone, `flaw` in some of them; its suffix says the format."""
+    bodies = [(block.vertices, block.triangles.tolist()) for block in STONES]
+    bodies = [flaw(*body) if k in which else body for k, body in enumerate(bodies)]
+    meshes = [trimesh.Trimesh(vertices, faces, process=False) for vertices, faces in bodies]
+    if path.suffix == ".dxf":
+        drawing = ezdxf.new(units=6)
+        for corners in np.concatenate([mesh.triangles for mesh in meshes]):
+            drawing.modelspace().add_3dface(corners)
+        drawing.saveas(path)
+    else:
+        trimesh.util.concatenate(meshes).export(path)
+    return path
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".stl", ".dxf", ".obj"])
+@pytest.mark.parametrize("flaw", [repeated, without_area, cracked, with_a_vertex_on_a_side])
+@pytest.mark.parametrize("which", [(2,), (0, 2), (4,)])
+def test_a_flaw_of_one_stone_leaves_those_that_touch_it_as_they_are(suffix, flaw, which, tmp_path):
+    found = lb.files.read_blocks(stones_in(tmp_path / f"a{suffix}", flaw, which), up="z")
+    middles = [block.centroid.tolist() for block in found.blocks]
+    assert middles == [pytest.approx([0.0, 0.0, 0.5 * k + 0.25], abs=1e-5) for k in range(5)]
+    assert [block.volume for block in found.blocks] == pytest.approx([0.25] * 5, rel=1e-4)
+    named = [found.blocks[k].name for k in which]
+    assert {note.split("'")[1] for note in found.notes if note.startswith("block '")} == set(named)
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".stl", ".dxf", ".obj"])
+@pytest.mark.parametrize("which", [0, 2, 4])
+def test_an_open_stone_is_named_by_itself(suffix, which, tmp_path):
+    path = stones_in(tmp_path / f"a{suffix}", opened, [which])
+    with pytest.raises(lb.ModelError) as error:
+        lb.files.read_blocks(path, up="z")
+    said, why = error.value.problems
+    assert "1 of 5 blocks is bad" in said
+    assert "the surface is open" in why
+    found = lb.files.read_blocks(path, up="z", skip_bad=True)
+    heights = [block.centroid[2] for block in found.blocks]
+    assert heights == pytest.approx([0.5 * k + 0.25 for k in range(5) if k != which])
