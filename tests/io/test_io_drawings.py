@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from dxf_files import JOINT, STRUCTURES, drawn, elevation, total_area
+from ezdxf.render.forms import cube
 from reading import fault
 from typer.testing import CliRunner
 
@@ -133,6 +134,28 @@ def test_outlines_that_are_none(tmp_path):
     notes = "\n".join(imported.notes)
     for word in ("open by 1", "no area", "not parallel to the drawing", "1 CIRCLE"):
         assert word in notes
+
+
+@pytest.mark.parametrize("spelled", ["STONES", "Stones", "stones"])
+@pytest.mark.parametrize("listed", [True, False])
+def test_a_layer_is_one_however_it_is_spelled(tmp_path, spelled, listed):
+    """Names of layers have no capital letters of their own in DXF; the table's, else the first, is taken."""
+
+    def draw(space):
+        if listed:
+            space.doc.layers.add("STONES")
+        for k, layer in enumerate(("STONES", spelled)):
+            corners = [(0, k), (1, k), (1, k + 1), (0, k + 1)]
+            space.add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+            mesh = cube()
+            mesh.translate(5, 0, k)
+            mesh.render_mesh(space, {"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    flat = lb.files.read_drawing(path, thickness=0.5, layers="STONES", unit_weight={"STONES": 2e4})
+    solids = lb.files.read_blocks(path, unit_weight={"STONES": 2e4})
+    assert [(block.layer, block.weight) for block in flat.blocks] == [("STONES", 1e4)] * 2
+    assert [(block.layer, block.weight) for block in solids.blocks] == [("STONES", pytest.approx(2e4))] * 2
 
 
 def test_drawing_layers(tmp_path):

@@ -146,9 +146,11 @@ class _Expansion:
     """State of taking a drawing apart: entities met and block references met so far."""
 
     def __init__(self, drawing: Any, left_out: Counter[str]) -> None:
-        layers = list(drawing.layers)
-        self.hidden = {one.dxf.name.lower() for one in layers if one.is_off() or one.is_frozen()}
-        self.colours = {one.dxf.name.lower(): colours.of_layer(one) for one in layers}
+        layers = {decoded(one.dxf.name): one for one in drawing.layers}
+        #: capital and small letters are the same in DXF: a layer is spelled as in the table of layers
+        self.spelled = {name.lower(): name for name in layers}
+        self.hidden = {name for name, one in layers.items() if one.is_off() or one.is_frozen()}
+        self.colours = {name: colours.of_layer(one) for name, one in layers.items()}
         self.groups, self.left_out = _groups(drawing), left_out
         self.met = self.references = 0
 
@@ -159,21 +161,21 @@ class _Expansion:
             if self.met > MOST_FACES:
                 raise ModelError(f"has more than {MOST_FACES} entities, the most that are read")
             # what is on layer 0 of a block takes on the layer of the reference
-            own = above.layer if above.layer and entity.dxf.layer == "0" else entity.dxf.layer
-            if own.lower() in self.hidden or entity.dxf.get("invisible", 0):
+            own = above.layer if above.layer and entity.dxf.layer == "0" else decoded(entity.dxf.layer)
+            own = self.spelled.setdefault(own.lower(), own)
+            if own in self.hidden or entity.dxf.get("invisible", 0):
                 self.left_out["hidden entities"] += 1
                 continue
             groups = tuple(dict.fromkeys((*above.groups, *self.groups.get(entity.dxf.handle, ()))))
-            by_layer = "" if entity.has_xdata(APPLICATION) else self.colours.get(own.lower(), "")
+            by_layer = "" if entity.has_xdata(APPLICATION) else self.colours.get(own, "")
             colour = colours.of_entity(entity, by_layer, above.colour)
             if entity.dxftype() == "INSERT":
                 where = above._replace(layer=own, groups=groups, colour=colour)
                 yield from self.inserted(entity, where, depth)
             else:
                 # the name that was written, else a name by which the entity is found in the drawing
-                layer = decoded(own)
-                given = written(entity, 0) or above.name or f"{layer} {entity.dxf.handle}"
-                yield Part(entity, above.matrix, layer, given, reference, groups, colour)
+                given = written(entity, 0) or above.name or f"{own} {entity.dxf.handle}"
+                yield Part(entity, above.matrix, own, given, reference, groups, colour)
 
     def inserted(self, insert: Any, above: _Above, depth: int) -> Iterator[Part]:
         title, handle = insert.dxf.name, insert.dxf.handle
@@ -194,7 +196,7 @@ class _Expansion:
                 block, above._replace(matrix=where, name=f"{decoded(title)} {handle}"), depth + 1
             )
             for label in one.attribs:
-                yield Part(label, above.matrix, decoded(above.layer), "", self.references)
+                yield Part(label, above.matrix, above.layer, "", self.references)
 
 
 def _groups(drawing: Any) -> dict[str, list[str]]:
