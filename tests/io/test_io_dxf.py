@@ -168,6 +168,25 @@ def test_body_that_is_no_polyhedron_is_named(tmp_path, faces, said):
     assert "mesh" in message
 
 
+@pytest.mark.parametrize("level", [1, 3])
+def test_a_smoothed_mesh_is_no_block_and_can_be_left_out(tmp_path, level):
+    """Its faces are those of the cube that the CAD program smooths to a rounded body."""
+
+    def draw(space):
+        cube().render_mesh(space, {"layer": "ROUND", "subdivision_levels": level})
+        cube().render_mesh(space, {"layer": "PLAIN", "subdivision_levels": 0})
+
+    path = drawn(tmp_path / "a.dxf", draw)
+    said = fault(path)
+    assert "1 of 2 blocks is bad" in said
+    assert "on layer 'ROUND': it is smoothed, without plane faces" in said
+    assert "set its smoothness to none (0)" in said
+    found = lb.files.read_blocks(path, skip_bad=True)
+    assert [block.layer for block in found.blocks] == ["PLAIN"]
+    assert [name.split()[0] for name in found.left_out] == ["ROUND"]
+    assert any(note.startswith("left out: MESH") for note in found.notes)
+
+
 def recursive(drawing):
     block = drawing.blocks.new("a")
     block.add_blockref("a", (1, 0, 0))

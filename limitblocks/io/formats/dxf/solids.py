@@ -13,6 +13,9 @@ from limitblocks.io.solid import Solid
 
 Polygons = tuple[Array, Sequence[Sequence[int]]]
 
+#: MESHSMOOTH smooths what it makes, unless told otherwise.
+_TO_MESH = "convert it to a mesh (MESHSMOOTH, then smoothness none (0), or EXPLODE a copy to faces)"
+
 
 def polygons(part: Part) -> list[Polygons] | None:
     """Return the polygons of the solids that an entity is; None where it is none.
@@ -24,6 +27,8 @@ def polygons(part: Part) -> list[Polygons] | None:
     """
     kind, entity = part.kind, part.entity
     if kind == "MESH":
+        if entity.dxf.subdivision_levels > 0:
+            raise _unreadable(part, "it is smoothed, without plane faces", "set its smoothness to none (0)")
         return [(part.placed(entity.vertices), [tuple(face) for face in entity.faces])]
     if kind == "POLYLINE" and (entity.is_poly_face_mesh or entity.is_polygon_mesh):
         from ezdxf.render.mesh import MeshBuilder
@@ -58,10 +63,9 @@ def _body(part: Part) -> list[list[Any]]:
     return [lump for lump in lumps if lump]
 
 
-def _unreadable(part: Part, why: str) -> ModelError:
+def _unreadable(part: Part, why: str, cure: str = _TO_MESH) -> ModelError:
     return ModelError(
-        f"{part.kind} {part.handle} on layer {part.layer!r}: {why}; in the CAD program, convert it to a mesh "
-        "(MESHSMOOTH, or EXPLODE a copy to faces) and save again"
+        f"{part.kind} {part.handle} on layer {part.layer!r}: {why}; in the CAD program, {cure} and save again"
     )
 
 
