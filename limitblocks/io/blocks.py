@@ -9,7 +9,7 @@ from pathlib import Path
 from limitblocks.errors import ModelError
 from limitblocks.geometry import Block
 from limitblocks.geometry.twisted import Twisted
-from limitblocks.io import faults, formats
+from limitblocks.io import faults, formats, strict_json
 from limitblocks.io.imported import (
     ImportedBlocks,
     UnitWeight,
@@ -135,9 +135,13 @@ def is_model_file(path: Path) -> bool:
 
 
 def _is_compas(path: Path) -> bool:
-    """Return whether a file of JSON is of COMPAS: its objects have a "dtype", ours a "schema_version"."""
+    """Return whether a file of JSON is of COMPAS: it says so, or has blocks and no key of our own."""
     try:
         data = read_bytes(path)
+        if b'"schema_version"' in data or b'"dtype"' in data or b'"datatype"' in data:
+            return b'"schema_version"' not in data
+        document = strict_json.parse(strict_json.read_text(path))
     except ModelError:  # for the reader to say
         return False
-    return b'"dtype"' in data and b'"schema_version"' not in data
+    own = isinstance(document, dict) and document.keys() & {"interfaces", "joints", "live"}
+    return not own and bool(formats.module(".json").holds_blocks(document))

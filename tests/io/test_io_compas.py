@@ -11,6 +11,7 @@ from compas_documents import (
     CUBES,
     assembly_document,
     compas_1_document,
+    mesh_data,
     model_document,
     network_document,
     old_model_document,
@@ -101,6 +102,44 @@ def test_layouts(tmp_path, make):
     assert imported.supports == ("block 0",)
     assert imported.layers == {"block 0": "support", "block 1": "block"}
     assert len(lb.find_interfaces(imported.blocks, JOINT)) == 1
+
+
+def older_mesh(k):
+    """COMPAS before 0.19: "datatype" and no "dtype"."""
+    return {"datatype": "compas.datastructures/Mesh", "data": mesh_data(k)["data"]}
+
+
+WITHOUT_DTYPE = {
+    "network": network_document(),
+    "meshes": [mesh_data(k)["data"] for k in range(2)],
+    "by name": {"supports": [mesh_data(0)["data"]], "stones": [mesh_data(1)["data"]]},
+    "polyhedra": [
+        {"vertices": block.vertices.tolist(), "faces": block.faces}
+        for block in (lb.Block.box("s", (1.0, 1.0, 1.0), (0.0, 0.0, k + 0.5)) for k in range(2))
+    ],
+    "datatype": {"supports": older_mesh(0), "stone": older_mesh(1)},
+}
+
+
+@pytest.mark.parametrize("layout", WITHOUT_DTYPE)
+def test_files_without_dtype_are_of_compas_to_everything_that_reads(tmp_path, layout):
+    path = written(tmp_path / "a.json", WITHOUT_DTYPE[layout])
+    names = [block.name for block in lb.files.read_blocks(path).blocks]
+    assert len(names) == 2
+    assert [block.name for block in lb.files.look(path).blocks] == names
+    made = {"supports": names[:1], "unit_weight": 2e4, "live": lb.mass_proportional((1.0, 0.0, 0.0))}
+    model = lb.read(path, joint=JOINT, **made)
+    assert [block.name for block in model.blocks] == names
+    assert len(model.interfaces) == 1
+
+
+@pytest.mark.parametrize("lost", ["schema_version", "interfaces", "live"])
+def test_a_model_file_that_lacks_a_key_is_one(tmp_path, lost):
+    """Its blocks have vertices and faces, as polyhedra of COMPAS do."""
+    document = STRUCTURES["wall"].to_dict()
+    del document[lost]
+    for read in (lb.read, lb.files.look):
+        assert f"{lost}: is missing" in fault(written(tmp_path / "a.json", document), read)
 
 
 def test_transformations_of_a_model(tmp_path):

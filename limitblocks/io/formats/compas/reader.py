@@ -62,6 +62,15 @@ def contents(path: Path) -> Contents:
     return Contents(solids, None, [f"left out: {number} {kind}" for kind, number in left_out.items()])
 
 
+def holds_blocks(document: Any) -> bool:
+    """Return whether a document of JSON has blocks in a layout of COMPAS, sound or not."""
+    try:
+        with foreign("COMPAS JSON"):
+            return any(True for _ in _walk(document, np.eye(4), "", False, Counter()))
+    except ModelError:
+        return True
+
+
 def thing(value: Any) -> Thing:
     """Return `value` taken out of its wrapping."""
     if not isinstance(value, dict):
