@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from limitblocks.cli.errors import clean_errors, refuse_existing
-from limitblocks.cli.joints import DEFAULT, JointName, MaybeFriction, Slip, Strength, make_joint
+from limitblocks.cli.joints import DEFAULT, MaybeFriction, MaybeJoint, Slip, Strength, make_joint
 from limitblocks.cli.options import (
     BlocksFile,
     Force,
@@ -64,7 +65,7 @@ def import_blocks(
     unit_weight: UnitWeights = [],  # noqa: B006 # typer wants a list, and nothing changes it
     materials: MaterialsFile = None,
     supports: Supports = [],  # noqa: B006 # as above
-    joint: JointName = DEFAULT,
+    joint: MaybeJoint = None,
     slip: Slip = None,
     compressive_strength: Strength = None,
     units: Units = None,
@@ -135,7 +136,7 @@ def _healed(imported: ImportedBlocks) -> tuple[ImportedBlocks, Tolerances]:
 
 
 def _joints(
-    name: str, friction: float | None, strength: dict[str, Any], file: Path | None
+    name: str | None, friction: float | None, strength: dict[str, Any], file: Path | None
 ) -> tuple[Joint | None, Materials | None]:
     """Return the joint of all interfaces, or the table of materials that has them."""
     from limitblocks.io.materials import read_materials
@@ -143,8 +144,8 @@ def _joints(
     if file is None:
         if friction is None:
             raise ModelError("give --friction, the same for every interface, or --materials with a table")
-        return make_joint(name, friction, **strength), None
-    said = {"friction": friction} | strength
+        return make_joint(name or DEFAULT, friction, **strength), None
+    said = {"joint": name, "friction": friction} | strength
     given = [f"--{word.replace('_', '-')}" for word, value in said.items() if value is not None]
     if given:
         raise ModelError(f"{', '.join(given)} and --materials: the table has the joints; give one of both")
@@ -191,4 +192,7 @@ def _unit_weight(texts: list[str], table: Materials | None) -> float | Mapping[s
     by_layer = [sign for _, sign, _ in pairs]
     if not all(by_layer) and len(pairs) > 1:
         raise ModelError(f"--unit-weight is {' '.join(texts)!r}; give one number, or LAYER=NUMBER each")
+    if all(by_layer) and len(weights) < len(pairs):
+        twice = Counter(layer for layer, _, _ in pairs).most_common(1)[0][0]
+        raise ModelError(f"--unit-weight is {' '.join(texts)!r}; layer {twice!r} has several, give it one")
     return weights if all(by_layer) else weights[""]

@@ -59,6 +59,16 @@ JointName = Annotated[
     Any,
     typer.Option("--joint", parser=joint_name, metavar="|".join(NAMES), help="What an interface can carry."),
 ]
+MaybeJoint = Annotated[
+    Any,
+    typer.Option(
+        "--joint",
+        parser=joint_name,
+        metavar="|".join(NAMES),
+        help=f"What every interface can carry [default: {DEFAULT}].",
+        show_default=False,
+    ),
+]
 Friction = Annotated[
     float, typer.Option(help="Coefficient of friction of every interface.", show_default=False)
 ]

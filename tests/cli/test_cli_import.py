@@ -141,6 +141,13 @@ def test_wrong_options_are_said_by_name_and_value(name, obj, tmp_path):
     assert not (tmp_path / "two.json").exists()
 
 
+def test_a_layer_with_two_unit_weights_is_refused(obj):
+    options = ("--friction", "0.6", "--live", "1,0,0", "--supports", "base")
+    result = run(obj, *options, "--unit-weight", "block=2e4", "--unit-weight", "block=1e4")
+    assert result.exit_code == 2
+    assert "--unit-weight is 'block=2e4 block=1e4'; layer 'block' has several, give it one" in result.stderr
+
+
 def test_slip_of_the_joint(obj, tmp_path):
     for options, slip in (((), "exact"), (("--slip", "paper"), "paper")):
         assert run(obj, *OPTIONS, "--supports", "base", *options, "--force").exit_code == 0

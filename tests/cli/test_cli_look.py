@@ -112,7 +112,9 @@ def test_a_stranger_gets_to_a_report(drawing):
 
 def test_a_table_of_materials_and_a_joint_are_not_taken_together(drawing):
     tail = ("--materials", "stones.toml", "--supports", "BASE", "--live", "1,0,0")
-    assert "--friction and --materials" in run("import", drawing, *tail, "--friction", "0.6", code=2).stderr
+    for option, value in (("--friction", 0.6), ("--joint", "point-contact"), ("--slip", "paper")):
+        said = run("import", drawing, *tail, option, value, code=2).stderr
+        assert f"{option} and --materials: the table has the joints" in said
     assert "leave one out" in run("import", drawing, *tail, "--unit-weight", "20e3", code=2).stderr
 
 
