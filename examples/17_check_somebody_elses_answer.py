@@ -43,7 +43,7 @@ def main(folder="output"):
     model = stone()
     checks = {}
     for word, claim in claims().items():
-        file = folder / "17_claim.json"
+        file = folder / "17_check_somebody_elses_answer.json"
         file.write_text(json.dumps(claim), encoding="utf-8")
         checks[word] = lb.check_mcp(model, lb.read_result(file, model))
         file.unlink()

@@ -30,7 +30,8 @@ def main(folder="output"):
     result = lb.nonassociated(model)
     check = lb.check_mcp(model, result)
     check.require()
-    print(f"report: {lb.report(model, result, bounds, check).save(output / 'facade.html')}\n")
+    report = lb.report(model, result, bounds, check)
+    print(f"report: {report.save(output / 'facade.html', overwrite=True)}\n")
     worst = check.worst
     print(f"collapse at      {result.load_factor:.6f} g, certified: residuals at most {worst.value:.0e}")
     print(f"if sliding lifts {bounds.lower:.6f} g to {bounds.upper:.6f} g, the associated bounds")

@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from limitblocks.cli.errors import clean_errors
+from limitblocks.cli.options import Force
 from limitblocks.errors import LimitBlocksError
 
 examples = typer.Typer(
@@ -67,10 +68,13 @@ def list_examples() -> None:
 
 
 @examples.command()
-def run(name: Name) -> None:
-    """Run an example; its pictures and reports go to the folder `output` here."""
+def run(name: Name, force: Force = False) -> None:
+    """Run an example; its picture, or model and report, go to the folder `output` here, by its name."""
     with clean_errors():
         file = find(name)
+        there = sorted(Path("output").glob(f"{file.stem}.*"))
+        if there and not force:
+            raise LimitBlocksError(f"{there[0]} exists; move it, or replace it with --force")
         before = _written()
         sys.path.insert(0, str(file.parent))  # as `python FILE` does
         words, sys.argv = sys.argv, [str(file)]

@@ -35,6 +35,23 @@ def test_run_writes_the_pictures_here(tmp_path, monkeypatch):
     assert done.stdout.splitlines()[-1] == str(Path("output") / picture.name)
 
 
+def test_run_replaces_a_file_only_with_force(tmp_path, monkeypatch):
+    """Pictures, models and reports of an example have its name; others stay."""
+    lines = "from pathlib import Path", "Path('output/drawing.png').write_text('new')"
+    (tmp_path / "drawing.py").write_text("\n".join(lines))
+    monkeypatch.setattr(import_module("limitblocks.cli.examples"), "folder", lambda: tmp_path)
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "output").mkdir()
+    mine, other = tmp_path / "output" / "drawing.png", tmp_path / "output" / "drawing_of_mine.png"
+    mine.write_text("mine")
+    other.write_text("mine")
+    refused = run("examples", "run", "drawing")
+    assert (refused.exit_code, mine.read_text()) == (2, "mine")
+    assert f"{Path('output') / 'drawing.png'} exists; move it, or replace it with --force" in refused.stderr
+    assert run("examples", "run", "drawing", "--force").exit_code == 0
+    assert (mine.read_text(), other.read_text()) == ("new", "mine")
+
+
 def test_show_is_the_file():
     shown = run("examples", "show", "facade").stdout
     assert shown == (ROOT / "examples" / "facade.py").read_text(encoding="utf-8")
