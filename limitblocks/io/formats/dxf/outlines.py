@@ -13,7 +13,7 @@ from limitblocks.io.formats.dxf.part import Part
 
 #: Distance from end to start, over the size of the outline, up to which it counts as closed.
 CLOSING = 1e-2
-#: Angle of one chord of an arc, rad. It depends on the arc alone, so that neighbours get the same chords.
+#: Angle of one chord of an arc, rad. Neighbours get the same chords where their arcs have the same ends.
 CHORD = np.radians(5.0)
 _MOST_CHORDS = 1000  # of one outline
 _FLAT = 1e-6  # height differences, over the size of the outline, of a drawing in the plane
