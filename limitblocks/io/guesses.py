@@ -67,8 +67,7 @@ def unit(boxes: Boxes) -> tuple[str, str] | None:
     """
     if not boxes.size < 1e30 or (boxes.size <= LARGE and boxes.length <= _LONG):
         return None
-    far = {name: abs(np.log(boxes.length * metres / _BLOCK)) for name, metres in _CANDIDATES.items()}
-    name = min(far, key=lambda one: far[one])
+    name = _likeliest(boxes)
     size, length = boxes.size * _CANDIDATES[name], boxes.length * _CANDIDATES[name]
     if boxes.size <= LARGE:
         return "m", (
@@ -79,6 +78,29 @@ def unit(boxes: Boxes) -> tuple[str, str] | None:
         f"states no unit of length and is {boxes.size:.4g} units large: taken as {name}, {size:.4g} m large "
         f"with blocks of {length:.2g} m; say units={name!r} (--units {name}), or what it is in"
     )
+
+
+def of_stated(boxes: Boxes, metres: float) -> str:
+    """Return the question about blocks that are hardly so long in the unit, `metres` m, which a file states.
+
+    A structure too large as a whole is asked about where the model is.
+    """
+    length = metres * boxes.length
+    if length <= _LONG or metres * boxes.size > LARGE:
+        return ""
+    name = _likeliest(boxes)
+    if _CANDIDATES[name] >= metres:
+        return ""
+    return (
+        f"states a unit of {metres:g} m, in which its blocks are {length:.4g} m long (median), in {name} "
+        f"{_CANDIDATES[name] * boxes.length:.2g} m: if it is in {name}, say units={name!r} (--units {name})"
+    )
+
+
+def _likeliest(boxes: Boxes) -> str:
+    """Return the unit, other than m, in which blocks are nearest to their usual length."""
+    far = {name: abs(np.log(boxes.length * metres / _BLOCK)) for name, metres in _CANDIDATES.items()}
+    return min(far, key=lambda one: far[one])
 
 
 def tilted(boxes: Boxes, up: str) -> str:

@@ -78,6 +78,8 @@ def frame(contents: Contents, units: str | None, up: str | None) -> Frame:
     if unit:
         per_unit = UNITS[unit[0]]
         warnings.append(unit[1])
+    said = guesses.of_stated(boxes, contents.metres) if boxes and units is None and contents.metres else ""
+    warnings += [said] * bool(said)
     if boxes and units and contents.metres and abs(per_unit / contents.metres - 1.0) > SAME:
         near = (name for name, value in UNITS.items() if abs(value / contents.metres - 1.0) <= SAME)
         stated = next(near, f"{contents.metres:g} m")

@@ -95,6 +95,27 @@ def test_units(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("code", "length", "asked"),  # 750 inches are 19.05 m, 750 mm .75 m; 393 inches 9.98 m
+    [(1, 750, "blocks are 19.05 m long (median), in mm 0.75 m: if it is in mm, say units='mm'"),
+     (6, 45, "blocks are 45 m long (median), in cm 0.45 m: if it is in cm, say units='cm'"),
+     (1, 393, None), (4, 750, None), (4, 15000, None)],
+)  # fmt: skip
+def test_a_stated_unit_that_makes_blocks_longer_than_10_m_is_asked_about(tmp_path, code, length, asked):
+    def draw(space):
+        for layer, height in (("BASE", 0), ("STONE", length)):
+            stone = cube()
+            stone.scale_uniform(length)
+            stone.translate(0, 0, height)
+            stone.render_mesh(space, {"layer": layer})
+
+    path = drawn(tmp_path / "a.dxf", draw, units=code)
+    guesses = lb.files.read_blocks(path).guesses
+    assert [asked in said for said in guesses] == [True] if asked else guesses == ()
+    stated = {1: "in", 4: "mm", 6: "m"}[code]
+    assert lb.files.read_blocks(path, units=stated).guesses == ()
+
+
+@pytest.mark.parametrize(
     ("code", "metres"),  # NIST SP 811, Appendix B: 1 in = .0254 m, 1 US survey ft = 1200/3937 m, exactly
     [
         *[(1, 0.0254), (3, 5280 * 12 * 0.0254), (8, 0.0254e-6), (9, 0.0254e-3), (10, 36 * 0.0254), (17, 1e9)],
