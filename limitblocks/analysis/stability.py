@@ -193,16 +193,18 @@ def _all_states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Arr
 def _states(problem: LimitProblem, load_factor: float) -> Iterator[tuple[Array, Residual]]:
     """States of largest margin of one solver after the other, with the worst of their residuals.
 
-    Each is found again in the units of the one before. Stresses without a bound come first: solvers find
-    them more easily.
+    Each is found again in the units of the one before. The margin as it is defined comes first, in the forces
+    of :func:`_own_loads`, then that in the force of each interface: where weights are decades apart solvers
+    find it more easily, as they do stresses without a bound.
     """
-    for solver, most in product(solvers(bool(problem.cones.second_order)), (np.inf, WEDGED)):
+    ways = list(product(solvers(bool(problem.cones.second_order)), (np.inf, WEDGED)))
+    for k, (solver, most) in enumerate([ways[0], *ways]):
         measured: Scaled | None = scaled(problem)
         for _ in range(ROUNDS):
             if measured is None:
                 break
             loads = (problem.dead + load_factor * problem.live) / measured.equation
-            room = _own_loads(problem) / measured.force
+            room = _own_loads(problem) / measured.force if k == 0 else 1.0
             (v,) = solved(Stresses(measured).within(loads, most, room), solver).values
             x, found = v[1:], np.isfinite(v).all()
             x = measured.stress * (balanced(measured, loads, x) if found else x)
