@@ -17,9 +17,11 @@ from dataclasses import replace
 import numpy as np
 
 from limitblocks.analysis.nonassociated.least_norm import least_state
-from limitblocks.analysis.unstressed import arising, elastic_displacements, joint_compliance
+from limitblocks.analysis.unstressed import arising, elastic_displacements, in_rounds, joint_compliance
 from limitblocks.arrays import Array
 from limitblocks.evidence.residuals import Residuals, static_residuals
+from limitblocks.evidence.stability_result import TOLERANCE as ARISEN
+from limitblocks.evidence.stability_result import arising_residuals
 from limitblocks.known import known
 from limitblocks.problem import Flow, LimitProblem, State, Turning
 
@@ -68,7 +70,13 @@ def _found(flow: Flow, weights: Array) -> tuple[Array | None, bool]:
     if found is not None and _admissible(p, found.x):
         return found.x, True
     found = least_state(p, weights)
-    return (None if found is None else found.x), False
+    if found is None:
+        return None, False
+    own = joint_compliance(p, weights, u)
+    for one in in_rounds(flow, own, found.x):
+        if Residuals(arising_residuals(flow, own, one)).worst.value <= ARISEN and _admissible(p, one.x):
+            return one.x, True
+    return found.x, False
 
 
 def _admissible(problem: LimitProblem, x: Array) -> bool:
