@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 
 import limitblocks as lb
+from limitblocks.structures import build
+from limitblocks.structures.bond import Bond
 
 
 def model_of(stones, supports, joint, direction=(1, 0, 0), name=""):
@@ -64,3 +66,19 @@ def imbalance(model, load_factor, stress_resultants):
                 arm = interface.centroid - centroid[name]
                 left[name] = left[name] + sign * np.concatenate([f, m + np.cross(arm, f)])
     return np.array(list(left.values()))
+
+
+def leaning_walls(joint, length, width, courses, t=0.4):
+    """Four walls about a rectangle that only lean on each other on the right and behind: it splits there."""
+    bond, blocks = Bond(2 * t, t, courses), []
+    sides = {
+        "front": (0, (0.0, t), length),
+        "back": (0, (width - t, width), length),
+        "left": (1, (0.0, t), width),
+        "right": (1, (length - t, length), width),
+    }
+    for name, (axis, across, end) in sides.items():
+        spans = [(0.0, end), (t, end - t)][:: -1 if axis else 1]
+        blocks += bond.boxes(bond.pieces(name, spans, 1 - axis), axis, across, 20e3)
+    ground = build.base((0.0, length), (0.0, width), t)
+    return build.model_of(blocks, [ground], joint, (1.0, 0.0, 0.0), "tower")

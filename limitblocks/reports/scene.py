@@ -34,7 +34,7 @@ def scene(model: Model, results: Iterable[Any], title: str) -> dict[str, Any]:
     """Return what the viewer shows: shapes, blocks, interfaces and each result with a mechanism."""
     shown = [result for result in results if in_scene(result)]
     states = [interface_states(model, result) for result in shown]
-    words = _Words.of(states, any(isinstance(result, LoadPath) for result in shown))
+    words = _Words.of(states, [result for result in shown if isinstance(result, LoadPath)])
     live = model.live.on(model.free_blocks)[:, :3].sum(axis=0)
     size = float(np.linalg.norm(live))
     corners = np.concatenate([block.vertices for block in model.blocks])
@@ -85,10 +85,11 @@ class _Words:
     modes: list[str]
 
     @classmethod
-    def of(cls, states: Sequence[InterfaceStates], path: bool) -> _Words:
+    def of(cls, states: Sequence[InterfaceStates], paths: Sequence[LoadPath]) -> _Words:
         named = dict.fromkeys(["stick", *sorted({word for one in states for word in one.state})])
-        known = sorted({str(mode) for one in states for modes in one.active_modes for mode in modes})
-        return cls([*named, *([BEGINS, UNKNOWN] if path else [])], known)
+        known = {str(mode) for one in states for modes in one.active_modes for mode in modes}
+        known |= {str(mode) for path in paths for step in path.steps for _, mode in step.active}
+        return cls([*named, *([BEGINS, UNKNOWN] if paths else [])], sorted(known))
 
 
 def _blocks(model: Model, origin: Array) -> dict[str, Any]:
@@ -205,7 +206,7 @@ def _before(model: Model, label: str, step: PathStep, words: _Words) -> dict[str
         "stress_resultants": short(without_noise(step.stress_resultants), 0.0, DRAWN_DIGITS),
         "states": [words.states.index(BEGINS if name in begun else UNKNOWN) for name in names],
         "utilisation": [None] * len(names),
-        "modes": [[known[mode] for mode in begun.get(name, ()) if mode in known] for name in names],
+        "modes": [[known[mode] for mode in begun.get(name, ())] for name in names],
     }
 
 

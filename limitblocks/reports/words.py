@@ -117,6 +117,7 @@ def as_acceleration(model: Model, load_factor: float, most: bool = False) -> str
     if known is None:
         return ""
     size = known[0] * load_factor
+    most = most if known[0] > 0.0 else not most  # of a number below zero the larger is nearer to zero
     return f"{known[1]} of {cut(size, most=most)} g = {cut(size * gravity, most=most)} m/s²"
 
 

@@ -141,10 +141,11 @@ def refuse_not_positive(**values: Any) -> None:
 
 
 def refuse_fewer(least: int, **counts: Any) -> None:
-    """Raise ModelError naming all `counts` that are not whole numbers of at least `least`."""
-    refuse(f"{name.replace('_', ' ')} is {count!r}, expected a whole number of at least {least}"
+    """Raise ModelError naming all `counts` that are not whole numbers of at least `least`, or too many."""
+    refuse(f"{name.replace('_', ' ')} is {reprlib.repr(count)}, expected a whole number of at least {least}"
+           f"{f' and at most {_MOST}' * (real(count) > _MOST)}"
            for name, count in counts.items()
-           if not (isinstance(count, int | np.integer) and count >= least))  # fmt: skip
+           if not (_sound("int", count) and not isinstance(count, bool) and count >= least))  # fmt: skip
 
 
 def refuse_many(stone: float, **lengths: float) -> None:

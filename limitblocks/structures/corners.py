@@ -65,12 +65,12 @@ def facade(
     if length <= 2 * block_length or return_length < block_length:
         refuse([f"length {length:g} m and return length {return_length:g} m leave no room for corners"])
     bond = Bond(block_length, block_height, courses)
-    front = [(0.0, length), (t, length - t)]
-    back = [(t, return_length), (0.0, return_length)]
-    pieces = bond.pieces("facade", front, 1, openings_of(openings))
+    odd = _odd(length, t)
+    pieces = bond.pieces("facade", _spans(length, t, True), 1, openings_of(openings))
     blocks = bond.boxes(pieces, 0, (0.0, t), unit_weight)
-    for side, x in (("left", (0.0, t)), ("right", (length - t, length))):
-        blocks += bond.boxes(bond.pieces(side, back, 0), 1, x, unit_weight)
+    for side, x, first in (("left", (0.0, t), False), ("right", (length - t, length), odd)):
+        back = [(0.0, return_length), (t, return_length)][:: 1 if first else -1]
+        blocks += bond.boxes(bond.pieces(side, back, int(first)), 1, x, unit_weight)
     ground = base((0.0, length), (0.0, return_length), block_height)
     return model_of(blocks, [ground], joint, direction, "facade")
 
@@ -140,25 +140,34 @@ def tower(
     if min(length, width) < 2 * block_length:
         refuse([f"length {length:g} m and width {width:g} m leave no room for corners: expected at least "
                 f"{2 * block_length:g} m, two blocks"])  # fmt: skip
-    sides = {
-        "front": (0, (0.0, t)),
-        "back": (0, (width - t, width)),
-        "left": (1, (0.0, t)),
-        "right": (1, (length - t, length)),
+    sides = {  # axis, across, and whether the even courses have the quoins where the wall begins
+        "front": (0, (0.0, t), True),
+        "back": (0, (width - t, width), not _odd(width, t)),
+        "left": (1, (0.0, t), False),
+        "right": (1, (length - t, length), _odd(length, t)),
     }
     if not isinstance(openings, Mapping):
         refuse([f"openings are {openings!r}, expected those of each side by its name, {', '.join(sides)}"])
     refuse(f"openings are given for {name!r}, expected one of {', '.join(sides)}"
            for name in openings if name not in sides)  # fmt: skip
     bond, blocks = Bond(block_length, block_height, courses), []
-    for name, (axis, across) in sides.items():
-        end = (length, width)[axis]
-        ends = [(0.0, end), (t, end - t)]
+    for name, (axis, across, first) in sides.items():
         holes = openings_of(openings.get(name, ()))
-        pieces = bond.pieces(name, ends if axis == 0 else ends[::-1], 1 - axis, holes)
+        pieces = bond.pieces(name, _spans((length, width)[axis], t, first), int(first), holes)
         blocks += bond.boxes(pieces, axis, across, unit_weight)
     ground = base((0.0, length), (0.0, width), block_height)
     return model_of(blocks, [ground], joint, direction, "tower")
+
+
+def _odd(length: float, t: float) -> bool:
+    """Whether a wall has an odd number of half blocks: its quoins are then at one end in each course."""
+    return round(length / t) % 2 == 1
+
+
+def _spans(length: float, t: float, first: bool) -> list[tuple[float, float]]:
+    """Where the even and the odd courses of a wall between two corners run; `first`: the even ones from 0."""
+    odd = _odd(length, t)
+    return [(0.0, length - t * odd), (t, length - t * (not odd))][:: 1 if first else -1]
 
 
 @plain_numbers
@@ -195,7 +204,7 @@ def buttressed_wall(
         Number of courses of the buttress; those of the wall if left out.
     position : float, optional
         From the end of the wall to the buttress, m, a multiple of half the block length; by default the
-        buttress is in the middle, half a block to the left where it cannot be.
+        buttress is in the middle, a quarter of a block to the left where it cannot be.
     bonded : bool
         Whether the buttress is bonded to the wall.
     block_length, block_height : float

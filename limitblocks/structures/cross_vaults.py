@@ -121,7 +121,8 @@ def pavilion_vault(
         Number of courses of a barrel from springing to springing; stones are named `side course.place`, the
         course counted from the springing up.
     stone_length : float
-        Of a stone along its course, m; stones at the diagonals are up to 1.5 times as long.
+        Of a stone along its course, m; those that reach from diagonal to diagonal are up to twice as long
+        on their shortest edge, other stones at the diagonals up to 1.5 times.
     embrace : float
         Angle between opposite springings, rad, up to pi.
     unit_weight : float

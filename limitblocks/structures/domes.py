@@ -59,7 +59,7 @@ def dome(
     embrace : float
         Angle between opposite springings, rad; pi, the default and the largest, is a hemisphere.
     oculus : float
-        Angle that an opening at the crown spans, rad; 0: closed by a key half as wide as a course is high.
+        Angle that an opening at the crown spans, rad; 0: closed by a key as wide as a course is high.
     running_bond : bool
         Whether the stones of a course lie half a stone off those below; else meridian joints go through.
     unit_weight : float
@@ -148,7 +148,7 @@ def dome_lunes(
 
 
 def _beds(embrace: float, oculus: float, courses: int) -> Array:
-    """Polar angles of the beds, from the springing up; the key is half as wide as a course is high."""
+    """Polar angles of the beds, from the springing up; half the key is half as high as a course."""
     bottom = embrace / 2
     return np.linspace(bottom, oculus / 2 if oculus else bottom / (2 * courses + 1), courses + 1)
 

@@ -11,6 +11,8 @@ from limitblocks.geometry import Block
 from limitblocks.structures.build import base, pier, prism, refuse, refuse_fewer, refuse_not_positive
 from limitblocks.structures.rings import Ring
 
+SAME = 1e-9  # of the width of a pier: springings as wide have its width
+
 
 class Piers(NamedTuple):
     """Two piers of single blocks, flush with the intrados: width along X; number and height of blocks; m."""
@@ -25,8 +27,8 @@ def on_piers(ring: Ring, piers: Piers) -> Ring:
     refuse_not_positive(pier_width=piers.width, block_height=piers.block_height)
     refuse_fewer(1, pier_blocks=piers.blocks)
     across = float(ring.inner[0, 0] - ring.outer[0, 0])
-    if piers.width < across:
-        refuse([f"pier width is {piers.width!r}, expected at least the thickness {across!r}"])
+    if piers.width < across * (1.0 - SAME):
+        refuse([f"pier width is {piers.width!r}, expected at least that of the springing, {across!r}"])
     return ring.raised(piers.blocks * piers.block_height - float(ring.inner[0, 1]))
 
 
@@ -41,9 +43,9 @@ def pier_blocks_of(
     for side, sign in (("left", -1), ("right", 1)):
         x = sorted((sign * outer, sign * inner))
         blocks += pier(f"{side} pier", x, y, piers.blocks, piers.block_height, unit_weight)
-        if foot - top > 1e-9 * piers.width:
+        if foot - top > SAME * piers.width:
             shoulder = [(-outer, top), (-inner, top), ring.outer[0], (-outer, foot)]
-            outline = np.array(shoulder[:3] if ring.outer[0, 0] <= -outer else shoulder)
+            outline = np.array(shoulder[:3] if ring.outer[0, 0] + outer <= SAME * piers.width else shoulder)
             outline = outline if sign < 0 else outline[::-1] * (-1.0, 1.0)
             blocks.append(prism(f"{side} skewback", outline, depth, unit_weight))
         ledge = np.array([(-outer, foot), (ring.outer[0, 0], foot)])

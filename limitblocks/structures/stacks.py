@@ -97,7 +97,7 @@ def overhang(
     """Return the harmonic stack: block i from the top projects in X by `fraction` length / (2 i).
 
     At fraction one, the top projects by (length / 2) (1 + 1/2 + ... + 1/count) over the edge of the table
-    and the stack is about to fall. Below one its load factor along X is
+    and the stack is about to fall. From zero to one its load factor along X is
     min(mu, (1 - fraction) length / (count height)): the centroid of the k top blocks is
     (1 - fraction) length / 2 inside the edge of the block below them.
 

@@ -8,7 +8,7 @@ from unittest.mock import Mock
 import cvxpy as cp
 import numpy as np
 import pytest
-from stones import model_of
+from stones import leaning_walls, model_of
 
 import limitblocks as lb
 from limitblocks import structures
@@ -81,9 +81,9 @@ def test_multipliers_of_a_large_facade_need_equations_that_are_hardly_regularise
 
 
 def not_bonded_through():
-    """A tower that splits into four walls."""
+    """Four walls that lean on each other."""
     joint = lb.OrdunaLourenco(0.7, compressive_strength=2e6)
-    return structures.tower(joint, length=2.0, width=2.8, courses=20)
+    return leaning_walls(joint, 2.0, 2.8, 20)
 
 
 def plain_facade():
@@ -100,8 +100,8 @@ def test_a_tower_is_proven_with_rates_near_one_and_not_as_it_is(monkeypatch):
 
 
 def four_walls(courses):
-    """A tower that splits into four walls, as the corner stones of two sides end where they meet."""
-    return structures.tower(lb.OrdunaLourenco(0.7), length=2.8, width=3.6, courses=courses)
+    """Walls that lean on each other where the corner stones of two sides end."""
+    return leaning_walls(lb.OrdunaLourenco(0.7), 2.8, 3.6, courses)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
+from stones import leaning_walls
 
 import limitblocks as lb
 from limitblocks import structures
@@ -111,7 +112,7 @@ def test_stresses_strictly_within_yield_carry_the_dead_loads(joint):
 
 def test_most_of_the_room_that_there_is_is_found(monkeypatch):
     """The splitting ends with a tenth of it or less in a tower of four walls that lean on each other."""
-    model = structures.tower(lb.OrdunaLourenco(0.7), length=2.0, width=2.8, courses=10)
+    model = leaning_walls(lb.OrdunaLourenco(0.7), 2.0, 2.8, 10)
     p, most = model.problem, standing_margin(model)
     assert _margin(p, carried(p)) > 0.3 * most
     monkeypatch.setattr(splitting, "FEW", 1000)

@@ -203,3 +203,22 @@ def test_volumes_of_cross_vaults(courses):
 
 def test_volume_of_a_wedge():
     assert volume(made("wedge", plunge=0.3, tilt=0.2)) == pytest.approx(np.tan(0.5) * 4.0)
+
+
+@pytest.mark.parametrize("embrace", [np.pi, 3.0559322033898306, 2.5, 1.2])
+@pytest.mark.parametrize("thickness", [0.1, 0.3, 0.4, 0.7])
+def test_piers_may_be_as_wide_as_the_springing_whatever_rounding_says(embrace, thickness):
+    """t sin(embrace / 2): refused, or with two vertices in one place, in half of the cases."""
+    piers = structures.Piers(thickness * np.sin(embrace / 2), 2)
+    arch = structures.arch(
+        lb.PointContact(0.7), radius=2.0, thickness=thickness, voussoirs=5, embrace=embrace, piers=piers
+    )
+    assert len(arch.interfaces) == 4 + 2 + 2 + 2 + 2 * (embrace < np.pi)
+
+
+@pytest.mark.parametrize("count", [10**9, True, 1.5, "2"])
+def test_a_count_of_blocks_of_a_pier_is_one_as_others_are(count):
+    with pytest.raises(lb.ModelError, match="pier blocks is"):
+        structures.arch(
+            lb.PointContact(0.7), radius=2.0, thickness=0.4, voussoirs=9, piers=structures.Piers(0.9, count)
+        )

@@ -84,6 +84,17 @@ def test_wall_refuses_openings_that_overlap():
         structures.wall(JOINT, length=4.0, courses=8, openings=[(0.8, 0, 0.8, 0.8), (1.2, 0, 0.8, 0.8)])
 
 
+@pytest.mark.parametrize("length", [2.4, 2.8, 3.2, 3.6])
+def test_as_many_quoins_bind_either_return_wall(length):
+    """Half blocks in odd number: a joint ran through all courses at one end."""
+    model = structures.facade(JOINT, length=length, courses=6, return_length=1.6, openings=())
+    for at in (0.4, length - 0.4):
+        x = np.array(
+            [(block.vertices[:, 0].min(), block.vertices[:, 0].max()) for block in model.free_blocks]
+        )
+        assert ((x[:, 0] < at - 1e-9) & (x[:, 1] > at + 1e-9)).sum() == 3
+
+
 def test_facade_is_interlocked_with_its_returns():
     model = structures.facade(JOINT)
     assert len(model.free_blocks) >= 150

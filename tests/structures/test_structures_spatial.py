@@ -141,7 +141,7 @@ def test_eccentric_lintel_is_governed_by_twist():
     [
         ("portal", {"span": -1.0}, "span is -1.0"),
         ("portal", {"pier_blocks": 0}, "pier blocks is 0"),
-        ("arch", {"piers": (0.3, 2)}, "at least the thickness"),
+        ("arch", {"piers": (0.3, 2)}, "at least that of the springing"),
         ("arch", {"piers": (0.9, 0)}, "pier blocks is 0"),
         ("corner", {"length": 2.5}, "length 2.5 m is not a positive multiple of 0.4"),
         ("corner", {"return_length": 0.4}, "no room for the corner"),
