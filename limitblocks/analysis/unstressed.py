@@ -32,7 +32,9 @@ from limitblocks.problem import Flow, LimitProblem, State
 FIRST = 1.0  # barrier where a path begins, of the work of the dead loads
 LEFT = 1e-10  # at the end
 LONG = 0.6  # first predictor
-ROUNDS = 30  # of frozen friction: one is enough in half of the models that need any, 22 the most
+# Of 122 flat arches, tilted and pushed, that no path starts from, rounds that go all the way decide 7, half
+# of it in 30 rounds 60, three tenths in 30 rounds 105, in 60 rounds 116, in 120 rounds 118.
+ROUNDS, SHARE = 60, 0.3
 # Work of the dead loads on the joints over that on the springs, tried in turn: where friction can hold what
 # nobody wedges, the step on soft springs has several solutions, and often none is found.
 SPRINGS = (1e-4, 1e-2, 1e-1, 1.0)
@@ -77,7 +79,7 @@ def may_arise(flow: Flow, weights: Array) -> Iterator[State]:
 
 
 def in_rounds(flow: Flow, weights: Array, x: Array) -> Iterator[State]:
-    """Give states of least norm whose friction is that of stresses half way between those of the last two.
+    """Give states of least norm with the friction of stresses x, which go a `SHARE` of the way to each.
 
     Panagiotopoulos (1975), Ingenieur-Archiv 44: an associated problem in each round. Where no path starts, as
     where joints without friction lie beside others, they mostly converge to what arises without dilatancy.
@@ -89,7 +91,7 @@ def in_rounds(flow: Flow, weights: Array, x: Array) -> Iterator[State]:
         if found is None:
             return
         yield found
-        x = (x + found.x) / 2.0
+        x = x + SHARE * (found.x - x)
 
 
 def not_held(problem: LimitProblem, weights: Array) -> Array | None:

@@ -10,6 +10,7 @@ from limitblocks.evidence.mechanism import flow_columns, linear_program
 from limitblocks.problem import Flow, State
 
 YIELDS = 1e-6  # of the force of an interface: rows closer than this to yield may flow
+METHODS = ("highs-ipm", "highs-ds")  # each ends without an answer where the other has one
 WITHOUT_PRESOLVE = {"presolve": False}  # which calls programs of nearly dependent rows infeasible
 
 
@@ -34,17 +35,18 @@ def change_of_mechanism(flow: Flow, state: State, functional: Array) -> float | 
     bounds = [(None, None)] * n + [(-1.0, 1.0)] * k + [(0.0, 1.0)] * free.shape[1]
     goal, changes = np.append(functional, np.zeros(strains.shape[1])), []
     for sign in (1.0, -1.0):
-        found = linear_program(
-            sign * goal,
-            A_eq=A,
-            b_eq=np.zeros(A.shape[0]),
-            bounds=bounds,
-            method="highs-ipm",
-            options=WITHOUT_PRESOLVE,
-        )
-        if found.status == 3:
-            return np.inf
-        if found.status != 0:
+        for method in METHODS:
+            found = linear_program(
+                sign * goal,
+                A_eq=A,
+                b_eq=np.zeros(A.shape[0]),
+                bounds=bounds,
+                method=method,
+                options=WITHOUT_PRESOLVE,
+            )
+            if found.status == 0:
+                changes.append(abs(float(found.fun)))
+                break
+        else:
             return None
-        changes.append(abs(float(found.fun)))
     return max(changes)

@@ -146,3 +146,21 @@ def test_loads_that_climb_without_limit_are_pushed_no_farther(monkeypatch):
     weights = flow.problem.compliance
     found = loaded.loaded(flow, state.x, weights, 1e-8, lb.settings.Settings(), 1.0, print, 1.0)
     assert (found.why, found.beyond) == (CLIMBS, False)
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+@pytest.mark.parametrize("head", [0.0, 0.6])
+def test_where_no_increment_begins_one_push_without_end_leads_from_the_permanent_loads(joint, head):
+    """Two cubes on ice side by side, one of them lifted: nothing is strictly within yield between them."""
+    stones = [lb.Block.box("ground", (6, 2, 0.2), (0, 0, -0.1))]
+    stones += [lb.Block.box(f"cube {k}", (1, 1, 1), (k, 0, 0.5), 20e3) for k in range(2)]
+    faces = [
+        replace(one, joint=joint(0.0 if "ground" in (one.block_i, one.block_j) else head))
+        for one in lb.find_interfaces(stones, joint(head))
+    ]
+    lift = lb.loads.force("cube 0", (0, 0, 10e3), (0, 0, 0.5))
+    model = lb.Model(stones, ["ground"], faces, lb.self_weight(), lift)
+    path = lb.load_path(model)
+    assert path.load_factor == pytest.approx(2.0, rel=1e-8)  # 20 kN over 10 kN
+    assert lb.check_mcp(model, path).passed
+    assert any("one push without end" in said for said in path.remarks)

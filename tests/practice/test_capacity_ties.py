@@ -7,8 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 import limitblocks as lb
-from limitblocks.practice import capacity_curve, reinforced, tie
-from limitblocks.practice.displaced import assembly_of
+from limitblocks.practice import capacity_curve, reinforced, strip, tie
+from limitblocks.practice.displaced import assembly_of, moved
+from limitblocks.practice.rejoined import rows_of
 
 UNIT_WEIGHT = 20e3
 FRICTION = lb.PointContact(0.9)
@@ -115,3 +116,22 @@ def test_what_a_tie_has_yielded_stays(way):
     assert own.taut == pytest.approx(2.0)
     assert longer.ways[0, 2] == pytest.approx(-way)
     assert longer.yielded.taut == pytest.approx(max(2.0, 2.0 + way))
+
+
+@pytest.mark.parametrize("length", [True, False])
+def test_rates_of_what_a_tie_is_slack_are_those_of_its_anchors(length):
+    """Central differences of the gap in screws of both blocks; a strip is across its joint."""
+    wall = model_of(
+        lb.Block.box("ground", (4, 1, 0.4), at=(0, 0, -0.2)), box("wall", (0.5, 1, 3), (0, 0, 1.5))
+    )
+    joint = wall.interfaces[0]
+    element = (
+        tie("wall", (0, 0.2, 2), "ground", (-2, -0.1, 0), area=1e-4, strength=1e7)
+        if length
+        else strip(joint, joint.centroid + [0.1, 0, 0], width=0.1, capacity=1e3)
+    )
+    assembly = assembly_of(reinforced(wall, element))
+    way = np.random.default_rng(0).normal(size=(2, 6))
+    gap = [moved(assembly, t * way).contacts[-1].ways[0, 2] for t in (1e-6, -1e-6)]
+    rate = (rows_of(assembly) @ way.ravel())[-1]
+    assert rate == pytest.approx((gap[0] - gap[1]) / 2e-6, rel=1e-6)

@@ -9,7 +9,7 @@ from facades import ARM, FC, FLOOR, SITE, WEIGHT, G, H, T
 import limitblocks as lb
 from limitblocks.evidence.ending import Status
 from limitblocks.mechanics import Load
-from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, uplift, verification
+from limitblocks.practice import Floor, FloorMode, Spectrum, capacity_curve, verification
 
 PUSH = lb.mass_proportional((1, 0, 0))
 
@@ -284,75 +284,3 @@ def test_where_sliding_counts_alpha0_is_said_to_be_one_answer():
     assert said.remarks[0].startswith("alpha0 = 0.3388 is one answer, others may solve as well, up to")
     assert f"{associated:.4g} (associated)" in said.remarks[0]
     assert verification(pair, lb.bounds(pair), SITE, q=2.0).remarks[0].startswith("alpha0 is associated")
-
-
-@pytest.mark.parametrize(
-    ("dead", "words"),
-    [
-        (1.3 * lb.self_weight(), "the dead load has the weights times 1.3"),
-        (0.5 * lb.self_weight(), "the dead load has the weights times 0.5"),
-    ],
-)
-def test_weights_other_than_those_that_are_pushed_are_refused(facade, dead, words):
-    """[C8.7.1.1] has the same P_k in both: with 1.3 of them a0* came out 1.3 times too high."""
-    model = replace(facade, dead=dead)
-    with pytest.raises(lb.ModelError, match=words):
-        verification(model, lb.nonassociated(model), SITE, q=2.0)
-
-
-def test_terms_that_take_weights_back_are_named(facade):
-    push = lb.mass_proportional((1, 0, 0))
-    model = replace(facade, live=2.0 * push - push)
-    with pytest.raises(lb.ModelError, match="weights times -1 among its terms; expected their sum as one"):
-        verification(model, lb.nonassociated(model), SITE, q=2.0)
-
-
-def test_water_in_joints_that_open_is_refused():
-    wall = lb.structures.wall(lb.PointContact(0.6), length=1.2, courses=4)
-    wet = replace(wall, dead=wall.dead + uplift(wall, 0.5))
-    with pytest.raises(lb.ModelError, match="water in joints, which open"):
-        verification(wet, lb.nonassociated(wet), SITE, q=2.0)
-
-
-def test_each_damping_is_judged_whether_it_is_used_or_not(facade, answer):
-    with pytest.raises(lb.ModelError, match=r"damping at SLC is -0\.1"):
-        verification(facade, answer, SITE, q=2.0, damping=(0.08, -0.1))
-
-
-@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
-@pytest.mark.parametrize("rocks", [False, True])
-def test_where_several_mechanisms_have_one_load_factor_the_least_acceleration_is_said(joint, rocks):
-    """Stones that slide on each other, or two walls that rock: each alone has e* = 1, together less."""
-    ground = lb.Block.box("ground", (8, 4, 0.4), at=(0, 0, -0.2))
-    if rocks:
-        made, friction, alpha = [((0.4, 1, 2), (0, -1.2, 1)), ((0.4, 2, 2), (0, 1, 1))], 0.6, 0.2
-    else:
-        made, friction, alpha = [((1, 1, 0.5), (0, 0, z)) for z in (0.25, 0.75)], 0.3, 0.3
-    stones = [lb.Block.box(f"stone {k}", *one, unit_weight=20e3) for k, one in enumerate(made)]
-    said_once = False
-    for count in (1, 2):
-        blocks = [ground, *stones[:count]]
-        model = lb.Model(
-            blocks, ["ground"], lb.find_interfaces(blocks, joint(friction)), lb.self_weight(), PUSH
-        )
-        for result in (lb.nonassociated(model), lb.bounds(model)):
-            found = verification(model, result, SITE, q=2.0)
-            least = alpha * G / FC
-            others = [said for said in found.remarks if "one of many with this alpha0" in said]
-            assert found["alpha0"] == pytest.approx(alpha, rel=1e-6)
-            if count == 1:
-                assert found["a0*"] == pytest.approx(least, rel=1e-6)
-                assert not others
-            else:
-                assert bool(others) == (found["a0*"] > 1.001 * least)
-                assert all(f"a0* down to {least:.4g} m/s2" in said for said in others)
-                said_once |= bool(others)
-    assert said_once
-
-
-def test_a_mechanism_that_is_the_only_one_has_no_such_remark():
-    """An arch: e* is less than 1, and yet its hinges are the only ones."""
-    arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=21)
-    found = verification(arch, lb.nonassociated(arch), SITE, q=2.0)
-    assert found["e*"] < 0.9
-    assert not [said for said in found.remarks if "one of many" in said]

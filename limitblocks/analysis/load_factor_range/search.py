@@ -150,6 +150,9 @@ def extreme(task: Task, sense: float, time_limit: float) -> Extreme:
     task.collected.add(state, "mixed-integer program", Origin.SEARCHED, keep=False)
     one = task.collected.least if sense > 0.0 else task.collected.greatest
     best = answer(task.model, task.flow, task.enclosing, task.permanent, one) if one else None
-    bound = np.inf if endless else max(bound, low) if sense > 0.0 else bound  # where time ran out first
+    if sense > 0.0:
+        bound = max(bound, low)  # where time ran out first
+    elif endless:
+        bound = np.inf
     near = one is not None and abs(one.state.load_factor - bound) <= AGREES * task.scale
     return Extreme(best, float(bound / live), near, stresses, multipliers, seconds)

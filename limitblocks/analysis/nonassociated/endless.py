@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from limitblocks.analysis.nonassociated.closing import Closing
 from limitblocks.analysis.nonassociated.each_way import Given, Way
 from limitblocks.analysis.nonassociated.loading import near
@@ -20,13 +22,13 @@ from limitblocks.problem import State
 FAR = 0.1  # of the load factor: a solution farther from where the increments end is not where they lead
 
 
-def endless(given: Given, last: State) -> Way | None:
+def endless(given: Given, last: State, began: bool = True) -> Way | None:
     """Return the solution that the last state of increments leads to, and which way; None if it is far.
 
-    The first with the load factor of that state, else the nearest.
+    The first with the load factor of that state, else the nearest; the first of all where none `began`.
     """
     nearest: Way | None = None
-    least = FAR * abs(last.load_factor)
+    least = FAR * abs(last.load_factor) if began else np.inf
     for state, how in _ways(given, last):
         if how.endswith(INTERRUPTED):
             if nearest is None:
@@ -36,7 +38,7 @@ def endless(given: Given, last: State) -> Way | None:
         off = abs(state.load_factor - last.load_factor)
         if solved and off <= least:
             nearest, least = (state, how), off
-            if near(state, last.load_factor):
+            if not began or near(state, last.load_factor):
                 break
     return nearest
 

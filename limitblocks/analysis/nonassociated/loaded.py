@@ -58,9 +58,9 @@ def loaded(
 
     try:
         pushes, last, why = pushed(flow, x0, weights, tolerance, settings, scale, push, share)
-        if pushes and why not in ("", CLIMBS):
+        if why not in ("", CLIMBS):
             own = replace(flow, problem=replace(flow.problem, compliance=weights))
-            found = endless(Given(own, last.x, scale, tolerance, record), last)
+            found = endless(Given(own, last.x, scale, tolerance, record), last, bool(pushes))
             if found is not None:
                 end, way = last.load_factor / flow.problem.units.live, f"{INCREMENTS}, then {found[1]}"
                 return Loaded(x0, pushes, found[0], way, BEYOND.format(why, end, found[1]))

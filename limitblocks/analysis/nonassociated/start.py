@@ -14,7 +14,7 @@ from limitblocks.analysis.nonassociated.without_shear import load_factor_without
 from limitblocks.analysis.polish import polish
 from limitblocks.analysis.programs import remeasured
 from limitblocks.analysis.stability import dead_load_state
-from limitblocks.arrays import Array
+from limitblocks.arrays import Array, reals
 from limitblocks.errors import ModelError, SolverFailure, UnlimitedLoad
 from limitblocks.evidence.associated import Bounds
 from limitblocks.evidence.residuals import Residuals, mcp_residuals, static_residuals
@@ -195,7 +195,13 @@ def _given(model: Model, problem: LimitProblem, start: Start) -> Array:
     if isinstance(start, Nonassociated | Bounds):
         refuse_other(model, start)
         return np.asarray(start.generalised_stresses / problem.stress_units)
-    stresses = np.asarray(start, dtype=float)
+    try:
+        stresses = reals(start)
+    except (TypeError, ValueError):
+        raise ModelError(
+            f"start is a {type(start).__name__}, expected a result of nonassociated or bounds (of a load path"
+            " its collapse), or stresses as numbers, N and N m"
+        ) from None
     if stresses.shape == (len(model.interfaces), 6):
         stresses = _of_resultants(problem, stresses)
     stresses = stresses.ravel()

@@ -1,0 +1,115 @@
+"""Verifications of what has several mechanisms, and of loads that are not those of [C8.7.1.1]."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from facades import FC, SITE, G
+
+import limitblocks as lb
+from limitblocks.evidence.mechanism import find_mechanism
+from limitblocks.evidence.mechanisms import change_of_mechanism
+from limitblocks.practice import uplift, verification
+from limitblocks.problem import Flow, State
+
+PUSH = lb.mass_proportional((1, 0, 0))
+
+
+@pytest.mark.parametrize(
+    ("dead", "words"),
+    [
+        (1.3 * lb.self_weight(), "the dead load has the weights times 1.3"),
+        (0.5 * lb.self_weight(), "the dead load has the weights times 0.5"),
+    ],
+)
+def test_weights_other_than_those_that_are_pushed_are_refused(facade, dead, words):
+    """[C8.7.1.1] has the same P_k in both: with 1.3 of them a0* came out 1.3 times too high."""
+    model = replace(facade, dead=dead)
+    with pytest.raises(lb.ModelError, match=words):
+        verification(model, lb.nonassociated(model), SITE, q=2.0)
+
+
+def test_terms_that_take_weights_back_are_named(facade):
+    push = lb.mass_proportional((1, 0, 0))
+    model = replace(facade, live=2.0 * push - push)
+    with pytest.raises(lb.ModelError, match="weights times -1 among its terms; expected their sum as one"):
+        verification(model, lb.nonassociated(model), SITE, q=2.0)
+
+
+def test_water_in_joints_that_open_is_refused():
+    wall = lb.structures.wall(lb.PointContact(0.6), length=1.2, courses=4)
+    wet = replace(wall, dead=wall.dead + uplift(wall, 0.5))
+    with pytest.raises(lb.ModelError, match="water in joints, which open"):
+        verification(wet, lb.nonassociated(wet), SITE, q=2.0)
+
+
+def test_each_damping_is_judged_whether_it_is_used_or_not(facade, answer):
+    with pytest.raises(lb.ModelError, match=r"damping at SLC is -0\.1"):
+        verification(facade, answer, SITE, q=2.0, damping=(0.08, -0.1))
+
+
+@pytest.mark.parametrize("joint", [lb.PointContact, lb.OrdunaLourenco])
+@pytest.mark.parametrize("rocks", [False, True])
+def test_where_several_mechanisms_have_one_load_factor_the_least_acceleration_is_said(joint, rocks):
+    """Stones that slide on each other, or two walls that rock: each alone has e* = 1, together less."""
+    ground = lb.Block.box("ground", (8, 4, 0.4), at=(0, 0, -0.2))
+    if rocks:
+        made, friction, alpha = [((0.4, 1, 2), (0, -1.2, 1)), ((0.4, 2, 2), (0, 1, 1))], 0.6, 0.2
+    else:
+        made, friction, alpha = [((1, 1, 0.5), (0, 0, z)) for z in (0.25, 0.75)], 0.3, 0.3
+    stones = [lb.Block.box(f"stone {k}", *one, unit_weight=20e3) for k, one in enumerate(made)]
+    said_once = False
+    for count in (1, 2):
+        blocks = [ground, *stones[:count]]
+        model = lb.Model(
+            blocks, ["ground"], lb.find_interfaces(blocks, joint(friction)), lb.self_weight(), PUSH
+        )
+        for result in (lb.nonassociated(model), lb.bounds(model)):
+            found = verification(model, result, SITE, q=2.0)
+            least = alpha * G / FC
+            others = [said for said in found.remarks if "one of many with this alpha0" in said]
+            assert found["alpha0"] == pytest.approx(alpha, rel=1e-6)
+            if count == 1:
+                assert found["a0*"] == pytest.approx(least, rel=1e-6)
+                assert not others
+            else:
+                assert bool(others) == (found["a0*"] > 1.001 * least)
+                assert all(f"a0* down to {least:.4g} m/s2" in said for said in others)
+                said_once |= bool(others)
+    assert said_once
+
+
+def test_a_mechanism_that_is_the_only_one_has_no_such_remark():
+    """An arch: e* is less than 1, and yet its hinges are the only ones."""
+    arch = lb.structures.arch(lb.PointContact(0.6), radius=5.0, thickness=1.0, voussoirs=21)
+    found = verification(arch, lb.nonassociated(arch), SITE, q=2.0)
+    assert found["e*"] < 0.9
+    assert not [said for said in found.remarks if "one of many" in said]
+
+
+def test_a_vault_whose_program_one_method_leaves_open_is_decided_by_the_next():
+    vault = lb.structures.EXAMPLES["pavilion_vault"](lb.PointContact(0.6))
+    found = verification(vault, lb.nonassociated(vault), SITE, q=2.0)
+    assert not [said for said in found.remarks if "one of many" in said]
+
+
+def test_what_yields_and_does_not_flow_in_this_mechanism_may_in_another():
+    """Two stones slide on the ground as one; the joint between them yields at the same load factor."""
+    blocks = [lb.Block.box("ground", (8, 4, 0.4), at=(0, 0, -0.2))]
+    blocks += [
+        lb.Block.box(f"stone {k}", (1, 1, 0.5), at=(0, 0, 0.25 + 0.5 * k), unit_weight=20e3) for k in range(2)
+    ]
+    joint = lb.OrdunaLourenco(0.3)
+    model = lb.Model(blocks, ["ground"], lb.find_interfaces(blocks, joint), lb.self_weight(), PUSH)
+    result, problem = lb.nonassociated(model), model.problem
+    flow = Flow(problem)
+    at = problem.dimensionless(
+        State(result.load_factor, result.generalised_stresses, np.zeros(12), result.flow_multipliers)
+    )
+    u = np.tile([1.0, 0, 0, 0, 0, 0], 2)
+    u, y = find_mechanism(flow, at.x, u / (problem.live @ u))
+    state = State(at.load_factor, at.x, u, y)
+    lower = np.repeat([1.0, 0.0], 6) * problem.live
+    assert lower @ u == pytest.approx(0.5, rel=1e-6)
+    assert change_of_mechanism(flow, state, lower) > 0.1
+    assert change_of_mechanism(flow, state, problem.live) == pytest.approx(0.0, abs=1e-9)
