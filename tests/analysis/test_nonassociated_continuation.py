@@ -103,3 +103,23 @@ def test_a_start_without_dilatancy_is_not_taken_for_the_associated_answer():
     model = structures.ferris_tin_loi_wall(4, lb.PointContact(0.65))
     found = lb.nonassociated(model, dilatancy=0.65, start=lb.nonassociated(model))
     assert found.load_factor == pytest.approx(lb.bounds(model).upper, abs=1e-6)
+
+
+@pytest.mark.parametrize("analysis", [lb.nonassociated, lb.load_path])
+@pytest.mark.parametrize(
+    ("made", "kind"),
+    [
+        (lb.load_path, "LoadPath"),
+        (lb.stability, "Stability"),
+        (lambda model: lb.bounds(model).to_dict(), "dict"),
+        (lambda model: lb.bounds(model).generalised_stresses + 1e3j, "ndarray"),
+        (lambda _: "result.json", "str"),
+        (lambda _: [[1, 2], [3]], "list"),
+    ],
+)
+def test_a_start_of_another_kind_is_refused(analysis, made, kind):
+    model = structures.block(lb.OrdunaLourenco(MU), width=0.4, height=1.0)
+    with pytest.raises(
+        lb.ModelError, match=f"start is a {kind}, expected a result of nonassociated or bounds"
+    ):
+        analysis(model, start=made(model))

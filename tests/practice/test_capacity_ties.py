@@ -128,7 +128,7 @@ def test_rates_of_what_a_tie_is_slack_are_those_of_its_anchors(length):
     element = (
         tie("wall", (0, 0.2, 2), "ground", (-2, -0.1, 0), area=1e-4, strength=1e7)
         if length
-        else strip(joint, joint.centroid + [0.1, 0, 0], width=0.1, capacity=1e3)
+        else strip(joint, joint.centroid + np.array([0.1, 0, 0]), width=0.1, capacity=1e3)
     )
     assembly = assembly_of(reinforced(wall, element))
     way = np.random.default_rng(0).normal(size=(2, 6))

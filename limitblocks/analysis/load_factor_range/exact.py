@@ -88,6 +88,8 @@ def _without_banner() -> None:
     """Make the first HiGHS of the process while nothing it prints is seen: options come after its banner."""
     import highspy
 
+    if sys.stdout is None:  # a program with windows alone shows nothing
+        return
     sys.stdout.flush()
     seen, unseen = os.dup(1), os.open(os.devnull, os.O_WRONLY)
     try:
